@@ -95,6 +95,43 @@ impl RestingCable {
         self.step.chain.nodes[node].tributary
     }
 
+    /// Friction limit of `node` \[N/m\] under the force that the cable had in its last step.
+    pub fn limit(&self, node: usize) -> f64 {
+        self.step.chain.nodes[node].limit
+    }
+
+    /// Takes clamps that slip and have slid from `before` to `after` as ones that bear a force and are no springs, and the others as
+    /// springs: what the cable answers to a small change then.
+    pub fn release(&mut self, before: &CableState, after: &CableState) {
+        self.step.chain.release(before, after);
+    }
+
+    /// The cable of `state` with its nodes displaced by `displacement` \[m\] and clamps that slide ([`RestingCable::release`]) taken along;
+    /// not yet at rest.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::from_parts`].
+    pub fn moved(&self, state: &CableState, displacement: Vec<f64>) -> Result<CableState, CableError> {
+        let friction = state.friction.clone();
+        let mut moved = CableState::from_parts(&self.mesh, displacement, friction)?;
+        moved.thermal_force = state.thermal_force;
+        moved.clamp_slips.clone_from(&state.clamp_slips);
+        for grip in &self.step.chain.grips {
+            let advance = moved.displacement[grip.node] - state.displacement[grip.node];
+            grip.follow(advance, &mut moved);
+        }
+        Ok(moved)
+    }
+
+    /// Lets the clamps of `state` that slide ([`RestingCable::release`]) slip until they bear these `forces` \[N\], in the order of
+    /// [`DuctedCable::restraints`].
+    pub fn bear(&self, state: &mut CableState, forces: &[f64]) {
+        for grip in &self.step.chain.grips {
+            grip.bear_in(state, forces, self.cable.restraints());
+        }
+    }
+
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
     pub fn is_held(&self) -> bool {
         self.step.chain.is_held

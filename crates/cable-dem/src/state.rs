@@ -151,6 +151,14 @@ impl CableState {
         Ok(self)
     }
 
+    /// The same with this friction on the two end nodes \[N/m\]: at a fixed end it does not follow from the displacements.
+    #[must_use]
+    pub fn with_end_friction(mut self, [upstream, downstream]: [f64; 2]) -> Self {
+        let last = self.mesh.elements();
+        (self.friction[0], self.friction[last]) = (upstream, downstream);
+        self
+    }
+
     /// How far each clamp of `cable` has slipped \[m\], positive toward growing x, in the order of [`DuctedCable::restraints`].
     pub fn clamp_slips(&self, cable: &DuctedCable) -> Vec<f64> {
         let of = |(index, restraint): (usize, &Restraint)| {

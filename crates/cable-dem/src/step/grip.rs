@@ -71,9 +71,36 @@ impl Grip {
 
     /// Goes on from `state`, stuck.
     pub fn start(&mut self, state: &CableState) {
+        (self.slip, self.slides) = (self.slip_in(state), 0.0);
+    }
+
+    fn slip_in(&self, state: &CableState) -> f64 {
         let (restraint, side) = self.place;
         let slips = state.clamp_slips.get(restraint).copied().unwrap_or_default();
-        (self.slip, self.slides) = (slips[side.min(1)], 0.0);
+        slips[side.min(1)]
+    }
+
+    /// Slides if it has slid since the state `before`; whether it has.
+    pub fn slide(&mut self, before: &CableState) -> bool {
+        let slid = self.slip - self.slip_in(before);
+        self.slides = if slid == 0.0 { 0.0 } else { slid.signum() };
+        slid != 0.0
+    }
+
+    /// Slips in `state` by the `advance` of its node \[m\] if it slides.
+    pub fn follow(&self, advance: f64, state: &mut CableState) {
+        if !self.is_stuck() {
+            self.store_slip(self.slip_in(state) + advance, state);
+        }
+    }
+
+    /// If it slides, slips in `state` until its clamp bears its part of these `forces` on all `clamps` \[N\].
+    pub fn bear_in(&self, state: &mut CableState, forces: &[f64], clamps: &[Restraint]) {
+        if !self.is_stuck() {
+            let (restraint, _) = self.place;
+            let stretch = forces[restraint] / clamps[restraint].stiffness;
+            self.store_slip(state.displacement[self.node] - stretch, state);
+        }
     }
 
     /// Load on its node \[N\], beside that of its spring in a frame that moves by `frame` \[m\] there.
@@ -135,12 +162,16 @@ impl Grip {
 
     /// Writes how far it has slipped to `state`.
     pub fn store(&self, state: &mut CableState) {
+        self.store_slip(self.slip, state);
+    }
+
+    fn store_slip(&self, slip: f64, state: &mut CableState) {
         let (restraint, side) = self.place;
         let count = state.clamp_slips.len().max(restraint + 1);
         state.clamp_slips.resize(count, [0.0; 2]);
         match side {
-            2 => state.clamp_slips[restraint] = [self.slip; 2],
-            side => state.clamp_slips[restraint][side] = self.slip,
+            2 => state.clamp_slips[restraint] = [slip; 2],
+            side => state.clamp_slips[restraint][side] = slip,
         }
     }
 }

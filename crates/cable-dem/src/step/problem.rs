@@ -277,6 +277,16 @@ impl Chain {
         }
     }
 
+    /// Takes away the springs of clamps that have slid from `before` to `after`, and no others.
+    pub fn release(&mut self, before: &CableState, after: &CableState) {
+        self.grip(after);
+        for index in 0..self.grips.len() {
+            if self.grips[index].slide(before) {
+                self.hang(index, -1.0);
+            }
+        }
+    }
+
     /// Lets the clamps on `stretch` stick or slide as displacements `u` \[m\] demand. Returned: whether one of them does so otherwise
     /// than was assumed.
     pub fn correct_grips(&mut self, stretch: Stretch, u: impl Fn(usize) -> f64) -> bool {
