@@ -4,15 +4,11 @@
 //! a scheme of second order leaves a third of the last difference and a twelfth of the one before. Friction that turns
 //! at a node or between two makes the sequence uneven, and two meshes may agree by chance. So more is counted: the largest of
 //! a share of each difference seen so far, and never less than what is typical of the level.
-//!
-//! A force is compared with itself, or with a tenth of the largest one of the run where it is less than that, or with what
-//! friction holds on a centimetre of cable; a movement of an end with the largest of the run, or with a tenth of the
-//! duct's own.
 
-use cable_dem::PassOutcome;
 use cycle_jump::Record;
 
 use super::ErrorShares;
+use super::differences::{Scale, Shares, difference};
 use crate::Error;
 use crate::error_source::ErrorSource;
 use crate::shown::percent;
@@ -27,92 +23,8 @@ const MANY: usize = 40;
 const WEIGHT_ALONE: f64 = 3.0;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 pub const VERIFIED: f64 = 4.0 / 3.0;
-/// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
-/// share of the duct's largest.
-const SMALL: f64 = 0.1;
-/// So does what friction holds on this length of cable \[m\].
-const SHORT: f64 = 0.01;
 /// A larger error than this, or the tolerance if that is larger still, is no answer.
 const DOUBTFUL: f64 = 0.1;
-
-/// A share of the forces and one of the movements.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Shares {
-    pub force: f64,
-    pub movement: f64,
-}
-
-impl Shares {
-    /// The same share of both.
-    pub fn both(share: f64) -> Self {
-        Self {
-            force: share,
-            movement: share,
-        }
-    }
-
-    /// `f` of each share and that of another.
-    pub fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            force: f(self.force, other.force),
-            movement: f(self.movement, other.movement),
-        }
-    }
-
-    pub fn max(self, other: Self) -> Self {
-        self.map(other, f64::max)
-    }
-
-    /// What is left without `other`.
-    pub fn less(self, other: Self) -> Self {
-        self.map(other, |a, b| a - b)
-    }
-
-    /// Whether both are at most as large as `allowed`.
-    pub fn is_within(self, allowed: Self) -> bool {
-        self.force <= allowed.force && self.movement <= allowed.movement
-    }
-
-    pub fn times(self, factor: f64) -> Self {
-        self.map(self, |share, _| factor * share)
-    }
-}
-
-impl std::ops::Add for Shares {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        self.map(other, |a, b| a + b)
-    }
-}
-
-/// What counts as nothing in a scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
-    /// \[N\]
-    pub force: f64,
-    /// \[m\]
-    pub movement: f64,
-}
-
-impl Scale {
-    /// Of a cable with the friction `limit` \[N/m\] in a duct that moves by `peak` \[m\].
-    pub fn new(limit: f64, peak: f64) -> Self {
-        Self {
-            force: SHORT * limit,
-            movement: SMALL * peak,
-        }
-    }
-
-    /// Whether nothing slips in any of these passes, or so little that the forces it leaves count as nothing: on a coarse mesh a spring at
-    /// the end may move where elsewhere a finer one would show slip.
-    pub fn is_still(&self, records: &[Record]) -> bool {
-        records.iter().all(|record| {
-            let outcome = &record.outcome;
-            outcome.dissipated == 0.0 || outcome.max_compression.max(outcome.max_tension) < self.force
-        })
-    }
-}
 
 /// The error of a run by its parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -216,27 +128,19 @@ impl std::fmt::Display for ErrorParts {
 
 /// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`.
 pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
-    let differences: Vec<Shares> = levels
-        .windows(2)
-        .rev()
-        .map(|pair| difference(pair[1], pair[0], scale))
-        .collect();
+    let pairs = levels.windows(2).rev();
+    let differences: Vec<Shares> = pairs.map(|pair| difference(pair[1], pair[0], scale)).collect();
     let passes = levels.last().map_or(0, |finest| finest.len());
-    of_differences(&differences, passes, typical)
-}
-
-/// The same from the differences between neighbouring levels, the finest first, of so many `passes`.
-pub fn of_differences(differences: &[Shares], passes: usize, typical: f64) -> Shares {
-    let least = Shares::both(typical);
-    if let [only] = differences {
-        return only.times(WEIGHT_ALONE).max(least);
-    }
-    let shares = if passes < MANY { WEIGHTS } else { WEIGHTS_OF_MANY };
-    shares
-        .iter()
-        .zip(differences)
-        .map(|(&share, difference)| difference.times(share))
-        .fold(least, Shares::max)
+    let weights = match differences.len() {
+        1 => &[WEIGHT_ALONE][..],
+        _ if passes < MANY => &WEIGHTS,
+        _ => &WEIGHTS_OF_MANY,
+    };
+    let weighted = weights.iter().zip(differences);
+    let error: Shares = weighted
+        .map(|(&weight, difference)| difference.times(weight))
+        .collect();
+    error.max(Shares::both(typical))
 }
 
 /// Error of `passes`, measured against a run twice as fine.
@@ -260,136 +164,4 @@ pub fn judge(error: &ErrorParts, tolerance: f64) -> Result<(), Error> {
         });
     }
     Ok(())
-}
-
-/// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
-/// the largest in the run; and largest difference of a movement.
-pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
-    differences(a, b, scale)
-        .into_iter()
-        .fold(Shares::default(), Shares::max)
-}
-
-/// Difference of the largest and least forces and movements in two sets of passes, as shares of the largest.
-pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
-    let apart = |values: fn(&PassOutcome) -> Vec<f64>, least: f64| {
-        let (a, b) = (extremes(a, values), extremes(b, values));
-        let whole = a.iter().fold(least, |most, value| most.max(value.abs()));
-        let pairs = a.iter().zip(&b);
-        share(
-            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())),
-            whole,
-        )
-    };
-    Shares {
-        force: apart(largest_forces, scale.force),
-        movement: apart(largest_movements, scale.movement),
-    }
-}
-
-/// The largest of each of these values.
-fn extremes(records: &[Record], values: fn(&PassOutcome) -> Vec<f64>) -> Vec<f64> {
-    let mut extremes = Vec::new();
-    for record in records {
-        let values = values(&record.outcome);
-        extremes.resize(values.len(), 0.0);
-        for (most, value) in extremes.iter_mut().zip(values) {
-            *most = f64::max(*most, value);
-        }
-    }
-    extremes
-}
-
-/// Forces of which the largest counts.
-fn largest_forces(outcome: &PassOutcome) -> Vec<f64> {
-    let PassOutcome { peak, lowest, .. } = outcome;
-    let ends = [
-        peak.upstream,
-        peak.downstream,
-        -lowest.upstream,
-        -lowest.downstream,
-    ];
-    let inside = [outcome.max_compression, outcome.max_tension];
-    let clamps = outcome.restraints.iter().flat_map(|force| [*force, -force]);
-    ends.into_iter().chain(inside).chain(clamps).collect()
-}
-
-/// Movements of which the largest counts.
-fn largest_movements(outcome: &PassOutcome) -> Vec<f64> {
-    let ends = [outcome.upstream_displacement, outcome.downstream_displacement];
-    ends.into_iter().flat_map(|moved| [moved, -moved]).collect()
-}
-
-/// The same of every pass that both have.
-pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
-    let of_both = a.iter().filter_map(|record| {
-        let same = b.binary_search_by_key(&record.pass, |other| other.pass).ok()?;
-        Some((&record.outcome, &b[same].outcome))
-    });
-    let a: Vec<&PassOutcome> = a.iter().map(|record| &record.outcome).collect();
-    let forces = |outcome: &PassOutcome| {
-        [
-            outcome.force.upstream,
-            outcome.force.downstream,
-            outcome.max_compression,
-        ]
-    };
-    let movements = |outcome: &PassOutcome| [outcome.upstream_displacement, outcome.downstream_displacement];
-    let largest = |outcome: &PassOutcome| {
-        [
-            outcome.peak.upstream,
-            outcome.peak.downstream,
-            outcome.lowest.upstream,
-            outcome.lowest.downstream,
-            outcome.max_tension,
-        ]
-        .into_iter()
-        .chain(forces(outcome))
-        .map(f64::abs)
-        .fold(0.0, f64::max)
-    };
-    let floor = (SMALL * a.iter().copied().map(largest).fold(0.0, f64::max)).max(scale.force);
-    let moved = a
-        .iter()
-        .copied()
-        .flat_map(movements)
-        .fold(scale.movement, |largest, u| largest.max(u.abs()));
-    // Clamps move in proportion to their force.
-    let clamped = a
-        .iter()
-        .flat_map(|outcome| &outcome.restraints)
-        .fold(scale.force, |largest, force| largest.max(force.abs()));
-    let of_pass = |(a, b): (&PassOutcome, &PassOutcome)| {
-        // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
-        let scale = forces(a)
-            .into_iter()
-            .chain([a.max_tension])
-            .map(f64::abs)
-            .fold(floor, f64::max);
-        let largest = |a: &[f64], b: &[f64], scale| {
-            let pairs = a.iter().zip(b);
-            pairs.fold(0.0, |most: f64, (a, b)| most.max(share((a - b).abs(), scale)))
-        };
-        // A clamp may carry what presses from both sides: the errors of the ends are not small beside that.
-        let on_clamps = a
-            .restraints
-            .iter()
-            .fold(scale, |largest, force| largest.max(force.abs()));
-        Shares {
-            force: f64::max(
-                largest(&forces(a), &forces(b), scale),
-                largest(&a.restraints, &b.restraints, on_clamps),
-            ),
-            movement: f64::max(
-                largest(&movements(a), &movements(b), moved),
-                largest(&a.restraints, &b.restraints, clamped),
-            ),
-        }
-    };
-    of_both.map(of_pass).collect()
-}
-
-/// part/whole; nothing of nothing is nothing.
-fn share(part: f64, whole: f64) -> f64 {
-    if part == 0.0 { 0.0 } else { part / whole }
 }

@@ -7,7 +7,8 @@ use crate::error_source::ErrorSource;
 /// How wrong the forces may be: how well the equations are solved, not how well they describe a duct.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
-    /// Largest error of a force as a share of it, or of a tenth of the largest force of the run where it is less than that.
+    /// Largest error of a force, after a pass and during it, on an end, inside the cable or on a clamp: as a share of the largest at
+    /// its place, or of a tenth of the largest force of the run if that is more.
     pub relative: f64,
     /// How that was found.
     pub method: String,

@@ -214,10 +214,6 @@ impl Limits {
             let level = level.filter(|level| {
                 quantity == Limited::Force && first.is_none() && level.abs() > limit && run.heat.is_none()
             });
-            let error = match quantity {
-                Limited::Force => run.error_estimate.relative,
-                Limited::Movement => run.error_estimate.parts.movement,
-            };
             Verdict {
                 end,
                 quantity,
@@ -229,7 +225,7 @@ impl Limits {
                     years: years(pass),
                 }),
                 levels_off_above: level,
-                doubtful: (largest - limit).abs() <= error * largest,
+                doubtful: (largest - limit).abs() <= run.error_of_largest(end, quantity),
             }
         };
         self.all().map(verdict).collect()

@@ -2,6 +2,7 @@
 
 pub mod balance;
 mod calendar;
+pub mod differences;
 pub mod error_estimate;
 mod error_shares;
 mod force_profile;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::differences::SMALL;
 use super::heat::DayExtremes;
 use super::record::{ExtremePass, PassRecord, Run};
 use super::units::Units;
@@ -99,6 +100,39 @@ impl Run {
             .moments()
             .map(|moment| self.value(place, quantity, moment, false));
         values.fold(0.0, f64::max)
+    }
+
+    /// The estimated error of [`Run::largest`] \[N or m\]. It is a share of the largest force at `place`, or of a tenth of the largest
+    /// at any place if that is more; and of the largest movement of an end.
+    pub(super) fn error_of_largest(&self, place: Place, quantity: Limited) -> f64 {
+        let largest = |place: Place| self.largest(place, quantity);
+        let ends = CableEnd::ALL.map(|end| largest(end.into()));
+        let share = match quantity {
+            Limited::Force => self.error_estimate.relative,
+            Limited::Movement => self.error_estimate.parts.movement,
+        };
+        let of = match (quantity, place) {
+            (Limited::Force, _) => SMALL * self.largest_force(),
+            (Limited::Movement, Place::Clamp(_)) => {
+                let clamps = self
+                    .restraints
+                    .iter()
+                    .filter(|clamp| place.is_clamp_at(clamp.position_m));
+                let softest = clamps.fold(f64::INFINITY, |least, clamp| least.min(clamp.stiffness_n_per_m));
+                SMALL * self.largest_force() / softest
+            }
+            (Limited::Movement, _) => ends[0].max(ends[1]),
+        };
+        share * of.max(largest(place))
+    }
+
+    /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size \[N\].
+    fn largest_force(&self) -> f64 {
+        let clamps = self.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
+        let places = CableEnd::ALL.map(Place::from).into_iter().chain(clamps);
+        let inside = self.passes.iter().map(|record| record.max_compression_n);
+        let at_places = places.map(|place| self.largest(place, Limited::Force));
+        at_places.chain(inside).fold(0.0, f64::max)
     }
 
     fn moments(&self) -> impl Iterator<Item = Moment<'_>> {

@@ -1,6 +1,6 @@
 //! What a finer mesh may cost, and what error is left to it.
 
-use crate::answer::error_estimate::Shares;
+use crate::answer::differences::Shares;
 
 /// Most nodes eliminated in all passes on one mesh: about ten seconds.
 pub const MAX_NODE_UPDATES: usize = 2_000_000_000;

@@ -15,7 +15,7 @@ use cycle_jump::{Beyond, Record, peaks};
 
 use super::listing::mean;
 use super::passes::Passes;
-use crate::answer::error_estimate::{Scale, Shares, differences};
+use crate::answer::differences::{Scale, Shares, differences};
 
 /// Standard errors that are stated as the error.
 const STATED: f64 = 2.0;

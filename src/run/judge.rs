@@ -2,7 +2,8 @@
 
 use cable_dem::Mesh;
 
-use crate::answer::error_estimate::{self, ErrorParts, Shares};
+use crate::answer::differences::Shares;
+use crate::answer::error_estimate::{self, ErrorParts};
 use crate::plan::{MOST_PASSES, Period, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, ErrorSource, Scene};
@@ -41,7 +42,7 @@ pub fn judge(
 
 /// What makes the largest part of an error smaller, in traffic with this `period`.
 fn remedy(error: &ErrorParts, scene: &Scene, period: &Period, mesh: &Mesh) -> String {
-    let of = |part: Shares| part.force.max(part.movement);
+    let of = Shares::worse;
     let others = [
         error.ground,
         error.road,

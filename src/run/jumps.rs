@@ -11,7 +11,7 @@ use cycle_jump::{Guide, Record};
 use super::budget::REFINEMENT_COST;
 use super::draws::{Draw, Draws};
 use super::passes::{Jumping, Passes};
-use crate::answer::error_estimate::{Scale, Shares, difference, differences, extremes_difference};
+use crate::answer::differences::{Scale, Shares, difference, differences, extremes_difference};
 use crate::plan::{Period, Plan};
 use crate::{Error, Progress};
 
@@ -181,6 +181,18 @@ pub fn find<'a>(
         }
     }
     let mut found = best.expect("the first pair of runs is an answer");
+    if found.known.error == Shares::default() && found.passes.schedule.iter().any(|&length| length > 0) {
+        // The two runs took the same jumps: one that takes others shows their error.
+        let check = KnownJumps {
+            tolerance: FINER.0 * found.known.tolerance,
+            first_jump: FINER.1 * found.known.first_jump,
+            first_periods: 2 * found.known.first_periods,
+            ..found.known
+        };
+        let check = simulate(found.level, &check.jumping(&plan.period))?;
+        statistics += check.statistics;
+        found.known.error = difference(&found.passes.records, &check.records, scale);
+    }
     found.known.error = found.known.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;
     if !plan.period.drawn.is_empty() {
         let draws = draws(plan, &found, scale, simulate, &mut statistics)?;

@@ -1,13 +1,13 @@
 //! All days of a scene with heat on one mesh, and what two such runs differ in.
 
-use cable_dem::{CableState, Mesh};
+use cable_dem::{CableState, EndForces, Mesh};
 use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, Extremes, evolve_days};
 use cycle_jump::{Guide, Jumps, Next, Record};
 
 use super::listing::listed_passes;
 use super::locked_law::locked_law;
 use super::passes::{Passes, Simulation, Task, force_profile, seldom_passes};
-use crate::answer::error_estimate::{Scale, Shares};
+use crate::answer::differences::{Scale, Shares, largest_force};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed};
 use crate::cable::{cable, traffic};
 use crate::ground::peak;
@@ -233,18 +233,29 @@ impl<'a> Living<'a> {
         Ok(Lived { passes, days: lived })
     }
 
-    /// Largest difference on any listed day or pass: of a force as a share of the largest that day, of a movement as a share of the day's range or,
-    /// where that is larger, of the movement since laying.
+    /// Largest difference on any listed day or pass: of a force after a pass or on a day as a share of the largest that day, of one
+    /// during a simulated pass as a share of the largest in any pass, of a movement as a share of the day's range or, where that is
+    /// larger, of the movement since laying.
     pub fn difference(&self, one: &Lived, other: &Lived) -> Shares {
         let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
         let largest = one.days.extremes.largest_force().max(scale.force);
         let mut worst = self.difference_of_days(one, other);
-        for (a, b) in one.passes.records.iter().zip(&other.passes.records) {
-            let (a, b) = (a.outcome.force, b.outcome.force);
-            let apart = (a.upstream - b.upstream)
-                .abs()
-                .max((a.downstream - b.downstream).abs());
-            worst.force = worst.force.max(apart / largest);
+        let apart = |a: EndForces, b: EndForces| {
+            let apart = [a.upstream - b.upstream, a.downstream - b.downstream];
+            apart[0].abs().max(apart[1].abs())
+        };
+        let records = || one.passes.records.iter().zip(&other.passes.records);
+        // Passes between simulated ones have the peaks of others.
+        let simulated = || records().filter(|(a, b)| !a.interpolated && !b.interpolated);
+        let largest_peak = simulated()
+            .map(|(a, _)| largest_force(&a.outcome))
+            .fold(largest, f64::max);
+        for (a, b) in records() {
+            worst.force = worst.force.max(apart(a.outcome.force, b.outcome.force) / largest);
+        }
+        for (Record { outcome: a, .. }, Record { outcome: b, .. }) in simulated() {
+            let during = apart(a.peak, b.peak).max(apart(a.lowest, b.lowest));
+            worst.force = worst.force.max(during / largest_peak);
         }
         worst
     }
@@ -261,7 +272,7 @@ impl<'a> Living<'a> {
             Shares { force, movement }
         };
         let days = one.days.days.iter().zip(&other.days.days);
-        days.map(of_day).fold(Shares::default(), Shares::max)
+        days.map(of_day).collect()
     }
 
     pub fn reason(&self, lived: &Lived, knots: u64) -> Result<String, Error> {

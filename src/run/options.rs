@@ -4,7 +4,7 @@ use ground_field::GroundField;
 
 use super::jumps::KnownJumps;
 use crate::Progress;
-use crate::answer::error_estimate::Shares;
+use crate::answer::differences::Shares;
 
 /// How to run.
 #[derive(Default, Clone, Copy)]

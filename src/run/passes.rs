@@ -6,7 +6,7 @@ use ground_field::DuctMotion;
 
 use super::listing::{Listing, listed_passes};
 use super::solver::PassSolver;
-use crate::answer::error_estimate::Scale;
+use crate::answer::differences::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
 use crate::ground::{length_scale, peak};
