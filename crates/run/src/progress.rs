@@ -15,12 +15,12 @@ type Callback<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use creepage::{Error, Progress, RunOptions, Scene};
+/// use creepage_run::{Error, Progress, RunOptions, Scene};
 ///
-/// let scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
+/// let scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
 /// let half = |share: f64| if share < 0.5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
 /// let options = RunOptions { progress: Progress::new(&half), ..RunOptions::default() };
-/// assert!(matches!(creepage::run_with(&scene, &options), Err(Error::Stopped)));
+/// assert!(matches!(creepage_run::run_with(&scene, &options), Err(Error::Stopped)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Default)]
@@ -52,12 +52,12 @@ impl<'a> Progress<'a> {
     }
 
     /// Parts of it one after the other, each half of what is left: where nobody knows how many there will be.
-    pub(crate) fn halving(self) -> impl FnMut() -> Self {
+    pub fn halving(self) -> impl FnMut() -> Self {
         self.taking(0.5)
     }
 
     /// Parts of it for the passes on one mesh after the other: mostly the first is good enough.
-    pub(crate) fn refining(self) -> impl FnMut() -> Self {
+    pub fn refining(self) -> impl FnMut() -> Self {
         self.taking(0.8)
     }
 

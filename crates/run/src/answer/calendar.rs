@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn days_months_and_years_have_their_passes() {
-        let scene = crate::Scene::from_file("examples/scenes/full-scale-upper.toml").expect("a scene");
+        let scene = crate::Scene::from_file("../../examples/scenes/full-scale-upper.toml").expect("a scene");
         let traffic = |passes, per_day| Traffic {
             passes,
             per_day,

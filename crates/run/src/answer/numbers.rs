@@ -63,7 +63,7 @@ mod tests {
             "traffic.passes=20 traffic.per_day=4 heat.expansion=17e-6 heat.daily_swing=20 heat.offset=0";
         let several = "traffic.passes=30 traffic.order=\"random\" traffic.seed=1 traffic.per_day=10";
         for more in [heated, several] {
-            let file = SceneFile::read("examples/scenes/full-scale-upper.toml").expect("an example");
+            let file = SceneFile::read("../../examples/scenes/full-scale-upper.toml").expect("an example");
             let mut changes: Vec<&str> = more.split(' ').collect();
             changes.extend([
                 "solver.tolerance=0.2",

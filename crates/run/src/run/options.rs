@@ -25,7 +25,7 @@ pub struct RunOptions<'a> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedMesh {
     /// Error of the mesh.
-    pub(crate) error: Shares,
+    pub error: Shares,
     /// Jumps that were good enough.
-    pub(crate) jumps: Option<KnownJumps>,
+    pub jumps: Option<KnownJumps>,
 }

@@ -104,8 +104,7 @@ impl PassRecord {
 
 impl Limited {
     /// What is limited at a place, in words.
-    #[cfg(feature = "design")]
-    pub(crate) fn at(self, place: impl Into<Place>) -> String {
+    pub fn at(self, place: impl Into<Place>) -> String {
         self.at_in(&Units::default(), place.into())
     }
 
@@ -120,7 +119,7 @@ impl Limited {
     }
 
     /// The symbol of its unit for a reader.
-    pub(crate) fn symbol_in(self, units: &Units) -> &'static str {
+    pub fn symbol_in(self, units: &Units) -> &'static str {
         match self {
             Self::Force => units.force.symbol(),
             Self::Movement => units.movement.symbol(),
@@ -128,7 +127,7 @@ impl Limited {
     }
 
     /// A value of it in that unit.
-    pub(crate) fn number_in(self, units: &Units, value: f64) -> String {
+    pub fn number_in(self, units: &Units, value: f64) -> String {
         match self {
             Self::Force => units.force(value),
             Self::Movement => units.movement(value),
@@ -136,12 +135,12 @@ impl Limited {
     }
 
     /// The same with the unit.
-    pub(crate) fn shown_in(self, units: &Units, value: f64) -> String {
+    pub fn shown_in(self, units: &Units, value: f64) -> String {
         format!("{} {}", self.number_in(units, value), self.symbol_in(units))
     }
 
     /// The same of a value that was given: "20 kN", not "20.0000 kN".
-    pub(crate) fn given_in(self, units: &Units, value: f64) -> String {
+    pub fn given_in(self, units: &Units, value: f64) -> String {
         let shown = self.shown_in(units, value);
         match shown.split_once(' ') {
             Some((number, unit)) if number.contains('.') => {
@@ -239,7 +238,7 @@ impl Verdict {
     }
 
     /// The same with values written by `shown`.
-    pub(crate) fn shown_with(&self, units: &Units, shown: impl Fn(f64) -> String) -> String {
+    pub fn shown_with(&self, units: &Units, shown: impl Fn(f64) -> String) -> String {
         let largest = shown(self.largest);
         let when = if self.during_a_pass { " during a pass" } else { "" };
         let limit = self.quantity.given_in(units, self.limit);

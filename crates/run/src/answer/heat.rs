@@ -103,7 +103,7 @@ impl DayExtremes {
     }
 
     /// The least and the largest force on an end \[N\], and displacement of it \[m\].
-    pub(crate) fn of(&self, end: CableEnd) -> [[f64; 2]; 2] {
+    pub fn of(&self, end: CableEnd) -> [[f64; 2]; 2] {
         end.of([
             [
                 [self.upstream_min_n, self.upstream_max_n],
@@ -131,7 +131,7 @@ impl DayExtremes {
         least.abs().max(most.abs())
     }
 
-    pub(crate) fn new(day: u64, extremes: &Extremes) -> Self {
+    pub fn new(day: u64, extremes: &Extremes) -> Self {
         let Extremes {
             force: [upstream, downstream],
             displacement: [upstream_end, downstream_end],

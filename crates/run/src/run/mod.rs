@@ -47,12 +47,12 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
 }
 
 /// Computes all passes of a valid `scene` over a `ground` that is known to be its own.
-pub(crate) fn run_over(scene: &Scene, ground: Arc<Ground>, options: &RunOptions<'_>) -> Result<Run, Error> {
+pub fn run_over(scene: &Scene, ground: Arc<Ground>, options: &RunOptions<'_>) -> Result<Run, Error> {
     run_shown(scene, ground, options).map(|(run, _)| run)
 }
 
 /// The same with what it has shown of its mesh.
-pub(crate) fn run_shown(
+pub fn run_shown(
     scene: &Scene,
     ground: Arc<Ground>,
     options: &RunOptions<'_>,

@@ -89,8 +89,8 @@ impl Units {
     }
 
     /// The same with stiffnesses in kN/m where they would be in N/m: springs are stiff.
-    #[cfg(any(feature = "cli", feature = "plot"))]
-    pub(crate) fn for_springs(mut self) -> Self {
+    #[must_use]
+    pub fn for_springs(mut self) -> Self {
         if self.stiffness == Unit::NEWTON_PER_METRE {
             self.stiffness = Unit::KILONEWTON_PER_METRE;
         }

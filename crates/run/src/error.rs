@@ -3,14 +3,10 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
-#[cfg(feature = "calibrate")]
-use calibrate::CalibrationError;
 use cycle_jump::JumpError;
 use ground_field::GroundError;
 
 use crate::error_source::ErrorSource;
-#[cfg(feature = "calibrate")]
-use crate::readings::DataError;
 use crate::scene::SceneError;
 use crate::scene::{Location, SceneFile};
 use crate::shown::{exact_percent, percent};
@@ -33,14 +29,15 @@ pub enum Error {
         "too many passes would have to be simulated; solver.method = \"quasi-static\" simulates every one, at most 1 000 000"
     )]
     Jumps(#[source] JumpError),
-    /// The readings of a load cell are wrong.
-    #[cfg(feature = "calibrate")]
-    #[error(transparent)]
-    Data(#[from] DataError),
-    /// The parameters could not be fitted.
-    #[cfg(feature = "calibrate")]
-    #[error(transparent)]
-    Calibration(#[from] CalibrationError),
+    /// What is computed from many runs, such as a fit to readings, has failed.
+    #[error("{error}")]
+    Study {
+        /// Why.
+        #[source]
+        error: Box<dyn std::error::Error + Send + Sync>,
+        /// Whether its input is at fault.
+        is_bad_input: bool,
+    },
     /// The finest affordable mesh leaves too large an error.
     #[error(
         "the estimated error of {}, mainly of {}, is too far above the tolerance of {}: an error of more than 10 % is no answer; {}",
@@ -187,10 +184,7 @@ impl Error {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Located { error, .. } => error.is_bad_input(),
-            #[cfg(feature = "calibrate")]
-            Self::Calibration(error) => error.is_bad_input(),
-            #[cfg(feature = "calibrate")]
-            Self::Data(_) => true,
+            Self::Study { is_bad_input, .. } => *is_bad_input,
             Self::Scene(_)
             | Self::Unfit { .. }
             | Self::TooManyNodes { .. }

@@ -13,7 +13,6 @@ mod numbers;
 mod place;
 mod record;
 mod saturation;
-#[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 mod units;
 
@@ -26,10 +25,7 @@ pub use listed::{beyond, listed, simulated};
 pub use place::{Limited, Place};
 pub use record::*;
 pub use saturation::{larger, saturation};
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub use table_rows::{in_rows, table_days, table_rows};
 pub use units::Units;
-#[cfg(feature = "cli")]
 pub use units::in_unit;
-#[cfg(feature = "sweep")]
 pub use units::si_of_field;

@@ -18,6 +18,7 @@ const SHORT: f64 = 0.01;
 
 /// A share of the forces and one of the movements.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[must_use]
 pub struct Shares {
     pub force: f64,
     pub movement: f64,

@@ -135,6 +135,7 @@ impl Period {
     }
 
     /// Number of its passes.
+    #[allow(clippy::len_without_is_empty, reason = "none is empty")]
     pub fn len(&self) -> usize {
         self.vehicles.len()
     }

@@ -26,12 +26,12 @@ pub use report::{Candidate, Part, PlanReport};
 /// How a scene will be computed.
 #[derive(Debug)]
 pub struct Plan<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) ground: Arc<Ground>,
-    pub(crate) period: Period,
-    pub(crate) choice: MethodChoice,
-    pub(crate) levels: Levels,
-    pub(crate) warnings: Vec<String>,
+    pub scene: &'a Scene,
+    pub ground: Arc<Ground>,
+    pub period: Period,
+    pub choice: MethodChoice,
+    pub levels: Levels,
+    pub warnings: Vec<String>,
 }
 
 /// Plans how to compute `scene`.
@@ -55,7 +55,7 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
 }
 
 /// Plans how to compute a valid `scene` over a `ground` that is known to be its own.
-pub(crate) fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> {
+pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> {
     let approach = road::approach(scene, &ground.motions)?;
     let levels = Levels::new(scene, &ground.motions, approach);
     let period = Period::new(scene, &ground.motions)?;

@@ -314,7 +314,7 @@ impl From<SlipLengths> for SlipRecord {
 }
 
 impl Cost {
-    pub(crate) fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
+    pub fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
         Self {
             simulated_passes,
             steps: statistics.steps as u64,
@@ -325,7 +325,7 @@ impl Cost {
 }
 
 impl PassRecord {
-    pub(crate) fn new(record: &Record, traffic: &Traffic) -> Self {
+    pub fn new(record: &Record, traffic: &Traffic) -> Self {
         let Record {
             pass,
             outcome,

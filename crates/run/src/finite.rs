@@ -54,6 +54,8 @@ of_parts! {
 }
 
 /// The fields of records that are numbers or hold some.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! numbers {
     ($($record:ty: $($field:ident)*;)*) => {
         $(impl $crate::finite::Numbers for $record {
@@ -63,4 +65,4 @@ macro_rules! numbers {
         })*
     };
 }
-pub(crate) use numbers;
+pub use crate::numbers;

@@ -76,7 +76,7 @@ pub struct PlanReport {
 
 impl Plan<'_> {
     /// Why the ground model was chosen, and the method for a reason of its own.
-    pub(crate) fn reasons(&self, method: &str) -> Vec<String> {
+    pub fn reasons(&self, method: &str) -> Vec<String> {
         vec![
             format!("ground {}: {}", self.ground.name, self.ground.reason),
             format!("cable {}: {method}", self.choice.method.name()),

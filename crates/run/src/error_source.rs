@@ -42,7 +42,7 @@ impl ErrorSource {
     }
 
     /// What makes it smaller.
-    pub(crate) fn remedy(self) -> &'static str {
+    pub fn remedy(self) -> &'static str {
         match self {
             Self::Mesh => "a smaller solver.node_spacing may help, or a larger solver.tolerance",
             Self::Ground => "another ground.model may help, or a larger solver.tolerance",
