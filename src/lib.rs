@@ -53,8 +53,6 @@
 //! report), `sweep`, `xlsx` (workbooks), and `cli`, the command. Without them a scene is read, planned and
 //! run, with 28 crates in all.
 
-mod answer;
-mod cable;
 #[cfg(feature = "calibrate")]
 pub mod calibration;
 #[cfg(feature = "cli")]
@@ -62,27 +60,14 @@ pub mod calibration;
 pub mod cli;
 #[cfg(feature = "design")]
 pub mod design;
-mod error;
-mod error_source;
-mod finite;
-mod ground;
 #[cfg(feature = "sweep")]
 pub mod output;
-mod plan;
-mod profile;
-mod progress;
 #[cfg(feature = "calibrate")]
 pub mod readings;
 #[cfg(feature = "plot")]
 pub mod report;
-mod run;
 pub use creepage_scene as scene;
 pub use creepage_scene::presets;
-#[cfg_attr(
-    not(all(feature = "cli", feature = "plot")),
-    allow(dead_code, reason = "the terminal and the report show most of it")
-)]
-mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 mod template;
@@ -97,22 +82,20 @@ pub use layered_fem;
 pub use plain_figure as figure;
 pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
-pub use answer::{
-    ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
-    ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
-    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation,
-    SlipRecord, Stage, Units, Verdict,
-};
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
-pub use error::{Error, with_causes};
-pub use error_source::ErrorSource;
-pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
-pub use profile::{Profile, profile, profile_at};
-pub use progress::Progress;
+pub use creepage_run::{
+    Candidate, ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, Error, ErrorEstimate,
+    ErrorShares, ErrorSource, ExtremePass, FixedMesh, ForceProfile, ForceRange, FrictionProfile, HeatRecord,
+    Limited, Limits, Part, PassRecord, Place, Plan, PlanReport, PlanSummary, Profile, Progress, Quantiles,
+    RandomSpread, Reached, RestraintRange, RestraintRecord, Run, RunOptions, Saturation, SlipRecord, Stage,
+    Units, Verdict, check, occurrence, plan, plan_on, profile, profile_at, run, run_plan, run_with,
+    with_causes,
+};
+#[allow(unused_imports, reason = "each feature uses some of them")]
+use creepage_run::{answer, cable, error, finite, ground, shown};
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};
-pub use run::{FixedMesh, RunOptions, check, run, run_plan, run_with};
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};
 pub use template::template;
 

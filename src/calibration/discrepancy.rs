@@ -10,6 +10,7 @@ use std::ops::RangeInclusive;
 use calibrate::{CalibrationError, Discrepancy};
 
 use super::cell::Observed;
+use super::error::FitError;
 use super::model::SeriesModel;
 use super::options::Series;
 use crate::Error;
@@ -23,9 +24,13 @@ pub const LENGTH: f64 = 2.0;
 pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
 
 /// Among all readings, of a `share` of the largest.
-pub fn discrepancy(series: &[Series<'_>], models: &[SeriesModel], share: f64) -> Result<Discrepancy, Error> {
+pub fn discrepancy(
+    series: &[Series<'_>],
+    models: &[SeriesModel],
+    share: f64,
+) -> Result<Discrepancy, FitError> {
     if !SHARES.contains(&share) {
-        return Err(Error::Calibration(CalibrationError::InvalidOption {
+        return Err(FitError::Calibration(CalibrationError::InvalidOption {
             name: "discrepancy",
             value: share,
             allowed: "a share of 0.0001 to 10",
@@ -50,7 +55,8 @@ pub fn discrepancy(series: &[Series<'_>], models: &[SeriesModel], share: f64) ->
             found: "a largest reading of 0 after the passes",
             reason: "the discrepancy is a share of it; check the readings, or leave the discrepancy out"
                 .into(),
-        });
+        }
+        .into());
     }
     let covariance = |i: usize, j: usize| {
         let ((one, place, scale), (other, elsewhere, factor)) = (&rows[i], &rows[j]);

@@ -2,9 +2,9 @@
 
 use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, Profiles};
 
+use super::error::FitError;
 use super::model::SeriesModel;
 use super::problem::{Effort, FIRST_LEVEL, LAST_LEVEL, Problem};
-use crate::Error;
 
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
 pub const MESH_SHIFT: f64 = 0.8;
@@ -43,7 +43,7 @@ impl MeshChoice {
 }
 
 /// Fits with at most `limit` model runs, with intervals of this kind.
-pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Final, Error> {
+pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Final, FitError> {
     let (mesh, mut evaluations) = find_level(problem, limit, profiles)?;
     let model = problem.model(mesh.level, mesh.correction());
     let effort = Effort {
@@ -63,7 +63,11 @@ pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Fi
 }
 
 /// The coarsest level that moves the parameters hardly away from those of the level below, and the model runs that it took.
-fn find_level(problem: &Problem<'_>, limit: usize, wanted: Profiles) -> Result<(MeshChoice, usize), Error> {
+fn find_level(
+    problem: &Problem<'_>,
+    limit: usize,
+    wanted: Profiles,
+) -> Result<(MeshChoice, usize), FitError> {
     let mut evaluations = 0;
     let mut level = 0;
     let mut start = None;
@@ -115,7 +119,7 @@ fn emulated(
     calibration: &Calibration<'_>,
     coarser: Option<&Emulator>,
     limit: usize,
-) -> Result<(Fit, Emulator), Error> {
+) -> Result<(Fit, Emulator), FitError> {
     calibration.fit_emulated(coarser).map_err(|error| {
         match error {
             CalibrationError::EvaluationLimit { .. } => CalibrationError::EvaluationLimit { limit },

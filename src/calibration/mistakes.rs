@@ -3,9 +3,9 @@
 use calibrate::{CalibrationError, Model};
 
 use super::cell::Observed;
+use super::error::FitError;
 use super::problem::Problem;
 use super::terms::cells;
-use crate::Error;
 
 /// Share of the forces of one sign that makes it the sign of all: a few near zero may have either by noise.
 const NEARLY_ALL: f64 = 0.9;
@@ -13,14 +13,14 @@ const NEARLY_ALL: f64 = 0.9;
 const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
 /// What the scenes' own values predict, on the coarsest mesh.
-fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
+fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, FitError> {
     let values = problem.scene_values();
     let predicted = problem.model(0, None).predict(problem.of_model(&values));
     Ok(predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?)
 }
 
 /// What looks mistaken beside what the scenes' own values predict.
-pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
+pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, FitError> {
     let expected = &predicted_by_scene(problem)?;
     let measured: Vec<f64> = problem
         .series

@@ -20,6 +20,7 @@ mod alternatives;
 mod answer;
 mod cell;
 mod discrepancy;
+mod error;
 mod ground;
 mod judgement;
 mod meshes;
@@ -54,6 +55,7 @@ pub use unknown::{Quantity, Unknown};
 
 use crate::readings::Readings;
 use crate::{Error, Scene};
+use error::FitError;
 use model::SeriesModel;
 use problem::Problem;
 use watch::Watch;
@@ -84,7 +86,7 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         .iter()
         .any(|unknown| unknown.quantity.is_of_cell());
     if fits_cell {
-        return fit(series, options);
+        return Ok(fit(series, options)?);
     }
     let kept: Vec<(Readings, Option<String>)> = series.iter().map(overload::within_reach).collect();
     let within = series.iter().zip(&kept);
@@ -97,7 +99,7 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
     Ok(answer)
 }
 
-fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
+fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, FitError> {
     let unknowns = problem::unknowns(series, options)?;
     let models = series
         .iter()
@@ -123,12 +125,12 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
     };
     let answer = answer(&problem, limit);
     if watch.is_stopped() {
-        return Err(Error::Stopped);
+        return Err(Error::Stopped.into());
     }
     answer
 }
 
-fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
+fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, FitError> {
     let mistakes = mistakes::mistakes(problem)?;
     // What follows from a wrong sign or unit is not worth intervals.
     let profiles = if mistakes.is_empty() {
@@ -137,12 +139,13 @@ fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
         Profiles::None
     };
     match meshes::fit(problem, limit, profiles) {
-        Ok(found) => answer::answer(problem, &found, mistakes),
-        Err(Error::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
+        Ok(found) => Ok(answer::answer(problem, &found, mistakes)?),
+        Err(FitError::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
             key: "data",
             found: "readings without any fit",
             reason: mistakes.join("; ").into(),
-        }),
+        }
+        .into()),
         Err(error) => Err(error),
     }
 }

@@ -3,6 +3,7 @@
 use calibrate::{Calibration, Loss, Options, Prior, Profiles};
 
 use super::discrepancy::discrepancy;
+use super::error::FitError;
 use super::model::{CableModel, Memory, SeriesModel};
 use super::noise;
 use super::options::{CalibrateOptions, Series};
@@ -75,7 +76,7 @@ impl Problem<'_> {
         model: &'m CableModel<'m>,
         start: Option<Vec<f64>>,
         effort: &Effort,
-    ) -> Result<Calibration<'m>, Error> {
+    ) -> Result<Calibration<'m>, FitError> {
         let mut parameters = self
             .unknowns
             .iter()
@@ -130,20 +131,22 @@ impl Problem<'_> {
 }
 
 /// What is fitted, checked against the scenes.
-pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
+pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, FitError> {
     if series.is_empty() {
         return Err(Error::Unfit {
             key: "series",
             found: "none",
             reason: "there is nothing to fit".into(),
-        });
+        }
+        .into());
     }
     if options.discrepancy.is_some() && options.loss != Loss::Squares {
         return Err(Error::Unfit {
             key: "discrepancy",
             found: "a robust loss beside it",
             reason: "it takes what is left of a reading for independent noise; leave one of them out".into(),
-        });
+        }
+        .into());
     }
     let mut unknowns = options.unknowns.clone();
     let coulomb = |unknown: &Unknown| {
@@ -171,7 +174,8 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
             key: "friction.law",
             found: "coulomb",
             reason: "it has no shape factor to be fitted".into(),
-        });
+        }
+        .into());
     }
     if unknowns
         .iter()
@@ -181,7 +185,8 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
             key: "unknowns",
             found: "a series of a higher index than there are",
             reason: "series are counted from 0".into(),
-        });
+        }
+        .into());
     }
     if let [only] = series {
         // What has a prior needs no reading.

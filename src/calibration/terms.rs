@@ -5,6 +5,7 @@
 use calibrate::{Parameter, Prior};
 
 use super::cell::Observed;
+use super::error::FitError;
 use super::model::SeriesModel;
 use super::options::{CalibrateOptions, Series};
 use super::unknown::{Quantity, Unknown};
@@ -92,7 +93,7 @@ pub fn terms(
     models: &[SeriesModel],
     asked: &[Unknown],
     options: &CalibrateOptions<'_>,
-) -> Result<Vec<Term>, Error> {
+) -> Result<Vec<Term>, FitError> {
     let cells = cells(series, models);
     let mut terms = Vec::new();
     for unknown in asked {
@@ -102,7 +103,8 @@ pub fn terms(
                 key: "fit",
                 found: "an error of a load cell",
                 reason: "there are no forces among the readings".into(),
-            });
+            }
+            .into());
         }
         for cell in own {
             let name = cell.name(unknown.quantity, series.len());
@@ -118,7 +120,7 @@ pub fn term(
     quantity: Quantity,
     name: &str,
     options: &CalibrateOptions<'_>,
-) -> Result<Term, Error> {
+) -> Result<Term, FitError> {
     let largest = cell.largest.max(f64::MIN_POSITIVE);
     let (column, told, natural) = match quantity {
         Quantity::Drift => (&cell.drift, options.drift_sigma, ERROR * largest / cell.last),

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::limits::DesignError;
+use super::limits::{DesignError, check_place};
 use super::runs::OneMesh;
 use super::trade_off::{Spring, TradeOff};
 use crate::ground::{Ground, road};
@@ -69,7 +69,7 @@ pub(crate) fn compare_over(
 
 impl Measure {
     fn check(&self, scene: &Scene) -> Result<(), DesignError> {
-        self.place.check(scene)?;
+        check_place(self.place, scene)?;
         let rigid_clamp = matches!(self.place, Place::Clamp(_)) && self.stiffness.is_infinite();
         if self.stiffness >= 0.0 && !rigid_clamp {
             return Ok(());

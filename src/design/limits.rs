@@ -48,7 +48,7 @@ impl DesignError {
 pub(super) fn check(scene: &Scene, options: &DesignOptions<'_>) -> Result<(), DesignError> {
     let places = options.places();
     for place in &places {
-        place.check(scene)?;
+        check_place(*place, scene)?;
     }
     if options.second == Some(options.place) {
         return Err(DesignError::Invalid {
@@ -95,7 +95,7 @@ pub(super) fn check(scene: &Scene, options: &DesignOptions<'_>) -> Result<(), De
 pub(super) fn held(scene: &Scene, springs: &[Spring]) -> Scene {
     let mut scene = scene.clone();
     for spring in springs {
-        spring.place.hold(&mut scene, spring.stiffness());
+        hold(spring.place, &mut scene, spring.stiffness());
     }
     scene
 }
@@ -111,32 +111,30 @@ fn positive(name: &'static str, found: f64) -> Result<(), DesignError> {
     })
 }
 
-impl Place {
-    pub(super) fn check(self, scene: &Scene) -> Result<(), DesignError> {
-        match self {
-            Self::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
-                Err(DesignError::Invalid {
-                    name: "position of the clamp",
-                    found: position,
-                    allowed: "a position in the duct, from 0 m to its length",
-                })
-            }
-            _ => Ok(()),
+pub(super) fn check_place(place: Place, scene: &Scene) -> Result<(), DesignError> {
+    match place {
+        Place::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
+            Err(DesignError::Invalid {
+                name: "position of the clamp",
+                found: position,
+                allowed: "a position in the duct, from 0 m to its length",
+            })
         }
+        _ => Ok(()),
     }
+}
 
-    /// Puts a spring of this stiffness \[N/m\] here: none at 0, and a fixed end at infinity.
-    fn hold(self, scene: &mut Scene, stiffness: f64) {
-        let end = match stiffness {
-            0.0 => End::Free,
-            f64::INFINITY => End::Fixed,
-            _ => End::Spring(stiffness),
-        };
-        match self {
-            Self::Upstream => scene.ends.upstream = end,
-            Self::Downstream => scene.ends.downstream = end,
-            Self::Clamp(_) if stiffness == 0.0 => {}
-            Self::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
-        }
+/// Puts a spring of this stiffness \[N/m\] at `place`: none at 0, and a fixed end at infinity.
+fn hold(place: Place, scene: &mut Scene, stiffness: f64) {
+    let end = match stiffness {
+        0.0 => End::Free,
+        f64::INFINITY => End::Fixed,
+        _ => End::Spring(stiffness),
+    };
+    match place {
+        Place::Upstream => scene.ends.upstream = end,
+        Place::Downstream => scene.ends.downstream = end,
+        Place::Clamp(_) if stiffness == 0.0 => {}
+        Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
     }
 }

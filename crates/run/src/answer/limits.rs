@@ -1,0 +1,273 @@
+//! Limits of force and movement at ends and clamps, and what a run makes of them.
+
+use serde::{Deserialize, Serialize};
+
+use super::place::{Limited, Moment, Place};
+use super::record::{PassRecord, Run};
+use super::units::Units;
+use crate::scene::CableEnd;
+
+/// What must not be exceeded at one place; of either sign.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct EndLimits {
+    /// Largest force \[N\], positive, if it is limited.
+    pub force_n: Option<f64>,
+    /// Largest displacement \[m\], positive, if it is limited.
+    pub movement_m: Option<f64>,
+}
+
+/// What must not be exceeded at one clamp.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ClampLimits {
+    /// Its position along the duct \[m\].
+    pub position_m: f64,
+    /// Its limits.
+    #[serde(flatten)]
+    pub limits: EndLimits,
+}
+
+/// What must not be exceeded at the two ends and at clamps.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Limits {
+    /// At x = 0.
+    pub upstream: EndLimits,
+    /// At x = length.
+    pub downstream: EndLimits,
+    /// At clamps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clamps: Vec<ClampLimits>,
+}
+
+/// When something happened.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Reached {
+    /// Number of the pass: of very long traffic the first of those that are listed.
+    pub pass: u64,
+    /// The time after it \[years\], where the vehicles a day are known.
+    pub years: Option<f64>,
+}
+
+/// One limit beside what a run reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// The end or clamp.
+    pub end: Place,
+    /// What is limited there.
+    pub quantity: Limited,
+    /// The limit \[N or m\].
+    pub limit: f64,
+    /// The largest in size of all listed passes \[N or m\].
+    pub largest: f64,
+    /// Whether it is larger than all that passes and heat leave: while a vehicle is above the duct.
+    #[serde(default)]
+    pub during_a_pass: bool,
+    /// The first pass that exceeds the limit; `None` where none does.
+    pub reached_after: Option<Reached>,
+    /// Where no pass exceeds the limit: the force after a pass \[N\] at which more passes level off, if that is above the limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levels_off_above: Option<f64>,
+    /// Whether limit and largest are nearer to each other than the estimated error.
+    pub doubtful: bool,
+}
+
+impl PassRecord {
+    /// Largest force on an end after the pass and during it, in size \[N\].
+    pub fn largest_force(&self, end: CableEnd) -> f64 {
+        let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
+        let least = end.of([self.upstream_least_n, self.downstream_least_n]);
+        self.force_after(end).max(peak.abs()).max(least.abs())
+    }
+
+    /// Force on an end after the pass, in size \[N\].
+    pub fn force_after(&self, end: CableEnd) -> f64 {
+        end.of([self.upstream_force_n, self.downstream_force_n]).abs()
+    }
+
+    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]: a spring moves in proportion to its force.
+    /// How far a free end moves to and fro during a pass, some micrometres, is left out.
+    pub fn largest_movement(&self, end: CableEnd) -> f64 {
+        let (after, during) = (self.force_after(end), self.largest_force(end));
+        let movement = self.movement(end);
+        if after > 0.0 {
+            movement * during / after
+        } else {
+            movement
+        }
+    }
+
+    /// How far an end is displaced after the pass, whichever way \[m\].
+    pub fn movement(&self, end: CableEnd) -> f64 {
+        end.of([self.upstream_displacement_m, self.downstream_displacement_m])
+            .abs()
+    }
+}
+
+impl Limited {
+    /// What is limited at a place, in words.
+    pub fn at(self, place: impl Into<Place>) -> String {
+        self.at_in(&Units::default(), place.into())
+    }
+
+    /// The same in units of a reader.
+    fn at_in(self, units: &Units, place: Place) -> String {
+        let shown = place.shown_in(units);
+        match (self, place) {
+            (Self::Force, _) => format!("force on the {shown}"),
+            (Self::Movement, Place::Clamp(_)) => format!("movement at the {shown}"),
+            (Self::Movement, _) => format!("movement of the {shown}"),
+        }
+    }
+
+    /// The symbol of its unit for a reader.
+    pub fn symbol_in(self, units: &Units) -> &'static str {
+        match self {
+            Self::Force => units.force.symbol(),
+            Self::Movement => units.movement.symbol(),
+        }
+    }
+
+    /// A value of it in that unit.
+    pub fn number_in(self, units: &Units, value: f64) -> String {
+        match self {
+            Self::Force => units.force(value),
+            Self::Movement => units.movement(value),
+        }
+    }
+
+    /// The same with the unit.
+    pub fn shown_in(self, units: &Units, value: f64) -> String {
+        format!("{} {}", self.number_in(units, value), self.symbol_in(units))
+    }
+
+    /// The same of a value that was given: "20 kN", not "20.0000 kN".
+    pub fn given_in(self, units: &Units, value: f64) -> String {
+        let shown = self.shown_in(units, value);
+        match shown.split_once(' ') {
+            Some((number, unit)) if number.contains('.') => {
+                format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
+            }
+            _ => shown,
+        }
+    }
+}
+
+impl Limits {
+    /// The same limits of both ends.
+    pub fn both(force_n: Option<f64>, movement_m: Option<f64>) -> Self {
+        let end = EndLimits { force_n, movement_m };
+        Self {
+            upstream: end,
+            downstream: end,
+            clamps: Vec::new(),
+        }
+    }
+
+    /// The limits of one end.
+    pub fn of(&self, end: CableEnd) -> &EndLimits {
+        end.of([&self.upstream, &self.downstream])
+    }
+
+    /// The same, to be set.
+    pub fn of_mut(&mut self, end: CableEnd) -> &mut EndLimits {
+        end.of([&mut self.upstream, &mut self.downstream])
+    }
+
+    /// Every limit that is given.
+    pub fn all(&self) -> impl Iterator<Item = (Place, Limited, f64)> {
+        let of = |(place, limits): (Place, EndLimits)| {
+            let EndLimits { force_n, movement_m } = limits;
+            [(Limited::Force, force_n), (Limited::Movement, movement_m)]
+                .into_iter()
+                .filter_map(move |(quantity, limit)| Some((place, quantity, limit?)))
+        };
+        let ends = CableEnd::ALL.map(|end| (end.into(), *self.of(end)));
+        let clamps = self.clamps.iter();
+        let clamps = clamps.map(|clamp| (Place::Clamp(clamp.position_m), clamp.limits));
+        ends.into_iter().chain(clamps).flat_map(of)
+    }
+
+    /// What `run` makes of each limit.
+    pub fn verdicts(&self, run: &Run) -> Vec<Verdict> {
+        let verdict = |(end, quantity, limit): (Place, Limited, f64)| {
+            let largest = run.largest(end, quantity);
+            let exceeds = |moment: Moment<'_>| run.at(end, quantity, moment) > limit;
+            let mut passes = run.passes.iter().enumerate();
+            let pass = passes.find(|(index, record)| exceeds(Moment::Pass(*index, record)));
+            let mut days = run.days.iter();
+            let day = days.find(|day| exceeds(Moment::Day(day))).zip(run.heat.as_ref());
+            let mut extremes = run.extremes.iter();
+            let extreme = extremes.find(|pass| exceeds(Moment::Extreme(pass)));
+            let last = run.passes.last().map_or(u64::MAX, |record| record.pass);
+            let first = [
+                pass.map(|(_, record)| record.pass),
+                day.map(|(day, heat)| day.day * heat.passes_per_day),
+                extreme.map(|pass| pass.after.pass.min(last)),
+            ];
+            let first = first.into_iter().flatten().min();
+            let years = |pass| {
+                let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
+                Some(listed.years? * pass as f64 / listed.pass as f64)
+            };
+            let level = run.saturation.zip(end.end());
+            let level = level.map(|(level, end)| end.of([level.upstream_force_n, level.downstream_force_n]));
+            let level = level.filter(|level| {
+                quantity == Limited::Force && first.is_none() && level.abs() > limit && run.heat.is_none()
+            });
+            Verdict {
+                end,
+                quantity,
+                limit,
+                largest,
+                during_a_pass: largest > run.largest_at_rest(end, quantity),
+                reached_after: first.map(|pass| Reached {
+                    pass,
+                    years: years(pass),
+                }),
+                levels_off_above: level,
+                doubtful: (largest - limit).abs() <= run.error_of_largest(end, quantity),
+            }
+        };
+        self.all().map(verdict).collect()
+    }
+}
+
+impl Verdict {
+    /// In words, in units of a reader.
+    pub fn shown(&self, units: &Units) -> String {
+        self.shown_with(units, |value| self.quantity.shown_in(units, value))
+    }
+
+    /// The same with values written by `shown`.
+    pub fn shown_with(&self, units: &Units, shown: impl Fn(f64) -> String) -> String {
+        let largest = shown(self.largest);
+        let when = if self.during_a_pass { " during a pass" } else { "" };
+        let limit = self.quantity.given_in(units, self.limit);
+        let what = self.quantity.at_in(units, self.end);
+        let verdict = match self.reached_after {
+            Some(Reached { pass, years }) => {
+                let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
+                format!(
+                    "limit exceeded: {what} above {limit}, first at pass {pass}{time}; largest {largest}{when}"
+                )
+            }
+            None => format!("limit kept: {what} at most {largest}{when}, limit {limit}"),
+        };
+        let verdict = match self.levels_off_above {
+            Some(level) => format!(
+                "{verdict}; with more passes it levels off at {}, above the limit",
+                shown(level)
+            ),
+            None => verdict,
+        };
+        if self.doubtful {
+            return format!("{verdict}; nearer to the limit than the estimated error");
+        }
+        verdict
+    }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.shown(&Units::default()))
+    }
+}

@@ -1,0 +1,31 @@
+//! What a run gives, whether it can be true, and how wrong it may be.
+
+pub mod balance;
+mod calendar;
+pub mod differences;
+pub mod error_estimate;
+mod error_shares;
+mod force_profile;
+mod heat;
+mod limits;
+mod listed;
+mod numbers;
+mod place;
+mod record;
+mod saturation;
+mod table_rows;
+mod units;
+
+pub use calendar::after;
+pub use error_shares::*;
+pub use force_profile::ForceProfile;
+pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
+pub use limits::*;
+pub use listed::{beyond, listed, simulated};
+pub use place::{Limited, Place};
+pub use record::*;
+pub use saturation::{larger, saturation};
+pub use table_rows::{in_rows, table_days, table_rows};
+pub use units::Units;
+pub use units::in_unit;
+pub use units::si_of_field;

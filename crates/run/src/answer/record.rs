@@ -1,0 +1,352 @@
+//! What a run answers. The names of the fields are those of the JSON document, units included.
+
+use cable_dem::{SlipLengths, Statistics};
+use cycle_jump::Record;
+use serde::{Deserialize, Serialize};
+
+use super::error_shares::ErrorEstimate;
+use super::force_profile::ForceProfile;
+use super::heat::{DayExtremes, HeatRecord};
+use crate::scene::{CableEnd, Traffic};
+
+/// Forces that differ by a smaller share are the same to a reader.
+const NOTICEABLE: f64 = 0.01;
+
+/// Answer of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// The scene's title.
+    pub title: String,
+    /// How it was computed.
+    pub plan: PlanSummary,
+    /// Motion of the duct under the first vehicle.
+    pub duct_motion: DuctMotionSummary,
+    /// Force and movement after the passes, ascending; of very long traffic some, the first and the last among them.
+    pub passes: Vec<PassRecord>,
+    /// Where the force levels off, if it does.
+    pub saturation: Option<Saturation>,
+    /// Forces on the ends over a period of the traffic once nothing changes any more, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<ForceRange>,
+    /// How far forces scatter where vehicles come in random order and not every pass is simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub random: Option<RandomSpread>,
+    /// Where a period of other vehicles stands in for the traffic, its passes that show a larger force or movement than those before them; and one
+    /// pass of each vehicle that comes too seldom to have a place in it, as it would follow the last pass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extremes: Vec<ExtremePass>,
+    /// Where the cable is heated every day, the extremes of days: the first ones, then evenly growing numbers, the last among them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub days: Vec<DayExtremes>,
+    /// What heat does over all days.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<HeatRecord>,
+    /// Force along the cable after the last pass.
+    pub force_profile: ForceProfile,
+    /// What each clamp carries.
+    pub restraints: Vec<RestraintRecord>,
+    /// The cable after the passes that [`RunOptions::stages`](crate::RunOptions::stages) names; not in the JSON document
+    /// where none are.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<Stage>,
+    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7).
+    pub slip_lengths: Option<SlipRecord>,
+    /// How wrong the forces may be.
+    pub error_estimate: ErrorEstimate,
+    /// What the answer cost, in counts that do not depend on the machine.
+    pub cost: Cost,
+    /// What the user should know before trusting the answer.
+    pub warnings: Vec<String>,
+}
+
+/// Which models and steps were used, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlanSummary {
+    /// Ground model.
+    pub ground: String,
+    /// Cable solver.
+    pub cable: String,
+    /// Distance between nodes \[m\].
+    pub node_spacing_m: f64,
+    /// Advance of the vehicle per step \[m\].
+    pub vehicle_step_m: f64,
+    /// Why these.
+    pub reasons: Vec<String>,
+}
+
+/// Peaks of the duct's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DuctMotionSummary {
+    /// max |D_l| \[m\].
+    pub peak_longitudinal_m: f64,
+    /// max |D_v| \[m\].
+    pub peak_vertical_m: f64,
+}
+
+/// Force and movement after one pass; forces in N, compression positive.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PassRecord {
+    /// Number of the pass, from 1.
+    pub pass: u64,
+    /// The time after it \[years of 365.25 days\], where the vehicles a day are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub years: Option<f64>,
+    /// Force on the downstream end after the pass.
+    pub downstream_force_n: f64,
+    /// Largest force on the downstream end during the pass.
+    pub downstream_peak_n: f64,
+    /// Force on the upstream end after the pass.
+    pub upstream_force_n: f64,
+    /// Largest force on the upstream end during the pass.
+    pub upstream_peak_n: f64,
+    /// Largest compression along the cable after the pass.
+    pub max_compression_n: f64,
+    /// Displacement of the cable at the upstream end \[m\].
+    pub upstream_displacement_m: f64,
+    /// Displacement of the cable at the downstream end \[m\].
+    pub downstream_displacement_m: f64,
+    /// Work that slip between cable and duct has turned into heat in this pass \[J\].
+    pub dissipated_energy_j: Option<f64>,
+    /// Least force on the downstream end during the pass: the largest tension where it is negative.
+    #[serde(default)]
+    pub downstream_least_n: f64,
+    /// Least force on the upstream end during the pass.
+    #[serde(default)]
+    pub upstream_least_n: f64,
+    /// Whether the pass was not simulated but lies within a jump between simulated ones.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interpolated: bool,
+}
+
+/// The cable at one pass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// Number of the pass, from 1.
+    pub pass: u64,
+    /// Force along the cable after it.
+    pub force_profile: ForceProfile,
+    /// Friction on the cable during it.
+    pub friction: Option<FrictionProfile>,
+}
+
+/// Friction along the cable with the vehicle over the duct's middle (Kashiro et al., Figure 7).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FrictionProfile {
+    /// Place of the vehicle in the scene's list, from 0.
+    pub vehicle: usize,
+    /// Position of the vehicle's origin along the duct \[m\].
+    pub vehicle_position_m: f64,
+    /// Positions along the duct \[m\]: the nodes.
+    pub positions_m: Vec<f64>,
+    /// Friction on the cable there \[N/m\], positive toward growing x.
+    pub friction_n_per_m: Vec<f64>,
+    /// Lengths at the limit.
+    pub slip_lengths: SlipRecord,
+}
+
+/// A pass that counts where largest forces and movements are looked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExtremePass {
+    /// Its name.
+    pub vehicle: String,
+    /// The cable after it; the number of the pass is only about right.
+    #[serde(flatten)]
+    pub after: PassRecord,
+    /// Force of the cable on each clamp after it \[N\].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub restraints_n: Vec<f64>,
+}
+
+/// What a clamp carries.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RestraintRecord {
+    /// Position along the duct \[m\].
+    pub position_m: f64,
+    /// Stiffness \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// Force of the cable on it after the last pass \[N\], positive toward growing x.
+    pub force_n: f64,
+    /// The same after each of [`Run::passes`] \[N\].
+    #[serde(default)]
+    pub after_passes_n: Vec<f64>,
+}
+
+/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SlipRecord {
+    /// Friction at its limit toward growing x \[m\].
+    pub forward_m: f64,
+    /// Friction at its limit toward falling x \[m\].
+    pub backward_m: f64,
+}
+
+/// Where the force levels off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Saturation {
+    /// The force that is largest in size of those that an end shows after any pass of a period, once nothing changes any more \[N\]; inside
+    /// the cable where no end is held.
+    pub force_n: f64,
+    /// Passes to 95 % of it; of the mean where vehicles come in random order.
+    pub passes_to_95_percent: u64,
+    /// The same of the downstream end alone \[N\].
+    pub downstream_force_n: f64,
+    /// The same of the upstream end alone \[N\].
+    pub upstream_force_n: f64,
+}
+
+/// Forces on the ends over a period of the traffic once nothing changes any more.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "units stand in the names")]
+pub struct ForceRange {
+    /// Least force on the downstream end \[N\].
+    pub downstream_min_n: f64,
+    /// Largest force on the downstream end \[N\].
+    pub downstream_max_n: f64,
+    /// Least force on the upstream end \[N\].
+    pub upstream_min_n: f64,
+    /// Largest force on the upstream end \[N\].
+    pub upstream_max_n: f64,
+}
+
+impl Run {
+    /// The ends on which vehicles that differ leave noticeably different forces once nothing else changes: the least and the largest \[N\].
+    /// In random order, where their scatter is known, what one pass in twenty leaves less and more than.
+    pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
+        let extremes = |end: CableEnd| {
+            let of_random = self
+                .random
+                .map(|random| [random.of(end).q05_n, random.of(end).q95_n]);
+            let of_period = self.range.map(|range| {
+                end.of([
+                    [range.upstream_min_n, range.upstream_max_n],
+                    [range.downstream_min_n, range.downstream_max_n],
+                ])
+            });
+            let [least, most] = of_random.or(of_period)?;
+            (most - least > NOTICEABLE * most.abs().max(least.abs())).then_some((end, least, most))
+        };
+        CableEnd::ALL.into_iter().filter_map(extremes).collect()
+    }
+
+    /// How much larger single passes may be than the mean of many that `record` shows, on one end \[N\]: zero but in random order.
+    pub fn scatter(&self, end: CableEnd, record: &PassRecord) -> f64 {
+        let random = self.random.as_ref().filter(|_| record.interpolated);
+        random.map_or(0.0, |random| random.of(end).scatter())
+    }
+}
+
+impl Saturation {
+    /// Whether it is noticeably larger than all of `passes` leave.
+    pub fn is_beyond(&self, passes: &[PassRecord]) -> bool {
+        let reached = |record: &PassRecord| {
+            let forces = [
+                record.upstream_force_n,
+                record.downstream_force_n,
+                record.max_compression_n,
+            ];
+            forces
+                .into_iter()
+                .fold(0.0, |most: f64, force| most.max(force.abs()))
+        };
+        let reached = passes.iter().map(reached).fold(0.0, f64::max);
+        self.force_n.abs() > (1.0 + NOTICEABLE) * reached
+    }
+}
+
+impl RandomSpread {
+    /// That of one end.
+    pub fn of(&self, end: CableEnd) -> &Quantiles {
+        end.of([&self.upstream, &self.downstream])
+    }
+}
+
+impl Quantiles {
+    /// How much larger than the median a single pass leaves the force at most \[N\].
+    pub fn scatter(&self) -> f64 {
+        (self.max_n.abs() - self.q50_n.abs()).max(0.0)
+    }
+}
+
+/// How far forces scatter around their mean where vehicles come in random order.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RandomSpread {
+    /// Of the downstream end.
+    pub downstream: Quantiles,
+    /// Of the upstream end.
+    pub upstream: Quantiles,
+}
+
+/// Forces after passes in random order.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "units stand in the names")]
+pub struct Quantiles {
+    /// One in twenty is below this \[N\].
+    pub q05_n: f64,
+    /// The median \[N\].
+    pub q50_n: f64,
+    /// One in twenty is above this \[N\].
+    pub q95_n: f64,
+    /// The largest in size of those that were simulated \[N\].
+    pub max_n: f64,
+}
+
+/// Work of the cable solver, on all meshes together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Passes simulated on the mesh of the answer.
+    #[serde(default)]
+    pub simulated_passes: u64,
+    /// Vehicle positions, or steps of time.
+    pub steps: u64,
+    /// Linear solves.
+    pub sweeps: u64,
+    /// Nodes eliminated in these, or advanced in time.
+    pub node_updates: u64,
+}
+
+impl From<SlipLengths> for SlipRecord {
+    fn from(lengths: SlipLengths) -> Self {
+        Self {
+            forward_m: lengths.forward,
+            backward_m: lengths.backward,
+        }
+    }
+}
+
+impl Cost {
+    pub fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
+        Self {
+            simulated_passes,
+            steps: statistics.steps as u64,
+            sweeps: statistics.sweeps as u64,
+            node_updates: statistics.node_updates as u64,
+        }
+    }
+}
+
+impl PassRecord {
+    pub fn new(record: &Record, traffic: &Traffic) -> Self {
+        let Record {
+            pass,
+            outcome,
+            interpolated,
+        } = record;
+        // No minus before zero.
+        let plain = |value: f64| value + 0.0;
+        Self {
+            pass: *pass,
+            years: traffic.years_after(*pass),
+            downstream_force_n: plain(outcome.force.downstream),
+            downstream_peak_n: plain(outcome.peak.downstream),
+            upstream_force_n: plain(outcome.force.upstream),
+            upstream_peak_n: plain(outcome.peak.upstream),
+            max_compression_n: plain(outcome.max_compression),
+            upstream_displacement_m: plain(outcome.upstream_displacement),
+            downstream_displacement_m: plain(outcome.downstream_displacement),
+            dissipated_energy_j: Some(outcome.dissipated),
+            downstream_least_n: plain(outcome.lowest.downstream),
+            upstream_least_n: plain(outcome.lowest.upstream),
+            interpolated: *interpolated,
+        }
+    }
+}

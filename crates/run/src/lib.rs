@@ -1,0 +1,37 @@
+#![doc = include_str!("../README.md")]
+
+#[doc(hidden)]
+pub mod answer;
+#[doc(hidden)]
+pub mod cable;
+#[doc(hidden)]
+pub mod error;
+mod error_source;
+#[doc(hidden)]
+pub mod finite;
+#[doc(hidden)]
+pub mod ground;
+#[doc(hidden)]
+pub mod plan;
+#[doc(hidden)]
+pub mod profile;
+mod progress;
+#[doc(hidden)]
+pub mod run;
+#[doc(hidden)]
+pub mod shown;
+pub use creepage_scene as scene;
+
+pub use answer::{
+    ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
+    ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
+    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation,
+    SlipRecord, Stage, Units, Verdict,
+};
+pub use error::{Error, with_causes};
+pub use error_source::ErrorSource;
+pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
+pub use profile::{Profile, profile, profile_at};
+pub use progress::Progress;
+pub use run::{FixedMesh, RunOptions, check, run, run_plan, run_with};
+pub use scene::{CableEnd, Scene, SceneError, SceneFile};

@@ -1,0 +1,76 @@
+//! How a scene is computed: the ground's motion, the method, the meshes. Data only; `run` carries it out.
+//!
+//! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what the passes will cost.
+//! The run measures what the estimates promise, and refines where they promise too much.
+
+mod mesh;
+mod method;
+mod mix;
+pub mod occurrence;
+mod period;
+mod report;
+mod stand_ins;
+mod warnings;
+
+use std::sync::Arc;
+
+use ground_field::GroundField;
+
+use crate::ground::{Ground, road};
+use crate::{Error, Scene};
+pub use mesh::Levels;
+pub use method::{CableMethod, MOST_PASSES, MethodChoice, PassMethod};
+pub use period::Period;
+pub use report::{Candidate, Part, PlanReport};
+
+/// How a scene will be computed.
+#[derive(Debug)]
+pub struct Plan<'a> {
+    pub scene: &'a Scene,
+    pub ground: Arc<Ground>,
+    pub period: Period,
+    pub choice: MethodChoice,
+    pub levels: Levels,
+    pub warnings: Vec<String>,
+}
+
+/// Plans how to compute `scene`.
+///
+/// # Errors
+///
+/// [`Error`] when the scene asks for what does not fit together.
+pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
+    plan_on(scene, None)
+}
+
+/// Plans how to compute `scene` on a ground model of the caller's own, where there is one.
+///
+/// # Errors
+///
+/// As for [`plan`].
+pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
+    scene.validate()?;
+    let ground = Ground::new(scene, own, road::reach(scene))?;
+    plan_over(scene, Arc::new(ground))
+}
+
+/// Plans how to compute a valid `scene` over a `ground` that is known to be its own.
+pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> {
+    let approach = road::approach(scene, &ground.motions)?;
+    let levels = Levels::new(scene, &ground.motions, approach);
+    let period = Period::new(scene, &ground.motions)?;
+    // Refuses an impossible mesh before any pass.
+    levels.mesh(levels.first())?;
+    let choice = method::choose(scene, &levels, &period)?;
+    let mut warnings = warnings::warnings(scene);
+    warnings.extend(warnings::absent(scene)?);
+    warnings.extend(warnings::inertia(scene, choice.inertia));
+    Ok(Plan {
+        scene,
+        ground,
+        period,
+        choice,
+        levels,
+        warnings,
+    })
+}

@@ -1,0 +1,178 @@
+//! A plan for a reader: what was chosen, what was not, and why.
+
+use std::cmp::Ordering;
+
+use serde::{Deserialize, Serialize};
+
+use super::Plan;
+use super::method::{CableMethod, PassMethod};
+use super::occurrence::Occurrence;
+use crate::shown::spacing;
+
+/// Meshes that a plan shows.
+const LISTED: usize = 7;
+
+/// What a candidate models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Part {
+    /// The ground under the wheels.
+    Ground,
+    /// The cable and its passes.
+    Cable,
+    /// Node spacing and vehicle step.
+    Mesh,
+}
+
+crate::scene::words!(Part: Ground "ground", Cable "cable", Mesh "mesh");
+
+/// A model or mesh that was considered, chosen or not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Candidate {
+    /// What it models.
+    pub part: Part,
+    /// Name of the model.
+    pub name: String,
+    /// Whether it was chosen.
+    pub chosen: bool,
+    /// How wrong it is, as a share: of the peak of D_l for the ground, of the force for the others.
+    pub estimated_error: Option<f64>,
+    /// Rough time of the whole run with it \[s\] on one core of about 3 GHz.
+    pub estimated_seconds: Option<f64>,
+    /// Why it was chosen, or why not.
+    pub reason: String,
+}
+
+/// A plan for a reader. The names of the fields are those of the JSON document, units included.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PlanReport {
+    /// The scene's title.
+    pub title: String,
+    /// Ground model.
+    pub ground: String,
+    /// How the passes are computed.
+    pub cable: String,
+    /// Distance between nodes to begin with \[m\]; the run refines it until its error is small enough.
+    pub node_spacing_m: f64,
+    /// Advance of the vehicle per step to begin with \[m\].
+    pub vehicle_step_m: f64,
+    /// Why these.
+    pub reasons: Vec<String>,
+    /// Error to expect, as a share of the force; `None` on a mesh that the scene names.
+    pub estimated_error: Option<f64>,
+    /// Rough time of the whole run \[s\] on one core of about 3 GHz, from counted work: within a factor of five as a rule, and far more
+    /// where finer meshes prove necessary.
+    pub estimated_seconds: f64,
+    /// Whether the cable creeps, and how much force there can be, by one number; `None` where nothing moves the duct.
+    pub occurrence: Option<Occurrence>,
+    /// Everything that was considered.
+    pub candidates: Vec<Candidate>,
+    /// What the user should know before trusting the answer.
+    pub warnings: Vec<String>,
+}
+
+impl Plan<'_> {
+    /// Why the ground model was chosen, and the method for a reason of its own.
+    pub fn reasons(&self, method: &str) -> Vec<String> {
+        vec![
+            format!("ground {}: {}", self.ground.name, self.ground.reason),
+            format!("cable {}: {method}", self.choice.method.name()),
+        ]
+    }
+
+    /// Why the method was chosen, and how many passes it is expected to simulate.
+    fn foreseen(&self) -> String {
+        let reason = self.choice.reason.clone();
+        match self.choice.method {
+            PassMethod::Jumps(_) => format!("{}; {reason}", self.choice.estimates.simulated_in_words()),
+            PassMethod::EveryPass(_) => reason,
+        }
+    }
+
+    /// The plan for a reader.
+    pub fn report(&self) -> PlanReport {
+        let Self {
+            scene,
+            ground,
+            choice,
+            levels,
+            ..
+        } = self;
+        let first = levels.first();
+        let mesh_error = levels.expected_error(first);
+        let method_error = choice.estimates.error(scene, choice.method).unwrap_or(0.0);
+        let spacing = levels.spacing(first);
+        let chosen = Candidate {
+            part: Part::Ground,
+            name: ground.name.into(),
+            chosen: true,
+            estimated_error: Some(ground.accuracy),
+            estimated_seconds: None,
+            reason: ground.reason.into(),
+        };
+        let candidates = [chosen].into_iter().chain(self.methods()).chain(self.meshes());
+        PlanReport {
+            title: scene.title.clone(),
+            ground: ground.name.into(),
+            cable: choice.method.name().into(),
+            node_spacing_m: spacing.0,
+            vehicle_step_m: spacing.1,
+            reasons: self.reasons(&self.foreseen()),
+            estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
+            estimated_seconds: choice.estimates.seconds(choice.method),
+            occurrence: Occurrence::new(scene, &ground.motions),
+            candidates: candidates.collect(),
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    fn methods(&self) -> Vec<Candidate> {
+        let estimates = &self.choice.estimates;
+        let all = [
+            PassMethod::Jumps(self.choice.method.cable_method()),
+            PassMethod::EveryPass(CableMethod::QuasiStatic),
+            PassMethod::EveryPass(CableMethod::Explicit),
+        ];
+        let candidate = |method: PassMethod| {
+            let chosen = method == self.choice.method;
+            Candidate {
+                part: Part::Cable,
+                name: method.name().into(),
+                chosen,
+                estimated_error: estimates.error(self.scene, method),
+                estimated_seconds: Some(estimates.seconds(method)),
+                reason: if chosen {
+                    self.foreseen()
+                } else {
+                    estimates.against(self.scene, method)
+                },
+            }
+        };
+        all.map(candidate).into()
+    }
+
+    fn meshes(&self) -> Vec<Candidate> {
+        let levels = &self.levels;
+        let candidate = |level: usize| Candidate {
+            part: Part::Mesh,
+            name: format!("{} m", spacing(levels.spacing(level).0)),
+            chosen: level == levels.first(),
+            estimated_error: levels.expected_error(level),
+            estimated_seconds: None,
+            reason: match level.cmp(&levels.first()) {
+                Ordering::Less => "too coarse; computed to measure the error of the next".into(),
+                Ordering::Equal if levels.named() => "the scene asks for it".into(),
+                Ordering::Equal => "the coarsest that should keep the tolerance".into(),
+                Ordering::Greater => "only if the one before proves too coarse".into(),
+            },
+        };
+        (0..=levels.finest())
+            .filter(|&level| levels.mesh(level).is_ok())
+            .take(LISTED)
+            .map(candidate)
+            .collect()
+    }
+}

@@ -1,0 +1,31 @@
+//! How a run is to be carried out.
+
+use ground_field::GroundField;
+
+use super::jumps::KnownJumps;
+use crate::Progress;
+use crate::answer::differences::Shares;
+
+/// How to run.
+#[derive(Default, Clone, Copy)]
+pub struct RunOptions<'a> {
+    /// Measure the error by a run on a mesh twice as fine instead of estimating it.
+    pub verify: bool,
+    /// What another run has shown of the mesh that the scene names: then no coarser ones are computed, and no jumps are looked for.
+    pub mesh: Option<FixedMesh>,
+    /// Called after each pass; it may stop the run.
+    pub progress: Progress<'a>,
+    /// A ground model of one's own, in place of the scene's.
+    pub ground: Option<&'a dyn GroundField>,
+    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's are left out.
+    pub stages: &'a [u64],
+}
+
+/// What a run has shown of its mesh, for others that differ from it little.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedMesh {
+    /// Error of the mesh.
+    pub error: Shares,
+    /// Jumps that were good enough.
+    pub jumps: Option<KnownJumps>,
+}
