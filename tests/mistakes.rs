@@ -261,6 +261,13 @@ shape_factor = "2e7 1/m" → shape_factor = 0 | 2 | 30 | `friction.shape_factor`
 spring = "3 MN/m" → spring = "0 MN/m" | 2 | 33 | `ends.downstream.spring` | : out of range: found "0 MN/m"; allowed: | greater than 0
 position = "20 m" → position = "31 m" | 2 | 35 | `restraints.0.position` | : out of range: found "31 m"; allowed: | a position in the duct, from 0 m to 30 m
 position = "20 m" → position = "-1 m" | 2 | 35 | `restraints.0.position` | : out of range: found "-1 m"; allowed: | a position in the duct, from 0 m to 30 m
+stiffness = "1 MN/m" → stiffness = "1 MN/m"¶holds = "0 N" | 2 | 37 | `restraints.0.holds` | : out of range: found "0 N"; allowed: | a force greater than 0
+slope = "-3 %" → slope = "-3 %"¶[[route]]¶slope = "2 %" | 2 | 6 | `duct.slope` | found a slope beside [[route]]; allowed: the slopes of the sections in [[route]]
+[ground] → [[route]]¶length = "10 m"¶[[route]]¶length = "15 m"¶[ground] | 2 | 8 | `route` | found sections of 25 m together; allowed: as long as the duct, 30 m
+[ground] → [[route]]¶slope = "1 %"¶[[route]]¶[ground] | 2 | 8 | `route.0.length` | the last section needs none
+[ground] → [[route]]¶bend_radius = "1 m"¶[ground] | 2 | 9 | `route.0.bend_radius` | found "1.0 m"; allowed: a bend no tighter than the duct is deep, at least 1.2 m
+[ground] → [[route]]¶radius = "10 m"¶[ground] | 2 | 9 | unknown key `route.0.radius` | did you mean `bend_radius`?
+[ground] → [[route]]¶dynamic_coefficient = 0¶[ground] | 2 | 9 | `route.0.dynamic_coefficient` | greater than 0 if that of [friction] is
 stiffness = "1 MN/m" → stiffness = 0 | 2 | 36 | `restraints.0.stiffness` | : out of range: found 0; allowed: | greater than 0
 speed = "36 km/h" → speed = "0 km/h" | 2 | 39 | `vehicles.0.speed` | : out of range: found "0 km/h"; allowed: | a speed greater than 0
 load = "20 tf" → load = "-20 tf" | 2 | 40 | `vehicles.0.load` | : out of range: found "-20 tf"; allowed: | a force of at least 0

@@ -227,6 +227,10 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
             units.movement(largest(Limited::Movement)),
             units.movement.symbol()
         )?;
+        if let Some(slipped) = restraint.slipped_m {
+            let (slipped, symbol) = (units.movement(slipped), units.movement.symbol());
+            writeln!(out, "    it has slipped by {slipped} {symbol}")?;
+        }
     }
     if let Some(slip) = &run.slip_lengths {
         writeln!(

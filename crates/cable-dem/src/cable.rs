@@ -89,6 +89,8 @@ pub struct DuctedCable {
     upstream: End,
     downstream: End,
     restraints: Vec<Restraint>,
+    /// Where the ends stand that are fixed, and where the springs of others bear nothing \[m\].
+    end_positions: [f64; 2],
     /// At least one, from x = 0 on; neighbours differ.
     sections: Vec<Section>,
 }
@@ -109,6 +111,7 @@ impl DuctedCable {
             upstream: End::Free,
             downstream: End::Free,
             restraints: Vec::new(),
+            end_positions: [0.0; 2],
         })
     }
 
@@ -126,6 +129,20 @@ impl DuctedCable {
             }
         }
         (self.upstream, self.downstream) = (upstream, downstream);
+        Ok(self)
+    }
+
+    /// The same cable whose upstream and downstream ends are held where they are displaced by `positions` \[m\]: there a fixed one
+    /// stands, and a spring bears nothing. It is what holds a cable that has crept before it was held.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless they are finite.
+    pub fn with_end_positions(mut self, positions: [f64; 2]) -> Result<Self, CableError> {
+        for position in positions {
+            checked("position of an end", position, "finite", |_| true)?;
+        }
+        self.end_positions = positions;
         Ok(self)
     }
 
@@ -209,6 +226,7 @@ impl DuctedCable {
         for restraint in &mut mirrored.restraints {
             restraint.position = self.length - restraint.position;
         }
+        mirrored.end_positions = [-self.end_positions[1], -self.end_positions[0]];
         mirrored.sections.reverse();
         for section in &mut mirrored.sections {
             section.body_force = -section.body_force;
@@ -246,6 +264,11 @@ impl DuctedCable {
         &self.restraints
     }
 
+    /// Displacements at which its ends are held \[m\], upstream and downstream.
+    pub fn end_positions(&self) -> [f64; 2] {
+        self.end_positions
+    }
+
     /// The sections of the duct from x = 0 on; equal neighbours are one.
     pub fn sections(&self) -> &[Section] {
         &self.sections
@@ -262,16 +285,22 @@ impl DuctedCable {
         section::parts(&self.sections, mesh, node)
     }
 
-    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, and the `thermal_force` \[N\],
-    /// which pushes the two ends apart and nothing between them.
-    pub(crate) fn loads(&self, mesh: &Mesh, thermal_force: f64) -> Vec<f64> {
+    /// The force along the duct on the nodes of `mesh` \[N\].
+    pub(crate) fn body_loads(&self, mesh: &Mesh) -> Vec<f64> {
         let body = |node| {
             let parts = self.parts(mesh, node).into_iter();
             parts.map(|(length, section)| section.body_force * length).sum()
         };
-        let mut loads: Vec<f64> = (0..mesh.nodes()).map(body).collect();
-        loads[0] -= thermal_force;
-        loads[mesh.elements()] += thermal_force;
+        (0..mesh.nodes()).map(body).collect()
+    }
+
+    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, springs of ends that are held elsewhere than as laid, and the
+    /// `thermal_force` \[N\], which pushes the two ends apart and nothing between them.
+    pub(crate) fn loads(&self, mesh: &Mesh, thermal_force: f64) -> Vec<f64> {
+        let mut loads = self.body_loads(mesh);
+        let pull = |end: End, position: f64| end.stiffness().map_or(0.0, |spring| spring * position);
+        loads[0] += pull(self.upstream, self.end_positions[0]) - thermal_force;
+        loads[mesh.elements()] += pull(self.downstream, self.end_positions[1]) + thermal_force;
         loads
     }
 

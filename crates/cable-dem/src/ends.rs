@@ -41,6 +41,8 @@ pub(crate) struct EndReader {
     shares: [f64; 2],
     /// Stiffness of a spring whose node a clamp that slips is on too \[N/m\]: its displacement is what it reads.
     springs: [Option<f64>; 2],
+    /// Where it bears nothing \[m\].
+    positions: [f64; 2],
     /// Body force on either end node \[N\].
     body: [f64; 2],
 }
@@ -49,7 +51,7 @@ impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
         let supports = Support::of(cable, mesh);
-        let body = cable.loads(mesh, 0.0);
+        let body = cable.body_loads(mesh);
         let share = |node: usize, end: End| {
             let on_node = supports.iter().filter(|support| support.node == node);
             let all: f64 = on_node.filter_map(|support| support.stiffness).sum();
@@ -67,6 +69,7 @@ impl EndReader {
         };
         Self {
             springs: [spring(0, cable.upstream()), spring(last, cable.downstream())],
+            positions: cable.end_positions(),
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             tributary: mesh.tributary_length(0),
             last,
@@ -87,7 +90,7 @@ impl EndReader {
                 return 0.0;
             }
             if let Some(spring) = self.springs[side] {
-                return outward * spring * displacement(node);
+                return outward * spring * (displacement(node) - self.positions[side]);
             }
             let chain = self.stiffness * (displacement(inner) - displacement(node));
             let inward = chain + self.tributary * friction(node) + self.body[side];

@@ -159,6 +159,60 @@ impl CableState {
         self
     }
 
+    /// The same cable on another `mesh` of the duct, with displacements along cubics through four nodes; a clamp has slipped as far on both
+    /// of its nodes. On its own mesh it is the same to the last bit. Not yet at rest ([`crate::RestingCable::settle`]).
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless the mesh is as long.
+    pub fn on(&self, mesh: &Mesh) -> Result<Self, CableError> {
+        self.mesh.check_length(mesh.length())?;
+        if self.mesh == mesh.nodes_alone() {
+            return Ok(self.clone());
+        }
+        let last = self.mesh.elements();
+        let read = |values: &[f64], node: usize| {
+            let (left, share) = self.mesh.place(mesh.spacing() * node as f64);
+            let first = left.saturating_sub(1).min(last.saturating_sub(3));
+            let at = (left - first) as f64 + share;
+            let nodes = &values[first..=(first + 3).min(last)];
+            let weight = |i: usize| {
+                let others = (0..nodes.len()).filter(|j| *j != i);
+                others
+                    .map(|j| (at - j as f64) / (i as f64 - j as f64))
+                    .product::<f64>()
+            };
+            nodes.iter().enumerate().map(|(i, value)| weight(i) * value).sum()
+        };
+        let all = |values: &[f64]| (0..mesh.nodes()).map(|node| read(values, node)).collect();
+        let mut state = Self::from_parts(mesh, all(&self.displacement), all(&self.friction))?;
+        let ends = [self.friction[0], self.friction[last]];
+        (state.displacement[0], state.displacement[mesh.elements()]) =
+            (self.displacement[0], self.displacement[last]);
+        state = state
+            .with_end_friction(ends)
+            .with_thermal_force(self.thermal_force)?;
+        state.clamp_slips = self
+            .clamp_slips
+            .iter()
+            .map(|[before, after]| [0.5 * (before + after); 2])
+            .collect();
+        Ok(state)
+    }
+
+    /// The same with this slip of each clamp of a cable \[m\], on both of its nodes.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless all are finite.
+    pub fn with_slipped_clamps(mut self, slips: &[f64]) -> Result<Self, CableError> {
+        for &slip in slips {
+            checked("slip of a clamp", slip, "finite", |_| true)?;
+        }
+        self.clamp_slips = slips.iter().map(|slip| [*slip; 2]).collect();
+        Ok(self)
+    }
+
     /// How far each clamp of `cable` has slipped \[m\], positive toward growing x, in the order of [`DuctedCable::restraints`].
     pub fn clamp_slips(&self, cable: &DuctedCable) -> Vec<f64> {
         let of = |(index, restraint): (usize, &Restraint)| {
@@ -309,7 +363,7 @@ impl CableState {
         let force = |element: usize| {
             stiffness * (self.displacement[element] - self.displacement[element + 1]) + self.thermal_force
         };
-        let body = cable.loads(mesh, 0.0);
+        let body = cable.body_loads(mesh);
         let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
         let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
         let after = |node: usize| force(node) - 0.5 * h * drag(node);

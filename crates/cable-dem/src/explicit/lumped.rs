@@ -89,10 +89,10 @@ impl Lumped {
         let mut forces = self.ends.read(0.0, |i| u[i], |i| f[i]);
         // The force of the chain on a spring also accelerates the half element there.
         if let End::Spring(spring) = self.cable.upstream() {
-            forces.upstream = -spring * u[0];
+            forces.upstream = -spring * (u[0] - self.cable.end_positions()[0]);
         }
         if let End::Spring(spring) = self.cable.downstream() {
-            forces.downstream = spring * u[u.len() - 1];
+            forces.downstream = spring * (u[u.len() - 1] - self.cable.end_positions()[1]);
         }
         forces
     }

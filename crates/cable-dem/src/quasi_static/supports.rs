@@ -10,6 +10,8 @@ use crate::{DuctedCable, Mesh};
 #[derive(Debug, Clone)]
 struct WatchedSupport {
     support: Support,
+    /// Where a fixed end stands \[m\].
+    position: f64,
     /// Its least window, and what moved in it when it was last solved.
     least: Stretch,
     window: Stretch,
@@ -44,7 +46,9 @@ impl Supports {
     pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, bounds: WindowBounds) -> Self {
         let body = cable.loads(mesh, 0.0);
         let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
+        let [upstream, downstream] = cable.end_positions();
         let watched = |support: Support| WatchedSupport {
+            position: if support.node == 0 { upstream } else { downstream },
             least: around(support.node),
             window: around(support.node),
             solved: 0.0,
@@ -130,8 +134,8 @@ impl Supports {
                 self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
                 continue;
             }
-            r[node] = -watched.solved;
-            trial.r[node] = -watched.solved;
+            r[node] = watched.position - watched.solved;
+            trial.r[node] = r[node];
             // Its friction turns at slips far smaller than those that matter to its neighbours.
             // The duct stands at D = a + γ A.
             let (gamma, adhesion) = (chain.compliance, snapshot.adhesion[node]);

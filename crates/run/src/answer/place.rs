@@ -190,7 +190,7 @@ impl Run {
             };
             match quantity {
                 Limited::Force => force,
-                Limited::Movement => force / clamp.stiffness_n_per_m,
+                Limited::Movement => force / clamp.stiffness_n_per_m + clamp.slipped_m.unwrap_or(0.0).abs(),
             }
         });
         values.fold(0.0, f64::max)

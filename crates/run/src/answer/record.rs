@@ -169,6 +169,9 @@ pub struct RestraintRecord {
     /// The same after each of [`Run::passes`] \[N\].
     #[serde(default)]
     pub after_passes_n: Vec<f64>,
+    /// How far it has slipped \[m\], positive toward growing x; none if it never slips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slipped_m: Option<f64>,
 }
 
 /// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.

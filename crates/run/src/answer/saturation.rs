@@ -123,7 +123,7 @@ fn levels_off<'a>(
 ) -> Option<Saturation> {
     let force_n = largest.into_iter().fold(0.0, larger);
     let free = [scene.ends.upstream, scene.ends.downstream].map(|end| end == End::Free);
-    let limit = balance::carried(scene);
+    let limit = balance::carried(scene, force_n.abs());
     let one_free = free.contains(&true) && scene.restraints.is_empty();
     let shown = |outcome: &PassOutcome| {
         let PassOutcome {

@@ -216,10 +216,14 @@ impl<'a> RunBuilder<'a> {
 
 fn restraints(passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
-    let forces = state.restraint_forces(cable)?;
+    let forces = state
+        .restraint_forces(cable)?
+        .into_iter()
+        .zip(state.clamp_slips(cable));
     let restraints = cable.restraints().iter().zip(forces).enumerate();
     Ok(restraints
-        .map(|(i, (restraint, force_n))| RestraintRecord {
+        .map(|(i, (restraint, (force_n, slip)))| RestraintRecord {
+            slipped_m: restraint.holds.map(|_| slip),
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,
