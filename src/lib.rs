@@ -51,7 +51,7 @@
 //!
 //! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `plot` (figures and the
 //! report), `sweep`, `xlsx` (workbooks), and `cli`, the command. Without them a scene is read, planned and
-//! run, with 28 crates in all.
+//! run, with 40 crates in all.
 
 #[cfg(feature = "calibrate")]
 pub mod calibration;

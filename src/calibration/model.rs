@@ -19,8 +19,8 @@ use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::ground::Ground;
 use crate::plan::{CableMethod, PassMethod, Period, plan};
-use crate::run::passes::{Jumping, Task};
 use crate::{Error, Progress, Scene};
+use creepage_run::passes::{Jumping, Task};
 
 /// Nodes per depth of the duct on the coarsest mesh, which only shows where to look; every further level has twice as many.
 const COARSEST: f64 = 3.0;

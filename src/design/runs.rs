@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::limits::held;
 use super::options::DesignOptions;
 use super::trade_off::{Spring, TradeOff};
+use crate::FixedMesh;
 use crate::ground::Ground;
-use crate::run::{FixedMesh, run_over, run_shown};
+use crate::run::{run_over, run_shown};
 use crate::{Error, Limits, Place, Progress, RunOptions, Scene, finite};
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.

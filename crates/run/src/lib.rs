@@ -4,6 +4,7 @@
 pub mod answer;
 #[doc(hidden)]
 pub mod cable;
+mod days;
 #[doc(hidden)]
 pub mod error;
 mod error_source;
@@ -12,10 +13,13 @@ pub mod finite;
 #[doc(hidden)]
 pub mod ground;
 #[doc(hidden)]
+pub mod passes;
+#[doc(hidden)]
 pub mod plan;
 #[doc(hidden)]
 pub mod profile;
 mod progress;
+mod refine;
 #[doc(hidden)]
 pub mod run;
 #[doc(hidden)]
@@ -30,8 +34,9 @@ pub use answer::{
 };
 pub use error::{Error, with_causes};
 pub use error_source::ErrorSource;
+pub use passes::{FixedMesh, RunOptions};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
-pub use run::{FixedMesh, RunOptions, check, run, run_plan, run_with};
+pub use run::{check, run, run_plan, run_with};
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};

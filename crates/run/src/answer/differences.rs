@@ -9,6 +9,10 @@
 
 use cable_dem::PassOutcome;
 use cycle_jump::Record;
+use ground_field::DuctMotion;
+
+use crate::ground::peak;
+use crate::scene::Scene;
 
 /// Forces below this share of the largest one of the run are compared with that share of it, and movements of an end below this
 /// share of the duct's largest.
@@ -90,11 +94,11 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Of a cable with the friction `limit` \[N/m\] in a duct that moves by `peak` \[m\].
-    pub fn new(limit: f64, peak: f64) -> Self {
+    /// Of a scene whose duct moves by `motions`.
+    pub fn new(scene: &Scene, motions: &[DuctMotion]) -> Self {
         Self {
-            force: SHORT * limit,
-            movement: SMALL * peak,
+            force: SHORT * scene.friction_limit(),
+            movement: SMALL * peak(motions),
         }
     }
 

@@ -5,10 +5,8 @@
 //! at a node or between two makes the sequence uneven, and two meshes may agree by chance. So more is counted: the largest of
 //! a share of each difference seen so far, and never less than what is typical of the level.
 
-use cycle_jump::Record;
-
 use super::ErrorShares;
-use super::differences::{Scale, Shares, difference};
+use super::differences::Shares;
 use crate::Error;
 use crate::error_source::ErrorSource;
 use crate::shown::percent;
@@ -126,11 +124,8 @@ impl std::fmt::Display for ErrorParts {
     }
 }
 
-/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`.
-pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
-    let pairs = levels.windows(2).rev();
-    let differences: Vec<Shares> = pairs.map(|pair| difference(pair[1], pair[0], scale)).collect();
-    let passes = levels.last().map_or(0, |finest| finest.len());
+/// Error of the passes on a mesh from the `differences` between it and the coarser ones, its own first; at least `typical`.
+pub fn mesh_error(differences: &[Shares], passes: usize, typical: f64) -> Shares {
     let weights = match differences.len() {
         1 => &[WEIGHT_ALONE][..],
         _ if passes < MANY => &WEIGHTS,
@@ -141,11 +136,6 @@ pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
         .map(|(&weight, difference)| difference.times(weight))
         .collect();
     error.max(Shares::both(typical))
-}
-
-/// Error of `passes`, measured against a run twice as fine.
-pub fn measured(passes: &[Record], finer: &[Record], scale: Scale) -> Shares {
-    difference(passes, finer, scale).times(VERIFIED)
 }
 
 /// Whether an error of the force is too large for an answer.

@@ -52,6 +52,14 @@ pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError
     }
 }
 
+/// Whether the approach that the scene names, if it names one, is as far as vehicles have to be followed.
+pub fn is_followed_enough(scene: &Scene, motions: &[DuctMotion]) -> Result<bool, CableError> {
+    match scene.solver.approach {
+        Some(approach) => Ok(approach >= needed(scene, motions)?),
+        None => Ok(true),
+    }
+}
+
 /// How far beyond the duct's ends vehicles have to be followed \[m\].
 pub fn needed(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
     cable_dem::approach(motions, scene.duct.depth, farthest(scene))

@@ -9,7 +9,7 @@ mod mix;
 pub mod occurrence;
 mod period;
 mod report;
-mod stand_ins;
+mod representatives;
 mod warnings;
 
 use std::sync::Arc;

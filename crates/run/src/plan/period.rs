@@ -2,14 +2,14 @@
 //!
 //! A sequence is its own period, and shares such as 2 : 1 or 100 : 1 have one: 3 and 101 vehicles. Other shares get a mix that is near to
 //! theirs, and a second one on the other side shows what that changes. A vehicle that is too seldom for any period is the only thing in which a second
-//! one differs. Of many kinds that differ by their load alone, as axles of a histogram do, some stand in for all (`stand_ins`), and half as many
+//! one differs. Of many kinds that differ by their load alone, as axles of a histogram do, some stand in for all (`representatives`), and half as many
 //! show what that changes; vehicles that come in random order are compared with another order.
 
 use cable_dem::Order;
 use ground_field::DuctMotion;
 
 use super::mix::Mix;
-use super::stand_ins;
+use super::representatives;
 use crate::Error;
 use crate::cable::{known_order, traffic};
 use crate::scene::Scene;
@@ -49,68 +49,31 @@ impl Period {
         }
         let coming = coming(scene)?;
         let shares = shares(scene, &coming);
-        let most = longest(scene);
-        let reordered = scene.order() != Order::Interleaved;
-        let at_random = matches!(scene.order(), Order::Random { .. });
-        let is_drawn = |mix: &Mix| at_random && scene.warming().is_none() && mix.len() > FEW;
-        let mut others = Vec::new();
-        let mut weights = shares.clone();
-        let mix = match stand_ins::advances(scene, motions) {
+        let StandIn { mix, others, weights } = match representatives::advances(scene, motions) {
             Some(advances) if shares.len() > KINDS => {
                 let advances: Vec<f64> = coming.iter().map(|&vehicle| advances[vehicle]).collect();
-                let of = |length| Mix::new(stand_ins::counts(&shares, &advances, length), &shares);
-                others.push((of(STAND_INS / 2), 1.0));
-                let mix = of(STAND_INS);
-                weights = mix.counts.iter().map(|&count| count as f64).collect();
-                mix
+                StandIn::of_many_kinds(&shares, &advances)
             }
-            _ => {
-                // On a day of heat every vehicle comes: its largest forces do not depend on how many days it does.
-                let daily = scene.warming().is_some();
-                let of_held = |share: &f64| daily || 2.0 * share * most as f64 >= 1.0;
-                let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();
-                let mut mix = Mix::best(&normal(&held), most);
-                if !mix.is_exact && !is_drawn(&mix) {
-                    let (mut other, share) = mix.opposite(&normal(&held), most);
-                    other.counts = spread(&other.counts, &shares, of_held);
-                    others.push((other, share));
-                }
-                mix.counts = spread(&mix.counts, &shares, of_held);
-                let seldom: f64 = shares.iter().filter(|share| !of_held(share)).sum();
-                if seldom > 0.0 {
-                    let counts = shares
-                        .iter()
-                        .map(|share| ((share * most as f64) as usize).max(1))
-                        .collect();
-                    others.push((Mix::new(counts, &shares), (seldom * most as f64).min(1.0)));
-                }
-                mix
-            }
+            _ => StandIn::near(scene, &shares),
         };
         let named = |mix: &Mix| -> Result<Vec<usize>, Error> {
             Ok(mix.interleaved()?.into_iter().map(|kind| coming[kind]).collect())
         };
         let vehicles = named(&mix)?;
-        let mut others: Vec<(Vec<usize>, f64)> = others
-            .iter()
-            .map(|(mix, share)| Ok::<_, Error>((named(mix)?, *share)))
-            .collect::<Result<_, _>>()?;
-        let drawn = if is_drawn(&mix) {
-            let kinds = (0..coming.len()).filter(|&kind| mix.counts[kind] > 0);
-            kinds.map(|kind| (coming[kind], weights[kind])).collect()
-        } else {
-            Vec::new()
-        };
+        let others = others.iter().map(|(mix, share)| Ok((named(mix)?, *share)));
+        let mut others = others.collect::<Result<Vec<_>, Error>>()?;
+        let kinds = (0..coming.len()).filter(|&kind| is_drawn(scene, &mix) && mix.counts[kind] > 0);
+        let drawn: Vec<(usize, f64)> = kinds.map(|kind| (coming[kind], weights[kind])).collect();
+        let reordered = scene.order() != Order::Interleaved;
+        let at_random = matches!(scene.order(), Order::Random { .. });
         if reordered && drawn.is_empty() && (vehicles.len() > FEW || !at_random) {
             let mut shuffled = vehicles.clone();
             fastrand::Rng::with_seed(0).shuffle(&mut shuffled);
             others.push((shuffled, 1.0));
         }
+        let is_absent = |vehicle: &usize| !vehicles.contains(vehicle);
         Ok(Self {
-            absent: coming
-                .into_iter()
-                .filter(|vehicle| !vehicles.contains(vehicle))
-                .collect(),
+            absent: coming.into_iter().filter(is_absent).collect(),
             vehicles,
             others,
             reordered,
@@ -168,6 +131,62 @@ impl Period {
     pub fn is_own(&self) -> bool {
         self.others.is_empty() && !self.reordered
     }
+}
+
+/// A mix that stands in for the traffic.
+struct StandIn {
+    mix: Mix,
+    /// Others to compare it with, each with the share of the difference that is wrong.
+    others: Vec<(Mix, f64)>,
+    /// Of every kind of vehicle, how often it is drawn.
+    weights: Vec<f64>,
+}
+
+impl StandIn {
+    /// Some kinds in place of many, which advance the cable by `advances`; half as many show what that changes.
+    fn of_many_kinds(shares: &[f64], advances: &[f64]) -> Self {
+        let of = |length| Mix::new(representatives::counts(shares, advances, length), shares);
+        let mix = of(STAND_INS);
+        Self {
+            others: vec![(of(STAND_INS / 2), 1.0)],
+            weights: mix.counts.iter().map(|&count| count as f64).collect(),
+            mix,
+        }
+    }
+
+    /// The mix that is taken for these shares, without the vehicles that are too seldom for it.
+    fn near(scene: &Scene, shares: &[f64]) -> Self {
+        let most = longest(scene);
+        let mut others = Vec::new();
+        // On a day of heat every vehicle comes: its largest forces do not depend on how many days it does.
+        let daily = scene.warming().is_some();
+        let of_held = |share: &f64| daily || 2.0 * share * most as f64 >= 1.0;
+        let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();
+        let mut mix = Mix::best(&normal(&held), most);
+        if !mix.is_exact && !is_drawn(scene, &mix) {
+            let (mut other, share) = mix.opposite(&normal(&held), most);
+            other.counts = spread(&other.counts, shares, of_held);
+            others.push((other, share));
+        }
+        mix.counts = spread(&mix.counts, shares, of_held);
+        let seldom: f64 = shares.iter().filter(|share| !of_held(share)).sum();
+        if seldom > 0.0 {
+            let count = |share: &f64| ((share * most as f64) as usize).max(1);
+            let counts = shares.iter().map(count).collect();
+            others.push((Mix::new(counts, shares), (seldom * most as f64).min(1.0)));
+        }
+        Self {
+            mix,
+            others,
+            weights: shares.to_vec(),
+        }
+    }
+}
+
+/// Whether draws show what a random order of this mix changes.
+fn is_drawn(scene: &Scene, mix: &Mix) -> bool {
+    let at_random = matches!(scene.order(), Order::Random { .. });
+    at_random && scene.warming().is_none() && mix.len() > FEW
 }
 
 /// Most vehicles in a period: with heat they begin anew every day.

@@ -2,16 +2,14 @@
 
 use cycle_jump::{Record, peaks};
 
-use super::listing::listed_passes;
-use super::passes::{Passes, Task, force_profile};
-use super::refine::Solved;
+use crate::Error;
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, PassRecord, PlanSummary,
     RestraintRecord, Run, Stage, balance, saturation,
 };
+use crate::passes::{Passes, Solved, force_profile, listed_passes};
 use crate::plan::Plan;
-use crate::{Error, Progress};
 
 /// A friction law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
@@ -54,43 +52,16 @@ impl<'a> RunBuilder<'a> {
         }
     }
 
+    /// The answer from passes that were simulated.
     pub fn by_simulation(mut self, solved: &Solved) -> Result<Run, Error> {
-        for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
-            if leak.loss_per_pass > LARGEST_LEAK {
-                return Err(Error::Unfit {
-                    key: "friction.law",
-                    found: "sigmoid",
-                    reason: leak.to_string().into(),
-                });
-            }
-            self.warnings.push(leak.to_string());
-        }
-        let summary = &mut self.summary;
-        (summary.node_spacing_m, summary.vehicle_step_m) =
-            (solved.mesh.spacing(), solved.mesh.vehicle_step());
-        summary.reasons.extend(solved.reasons.iter().cloned());
-        summary.reasons.extend(solved.passes.step_limits.clone());
+        self.accept_leaks(&solved.passes)?;
+        let scene = self.plan.scene;
         let shown = shown(self.plan, &solved.passes);
         let restraints = restraints(&solved.passes, &shown)?;
-        let traffic = &self.plan.scene.traffic;
-        let passes: Vec<PassRecord> = shown
-            .iter()
-            .map(|record| PassRecord::new(record, traffic))
-            .collect();
-        balance::of_records(self.plan.scene, &passes, &restraints)?;
-        let first = passes.iter().find(|record| record.interpolated);
-        if let Some(first) = first.filter(|_| solved.heat.is_none()) {
-            let (simulated, passes) = (solved.passes.simulated, self.plan.scene.traffic.passes);
-            let of = if simulated < passes {
-                format!("{simulated} of {passes} passes were simulated")
-            } else {
-                format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
-            };
-            summary.reasons.push(format!(
-                "{of}; between them the answer follows jumps, from pass {} on",
-                first.pass
-            ));
-        }
+        let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
+        let passes: Vec<PassRecord> = passes.collect();
+        balance::of_records(scene, &passes, &restraints)?;
+        self.summarise(solved, passes.iter().find(|record| record.interpolated));
         let total = solved.error.total();
         let beyond = solved.passes.beyond.as_ref();
         let (days, heat) = solved.heat.clone().unzip();
@@ -98,10 +69,10 @@ impl<'a> RunBuilder<'a> {
             (None, None)
         } else {
             let period = self.plan.period.len();
-            saturation(self.plan.scene, period, &solved.passes.records, beyond)
+            saturation(scene, period, &solved.passes.records, beyond)
         };
         Ok(Run {
-            title: self.plan.scene.title.clone(),
+            title: scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
             saturation,
@@ -123,6 +94,48 @@ impl<'a> RunBuilder<'a> {
             cost: Cost::new(solved.passes.simulated, &solved.statistics),
             warnings: self.warnings,
         })
+    }
+
+    /// Refuses a friction law that loses too much of the stored force, and warns of one that loses some.
+    fn accept_leaks(&mut self, passes: &Passes) -> Result<(), Error> {
+        for leak in passes.leaks.iter().filter(|leak| leak.matters()) {
+            if leak.loss_per_pass > LARGEST_LEAK {
+                return Err(Error::Unfit {
+                    key: "friction.law",
+                    found: "sigmoid",
+                    reason: leak.to_string().into(),
+                });
+            }
+            self.warnings.push(leak.to_string());
+        }
+        Ok(())
+    }
+
+    /// Says on which mesh, and from which pass on answers were not simulated.
+    fn summarise(&mut self, solved: &Solved, interpolated: Option<&PassRecord>) {
+        let Solved {
+            mesh,
+            reasons,
+            passes,
+            heat,
+            ..
+        } = solved;
+        let summary = &mut self.summary;
+        (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
+        summary.reasons.extend(reasons.iter().cloned());
+        summary.reasons.extend(passes.step_limits.clone());
+        if let Some(first) = interpolated.filter(|_| heat.is_none()) {
+            let (simulated, passes) = (passes.simulated, self.plan.scene.traffic.passes);
+            let of = if simulated < passes {
+                format!("{simulated} of {passes} passes were simulated")
+            } else {
+                format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
+            };
+            let from = first.pass;
+            summary.reasons.push(format!(
+                "{of}; between them the answer follows jumps, from pass {from} on"
+            ));
+        }
     }
 
     /// The passes of a period that stands in for the traffic which show the largest forces and movements, and one more of each vehicle that is
@@ -148,24 +161,12 @@ impl<'a> RunBuilder<'a> {
 
     /// Without friction every pass leaves the cable as the first one did: where it was laid.
     pub fn without_friction(mut self, stages: &[u64]) -> Result<Run, Error> {
-        let Plan {
-            choice,
-            levels,
-            ground,
-            ..
-        } = self.plan;
+        let Plan { choice, levels, .. } = self.plan;
         let method = choice.method.cable_method();
         let mesh = levels.mesh(levels.first())?;
         let mut scene = self.plan.scene.clone();
         scene.traffic.passes = 1;
-        let task = Task {
-            scene: &scene,
-            method,
-            motions: &ground.motions,
-            mesh,
-            stages: &[],
-            progress: Progress::default(),
-        };
+        let task = self.plan.task(&scene, mesh);
         let mut first = task.every_pass()?;
         let force_profile = force_profile(&first.cable, &first.state)?;
         let stages = stages

@@ -1,30 +1,15 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
-mod budget;
-mod days;
-mod draws;
-mod judge;
-mod jumps;
-mod listing;
-mod lived;
-mod locked_law;
-mod options;
-mod order;
-pub mod passes;
-mod random;
-mod refine;
-mod solver;
 
 use std::sync::Arc;
 
 use crate::error_source::ErrorSource;
 use crate::ground::{Ground, road};
+use crate::passes::{FixedMesh, RunOptions};
 use crate::plan::{PassMethod, Plan, plan, plan_over};
-use crate::{Error, Run, Scene, finite};
+use crate::{Error, Run, Scene, days, finite, passes};
 use assemble::RunBuilder;
-pub use options::{FixedMesh, RunOptions};
-use refine::Refinement;
 
 /// Computes all passes of `scene`.
 ///
@@ -101,12 +86,7 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<Fixe
         if let Some(heat) = plan.scene.warming() {
             return days::solve(plan, heat, method, options, warnings);
         }
-        let refinement = Refinement {
-            plan,
-            method,
-            options,
-        };
-        refinement.solve(warnings)
+        passes::solve(plan, method, options, warnings)
     };
     let solved = match solve(plan.choice.method, &mut answer) {
         Err(error)

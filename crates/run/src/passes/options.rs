@@ -2,7 +2,7 @@
 
 use ground_field::GroundField;
 
-use super::jumps::KnownJumps;
+use super::jump_search::KnownJumps;
 use crate::Progress;
 use crate::answer::differences::Shares;
 

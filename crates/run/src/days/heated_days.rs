@@ -4,13 +4,11 @@ use cable_dem::{CableState, EndForces, Mesh};
 use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, Extremes, evolve_days};
 use cycle_jump::{Guide, Jumps, Next, Record};
 
-use super::listing::listed_passes;
 use super::locked_law::locked_law;
-use super::passes::{Passes, Simulation, Task, force_profile, seldom_passes};
 use crate::answer::differences::{Scale, Shares, largest_force};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed};
 use crate::cable::{cable, traffic};
-use crate::ground::peak;
+use crate::passes::{Passes, Simulation, Task, force_profile, listed_passes, seldom_passes};
 use crate::plan::{Period, Plan};
 use crate::scene::{DAYS_PER_YEAR, Heat, Scene};
 use crate::shown::words_if;
@@ -29,57 +27,59 @@ const SECONDS_A_DAY: f64 = 86_400.0;
 
 /// Passes and days on one mesh.
 #[derive(Clone)]
-pub struct Lived {
+pub struct DaysOnMesh {
     pub passes: Passes,
     pub days: Days,
 }
 
 /// How days are jumped over.
 #[derive(Clone, Copy)]
-pub struct Jumping<'a> {
-    /// Real periods a day.
-    pub knots: u64,
+pub struct DayJumps<'a> {
+    /// Simulated periods a day.
+    pub periods: u64,
     /// With a quarter of the error and a first jump half as long, which shows the error of the others.
     pub finer: bool,
     /// As another run did, if its jumps are no longer than their errors allow.
     pub guide: Guide<'a>,
 }
 
-impl<'a> Jumping<'a> {
-    /// With so many real periods a day.
-    pub fn with(knots: u64) -> Self {
+impl<'a> DayJumps<'a> {
+    /// With so many simulated periods a day.
+    pub fn with(periods: u64) -> Self {
         let (finer, guide) = (false, Guide::Free);
-        Self { knots, finer, guide }
+        Self {
+            periods,
+            finer,
+            guide,
+        }
     }
 
     /// The same jumps as `other` took, as far as their errors allow it.
-    pub fn as_in(self, other: &'a Lived) -> Self {
+    pub fn as_in(self, other: &'a DaysOnMesh) -> Self {
         let guide = Guide::Follow(&other.days.schedule);
         Self { guide, ..self }
     }
 }
 
-/// How the days of a plan are lived.
+/// Simulates the days of a plan.
 #[derive(Clone, Copy)]
-pub struct Living<'a> {
+pub struct DaySimulator<'a> {
     pub plan: &'a Plan<'a>,
     /// The plan's, or one to compare it with.
     pub period: &'a Period,
     pub heat: &'a Heat,
-    pub progress: Progress<'a>,
     pub every_pass: bool,
     /// Place in the period of the traffic with which days begin.
     pub begin: usize,
 }
 
-impl<'a> Living<'a> {
+impl<'a> DaySimulator<'a> {
     /// The days of `plan`, whose scene has `heat`.
-    pub fn new(plan: &'a Plan<'a>, heat: &'a Heat, every_pass: bool, progress: Progress<'a>) -> Self {
+    pub fn new(plan: &'a Plan<'a>, heat: &'a Heat, every_pass: bool) -> Self {
         Self {
             plan,
             period: &plan.period,
             heat,
-            progress,
             every_pass,
             begin: 0,
         }
@@ -90,8 +90,8 @@ impl<'a> Living<'a> {
         self.plan.scene.cable.axial_stiffness * self.heat.expansion
     }
 
-    /// A day of the plan with `knots` real periods.
-    pub fn day(&self, knots: u64) -> Result<Day, Error> {
+    /// A day of the plan with `periods` simulated periods.
+    pub fn day(&self, periods: u64) -> Result<Day, Error> {
         let scene = self.plan.scene;
         let passes = a_day(scene);
         let per_kelvin = self.per_kelvin();
@@ -105,8 +105,8 @@ impl<'a> Living<'a> {
         };
         let sequence = self.period.len();
         let few = passes <= FEW.max(sequence as u64) || self.every_pass;
-        let knots = if few { passes } else { knots };
-        Ok(Day::new(passes, self.sequence_of_a_day(), heat, knots)?)
+        let periods = if few { passes } else { periods };
+        Ok(Day::new(passes, self.sequence_of_a_day(), heat, periods)?)
     }
 
     /// Vehicles after which the traffic of a day repeats.
@@ -120,7 +120,7 @@ impl<'a> Living<'a> {
     }
 
     /// Vehicles of the sequence that a day leaves over: where the next day goes on in it, and every day here begins anew.
-    fn left_over(&self) -> usize {
+    fn leftover_vehicles(&self) -> usize {
         (a_day(self.plan.scene) % self.period.len() as u64) as usize
     }
 
@@ -128,7 +128,7 @@ impl<'a> Living<'a> {
     pub fn breaks_sequence(&self) -> bool {
         let traffic = &self.plan.scene.traffic;
         let several = traffic.passes > a_day(self.plan.scene);
-        several && !self.every_pass && !self.period.reordered && self.left_over() > 0
+        several && !self.every_pass && !self.period.reordered && self.leftover_vehicles() > 0
     }
 
     /// The warning of that.
@@ -146,58 +146,65 @@ impl<'a> Living<'a> {
     /// The same days, which begin in the sequence where the first day has left it.
     pub fn begun_later(&self) -> Self {
         Self {
-            begin: self.left_over(),
+            begin: self.leftover_vehicles(),
             ..*self
         }
     }
 
     /// All days on `level`.
-    pub fn live(&self, level: usize, jumping: Jumping<'_>, progress: Progress<'_>) -> Result<Lived, Error> {
-        self.live_in(self.plan.scene, level, jumping, progress)
+    pub fn simulate(
+        &self,
+        level: usize,
+        jumping: DayJumps<'_>,
+        progress: Progress<'_>,
+    ) -> Result<DaysOnMesh, Error> {
+        self.simulate_scene(self.plan.scene, level, jumping, progress)
     }
 
     /// One more pass of each vehicle that is too seldom for the period, after the last one.
     pub fn seldom(&self, mesh: Mesh, state: &CableState) -> Result<Vec<(usize, Record)>, Error> {
-        let task = Task {
-            scene: self.plan.scene,
-            method: self.plan.choice.method.cable_method(),
-            motions: &self.plan.ground.motions,
-            mesh,
-            stages: &[],
-            progress: Progress::default(),
-        };
+        if self.every_pass {
+            return Ok(Vec::new());
+        }
+        let task = self.plan.task(self.plan.scene, mesh);
         seldom_passes(&task, &self.period.absent, state)
     }
 
-    pub fn live_in(
+    /// Forces and movements that are too small to count.
+    fn scale(&self) -> Scale {
+        Scale::new(self.plan.scene, &self.plan.ground.motions)
+    }
+
+    /// The jumps of cycle-jump, or finer ones.
+    fn jumps(&self, finer: bool) -> Result<Jumps, Error> {
+        let (scale, levels) = (self.scale(), &self.plan.levels);
+        let tolerance = (JUMPS_SHARE * self.plan.scene.solver.tolerance).min(MOST);
+        let (finer, first_jump) = if finer { (0.25, 0.25) } else { (1.0, 0.5) };
+        let least = (scale.force, scale.movement);
+        let jumps = Jumps::new(finer * tolerance, levels.length_scale(), least)?
+            .with_start(FIRST_DAYS, first_jump)?;
+        Ok(jumps.with_most_passes(MOST_DAYS.0, MOST_DAYS.1))
+    }
+
+    /// All days on `level`, as if `scene` were that of the plan.
+    pub fn simulate_scene(
         &self,
         scene: &Scene,
         level: usize,
-        jumping: Jumping<'_>,
+        jumping: DayJumps<'_>,
         progress: Progress<'_>,
-    ) -> Result<Lived, Error> {
-        let Plan { ground, levels, .. } = self.plan;
+    ) -> Result<DaysOnMesh, Error> {
         let period = self.period;
-        let mesh = levels.mesh(level)?;
+        let mesh = self.plan.levels.mesh(level)?;
         let task = Task {
-            scene,
-            method: self.plan.choice.method.cable_method(),
-            motions: &ground.motions,
-            mesh,
-            stages: &[],
             progress,
+            ..self.plan.task(scene, mesh)
         };
         let mut simulation = Simulation::new(&task)?;
-        let day = self.day(jumping.knots)?;
+        let day = self.day(jumping.periods)?;
         let (law, of_law) = locked_law(&task, period, self.sequence_of_a_day())?;
         let count = scene.traffic.passes;
-        let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
-        let tolerance = (JUMPS_SHARE * scene.solver.tolerance).min(MOST);
-        let (finer, first_jump) = if jumping.finer { (0.25, 0.25) } else { (1.0, 0.5) };
-        let least = (scale.force, scale.movement);
-        let jumps = Jumps::new(finer * tolerance, levels.length_scale(), least)?
-            .with_start(FIRST_DAYS, first_jump)?
-            .with_most_passes(MOST_DAYS.0, MOST_DAYS.1);
+        let jumps = self.jumps(jumping.finer)?;
         let request = DaysRequest {
             passes: count,
             wanted: &listed_passes(scene, self.period),
@@ -209,7 +216,7 @@ impl<'a> Living<'a> {
         // Where every pass is simulated the vehicles come in their own order.
         let mut order = traffic(scene, scene.order())?;
         let cable = cable(scene)?;
-        let lived = evolve_days(
+        let days = evolve_days(
             &cable,
             &mesh,
             (&day, law),
@@ -225,19 +232,19 @@ impl<'a> Living<'a> {
                 simulation.pass(vehicle, next.number, state)
             },
         )?;
-        let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
-        passes.peaks.clone_from(&lived.peaks);
+        let mut passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
+        passes.peaks.clone_from(&days.peaks);
         passes.statistics += of_law;
-        passes.statistics.sweeps += lived.sweeps as usize;
-        passes.statistics.node_updates += lived.sweeps as usize * mesh.nodes();
-        Ok(Lived { passes, days: lived })
+        passes.statistics.sweeps += days.sweeps as usize;
+        passes.statistics.node_updates += days.sweeps as usize * mesh.nodes();
+        Ok(DaysOnMesh { passes, days })
     }
 
     /// Largest difference on any listed day or pass: of a force after a pass or on a day as a share of the largest that day, of one
     /// during a simulated pass as a share of the largest in any pass, of a movement as a share of the day's range or, where that is
     /// larger, of the movement since laying.
-    pub fn difference(&self, one: &Lived, other: &Lived) -> Shares {
-        let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
+    pub fn difference(&self, one: &DaysOnMesh, other: &DaysOnMesh) -> Shares {
+        let scale = self.scale();
         let largest = one.days.extremes.largest_force().max(scale.force);
         let mut worst = self.difference_of_days(one, other);
         let apart = |a: EndForces, b: EndForces| {
@@ -261,8 +268,8 @@ impl<'a> Living<'a> {
     }
 
     /// The same of days alone.
-    pub fn difference_of_days(&self, one: &Lived, other: &Lived) -> Shares {
-        let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
+    pub fn difference_of_days(&self, one: &DaysOnMesh, other: &DaysOnMesh) -> Shares {
+        let scale = self.scale();
         let of_day = |((_, a), (_, b)): (&(u64, Extremes), &(u64, Extremes))| {
             let places = a.displacement.as_flattened();
             let moved = places
@@ -275,18 +282,18 @@ impl<'a> Living<'a> {
         days.map(of_day).collect()
     }
 
-    pub fn reason(&self, lived: &Lived, knots: u64) -> Result<String, Error> {
-        let day = self.day(knots)?;
+    pub fn reason(&self, simulated: &DaysOnMesh, periods: u64) -> Result<String, Error> {
+        let day = self.day(periods)?;
         let Days {
             simulated_days,
             periodic_from,
             ..
-        } = lived.days;
+        } = simulated.days;
         let days = self.plan.scene.traffic.passes.div_ceil(day.passes());
         let real = if day.is_simulated() {
             "all passes".to_owned()
         } else {
-            format!("{knots} periods of the traffic")
+            format!("{periods} periods of the traffic")
         };
         let lasting = periodic_from.map_or_else(String::new, |day| {
             format!("; from day {day} on every day is like the one before")
@@ -297,7 +304,7 @@ impl<'a> Living<'a> {
         ))
     }
 
-    pub fn record(&self, lived: &Lived) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
+    pub fn record(&self, simulated: &DaysOnMesh) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
         let Days {
             days,
             extremes,
@@ -306,7 +313,7 @@ impl<'a> Living<'a> {
             hot,
             cold,
             ..
-        } = &lived.days;
+        } = &simulated.days;
         let passes_per_day = a_day(self.plan.scene);
         let count = self.plan.scene.traffic.passes.div_ceil(passes_per_day);
         let days = days
@@ -314,7 +321,7 @@ impl<'a> Living<'a> {
             .map(|(day, extremes)| DayExtremes::new(*day, extremes))
             .collect();
         let per_kelvin = self.per_kelvin();
-        let cycle = lived.days.last_day.iter().map(|row| {
+        let cycle = simulated.days.last_day.iter().map(|row| {
             let outcome = &row.outcome;
             DayPoint {
                 hour: 24.0 * (row.passes as f64 - 0.5) / passes_per_day as f64,
@@ -332,8 +339,8 @@ impl<'a> Living<'a> {
             periodic_from_day: *periodic_from,
             drift_per_day_m: periodic_from.map(|_| *drift),
             drift_per_year_m: periodic_from.map(|_| DAYS_PER_YEAR * drift),
-            hot_profile: force_profile(&lived.passes.cable, hot)?,
-            cold_profile: force_profile(&lived.passes.cable, cold)?,
+            hot_profile: force_profile(&simulated.passes.cable, hot)?,
+            cold_profile: force_profile(&simulated.passes.cable, cold)?,
         };
         Ok((days, record))
     }

@@ -4,10 +4,10 @@ use cable_dem::{CableState, DuctedCable, Mesh, QuasiStatic, Statistics};
 use cycle_jump::days::LockedLaw;
 use ground_field::DuctMotion;
 
-use super::passes::Task;
 use crate::Error;
 use crate::cable::cable;
 use crate::ground::{length_scale, road};
+use crate::passes::Task;
 use crate::plan::Period;
 
 /// Nodes per length scale of the motion at most: real passes measure what the law misses. Of sixteen random scenes none states another error

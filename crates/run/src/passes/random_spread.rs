@@ -6,7 +6,7 @@
 
 use cable_dem::{CableState, Order, Statistics};
 
-use super::passes::{Passes, Simulation, Task};
+use super::simulation::{Passes, Simulation, Task};
 use crate::Error;
 use crate::answer::{Quantiles, RandomSpread, larger};
 use crate::cable::traffic;

@@ -9,8 +9,8 @@ use super::solver::PassSolver;
 use crate::answer::differences::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
-use crate::ground::{length_scale, peak};
-use crate::plan::{CableMethod, Period};
+use crate::ground::length_scale;
+use crate::plan::{CableMethod, Period, Plan};
 use crate::scene::Scene;
 use crate::{Error, Progress};
 
@@ -91,6 +91,20 @@ pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForcePro
     })
 }
 
+impl Plan<'_> {
+    /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and progress.
+    pub fn task<'a>(&'a self, scene: &'a Scene, mesh: Mesh) -> Task<'a> {
+        Task {
+            scene,
+            method: self.choice.method.cable_method(),
+            motions: &self.ground.motions,
+            mesh,
+            stages: &[],
+            progress: Progress::default(),
+        }
+    }
+}
+
 impl Task<'_> {
     /// Simulates every pass, or few where there is a `way` to jump over the others.
     pub fn carry_out(&self, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
@@ -119,22 +133,24 @@ impl Task<'_> {
         Ok(simulation.passes(records, state, count))
     }
 
+    /// The jumps of cycle-jump.
+    fn jumps(&self, jumping: &Jumping<'_>) -> Result<Jumps, Error> {
+        let scale = Scale::new(self.scene, self.motions);
+        let length = jumping.period.len() as u64;
+        let patience = (PATIENCE * length.min(FEW)).max(PATIENCE_WITH_MANY * length);
+        let length_scale = length_scale(self.motions, self.scene.duct.depth);
+        let jumps = Jumps::new(jumping.tolerance, length_scale, (scale.force, scale.movement))?
+            .with_start(jumping.first_periods, jumping.first_jump)?;
+        Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
+    }
+
     /// Simulates few passes, with jumps between them; the passes `listed` and the stages are recorded.
     pub fn with_jumps(&self, jumping: &Jumping<'_>, listed: &[u64]) -> Result<Passes, Error> {
         let Self { scene, mesh, .. } = self;
         let mut simulation = Simulation::new(self)?;
         simulation.jumps = true;
         simulation.foreseen = jumping.simulated;
-        let scale = Scale::new(scene.friction_limit(), peak(self.motions));
-        let length = jumping.period.len() as u64;
-        let patience = (PATIENCE * length.min(FEW)).max(PATIENCE_WITH_MANY * length);
-        let jumps = Jumps::new(
-            jumping.tolerance,
-            length_scale(self.motions, scene.duct.depth),
-            (scale.force, scale.movement),
-        )?
-        .with_start(jumping.first_periods, jumping.first_jump)?
-        .with_most_passes(patience, jumping.most_passes.max(patience));
+        let jumps = self.jumps(jumping)?;
         let count = scene.traffic.passes;
         // The row of a stage may be shown by another pass: the stage itself is wanted too.
         let with_stages = |mut passes: Vec<u64>| {

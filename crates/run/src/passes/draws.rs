@@ -14,7 +14,7 @@ use cable_dem::PassOutcome;
 use cycle_jump::{Beyond, Record, peaks};
 
 use super::listing::mean;
-use super::passes::Passes;
+use super::simulation::Passes;
 use crate::answer::differences::{Scale, Shares, differences};
 
 /// Standard errors that are stated as the error.

@@ -7,7 +7,7 @@
 use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Evolution, Record, peaks};
 
-use super::order::OwnOrder;
+use super::own_order::OwnOrder;
 use crate::Error;
 use crate::answer::simulated;
 use crate::cable::{known_order, traffic};
