@@ -30,31 +30,68 @@ fn run(overrides: &[&str]) -> Run {
 #[test]
 fn routes_are_those_of_an_independent_chain_to_a_per_cent() {
     let rows: [(&[&str], [[f64; 3]; 3]); 5] = [
-        (&[], [[102.225, 0.0, 0.01461], [288.77, 0.0, 0.25001], [1019.981, 0.0, 3.63959]]),
-        (&[BEND], [[102.225, 0.0, 0.01461], [288.76, 0.0, 0.25001], [1031.283, 0.0, 3.67269]]),
+        (
+            &[],
+            [
+                [102.225, 0.0, 0.01461],
+                [288.77, 0.0, 0.25001],
+                [1019.981, 0.0, 3.63959],
+            ],
+        ),
+        (
+            &[BEND],
+            [
+                [102.225, 0.0, 0.01461],
+                [288.76, 0.0, 0.25001],
+                [1031.283, 0.0, 3.67269],
+            ],
+        ),
         (
             &[r#"route=[{length="30 m", slope="3 %"}, {}]"#],
-            [[102.223, 0.0, 0.01116], [287.694, 0.0, 0.21993], [933.009, 0.0, 3.14778]],
+            [
+                [102.223, 0.0, 0.01116],
+                [287.694, 0.0, 0.21993],
+                [933.009, 0.0, 3.14778],
+            ],
         ),
         (
             &[r#"route=[{length="30 m"}, {dynamic_coefficient=0.35}]"#],
-            [[110.141, 0.0, 0.01461], [298.274, 0.0, 0.25001], [1124.028, 0.0, 3.77373]],
+            [
+                [110.141, 0.0, 0.01461],
+                [298.274, 0.0, 0.25001],
+                [1124.028, 0.0, 3.77373],
+            ],
         ),
         (
             &[r#"restraints=[{position="30 m", stiffness="5 MN/m", holds="200 N"}]"#],
-            [[102.215, 95.145, 0.01461], [278.067, 198.241, 0.25001], [846.076, 198.241, 3.0096]],
+            [
+                [102.215, 95.145, 0.01461],
+                [278.067, 198.241, 0.25001],
+                [846.076, 198.241, 3.0096],
+            ],
         ),
     ];
     for (changes, expected) in rows {
         let run = run(changes);
         let [.., last] = expected;
         for (pass, expected) in [1, 10, 200].into_iter().zip(expected) {
-            let index = run.passes.iter().position(|row| row.pass == pass).expect("a listed pass");
+            let index = run
+                .passes
+                .iter()
+                .position(|row| row.pass == pass)
+                .expect("a listed pass");
             let row = &run.passes[index];
-            let clamp = run.restraints.first().map_or(0.0, |clamp| clamp.after_passes_n[index]);
+            let clamp = run
+                .restraints
+                .first()
+                .map_or(0.0, |clamp| clamp.after_passes_n[index]);
             let found = [row.downstream_force_n, clamp, 1e3 * row.upstream_displacement_m];
-            for ((found, expected), scale) in found.into_iter().zip(expected).zip([last[0], last[0], last[2]]) {
-                assert!((found - expected).abs() < 0.01 * scale, "{changes:?}, {pass}: {found}, {expected}");
+            for ((found, expected), scale) in found.into_iter().zip(expected).zip([last[0], last[0], last[2]])
+            {
+                assert!(
+                    (found - expected).abs() < 0.01 * scale,
+                    "{changes:?}, {pass}: {found}, {expected}"
+                );
             }
         }
     }
@@ -76,7 +113,10 @@ fn a_clamp_that_has_slipped_says_so() {
 fn a_route_of_equal_sections_is_the_plain_duct() {
     let passes = "traffic.passes=20";
     let plain = run(&[passes]);
-    for route in ["route=[{}]", r#"route=[{length="12 m"}, {length="12 m"}, {length="30 m"}, {}]"#] {
+    for route in [
+        "route=[{}]",
+        r#"route=[{length="12 m"}, {length="12 m"}, {length="30 m"}, {}]"#,
+    ] {
         let cut = run(&[passes, route]);
         assert_eq!(cut.passes, plain.passes);
         assert_eq!(cut.force_profile, plain.force_profile);
@@ -98,7 +138,11 @@ fn jumps_follow_every_pass_on_a_route() {
     let jumps = run(&changes);
     let every = run(&[&changes[..], &["solver.method=quasi-static"]].concat());
     assert!(jumps.plan.cable.contains("pass-law"), "{}", jumps.plan.cable);
-    let largest = every.passes.iter().map(|row| row.max_compression_n).fold(0.0, f64::max);
+    let largest = every
+        .passes
+        .iter()
+        .map(|row| row.max_compression_n)
+        .fold(0.0, f64::max);
     for (one, other) in jumps.passes.iter().zip(&every.passes) {
         let off = (one.downstream_force_n - other.downstream_force_n).abs();
         assert!(off < 0.02 * largest, "pass {}: {off} N of {largest} N", one.pass);
@@ -145,7 +189,9 @@ fn random_route(seed: u64) -> Vec<String> {
     if between(0.0, 2.0) < 1.0 {
         let (position, holds) = (length * between(0.1, 0.9), 10_f64.powf(between(1.5, 3.5)));
         let stiffness = 10_f64.powf(between(5.0, 7.0));
-        changes.push(format!("restraints=[{{position={position}, stiffness={stiffness}, holds={holds}}}]"));
+        changes.push(format!(
+            "restraints=[{{position={position}, stiffness={stiffness}, holds={holds}}}]"
+        ));
     }
     if between(0.0, 2.0) < 1.0 {
         let back = between(0.5, 1.5);
@@ -160,9 +206,15 @@ fn random_route(seed: u64) -> Vec<String> {
 fn random_runs(seeds: std::ops::Range<u64>, more: &[&str]) -> Vec<(u64, Result<Run, String>)> {
     let of_seed = |seed: u64| {
         let route = random_route(seed);
-        let changes: Vec<&str> = route.iter().map(String::as_str).chain(more.iter().copied()).collect();
+        let changes: Vec<&str> = route
+            .iter()
+            .map(String::as_str)
+            .chain(more.iter().copied())
+            .collect();
         let file = SceneFile::from_toml("route.toml", SCENE).and_then(|file| file.with(&changes));
-        let scene = file.and_then(|file| file.scene()).map_err(|error| error.to_string());
+        let scene = file
+            .and_then(|file| file.scene())
+            .map_err(|error| error.to_string());
         let run = scene.and_then(|scene| creepage::run(&scene).map_err(|error| error.to_string()));
         (seed, run)
     };
@@ -173,7 +225,10 @@ fn random_runs(seeds: std::ops::Range<u64>, more: &[&str]) -> Vec<(u64, Result<R
 #[ignore = "sixty scenes with a million passes: minutes"]
 fn sixty_random_routes_have_an_answer_after_a_million_passes() {
     let runs = random_runs(0..60, &["traffic.passes=1000000"]);
-    let refused: Vec<_> = runs.iter().filter_map(|(seed, run)| Some((seed, run.as_ref().err()?))).collect();
+    let refused: Vec<_> = runs
+        .iter()
+        .filter_map(|(seed, run)| Some((seed, run.as_ref().err()?)))
+        .collect();
     for (seed, run) in &runs {
         match run {
             Ok(run) => println!(
@@ -195,14 +250,24 @@ fn twenty_random_routes_keep_the_tolerance_against_every_pass() {
     let jumps = random_runs(100..120, &["traffic.passes=600"]);
     let every = random_runs(
         100..120,
-        &["traffic.passes=600", "solver.method=quasi-static", "solver.tolerance=0.3 %"],
+        &[
+            "traffic.passes=600",
+            "solver.method=quasi-static",
+            "solver.tolerance=0.3 %",
+        ],
     );
     for ((seed, jumps), (_, every)) in jumps.iter().zip(&every) {
         let (Ok(jumps), Ok(every)) = (jumps, every) else {
             assert!(jumps.is_err() && every.is_err(), "{seed}: {jumps:?}, {every:?}");
             continue;
         };
-        let forces = |row: &creepage::PassRecord| [row.max_compression_n, row.upstream_force_n, row.downstream_force_n];
+        let forces = |row: &creepage::PassRecord| {
+            [
+                row.max_compression_n,
+                row.upstream_force_n,
+                row.downstream_force_n,
+            ]
+        };
         let forces = every.passes.iter().flat_map(forces);
         let largest = forces.fold(1.0, |most: f64, force| most.max(force.abs()));
         let mut worst = 0.0_f64;
@@ -214,7 +279,11 @@ fn twenty_random_routes_keep_the_tolerance_against_every_pass() {
             worst = worst.max(off.max((row.upstream_force_n - other.upstream_force_n).abs()));
         }
         let stated = jumps.error_estimate.relative + every.error_estimate.relative;
-        println!("{seed}: {:.2} % off, {:.2} % stated, of {largest:.1} N", 100.0 * worst / largest, 100.0 * stated);
+        println!(
+            "{seed}: {:.2} % off, {:.2} % stated, of {largest:.1} N",
+            100.0 * worst / largest,
+            100.0 * stated
+        );
         assert!(worst < stated * largest, "{seed}");
     }
 }

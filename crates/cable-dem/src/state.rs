@@ -8,6 +8,9 @@ use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 /// A clamp nearer to a node than this share of the spacing counts as on it.
 const AT_NODE: f64 = 1e-6;
 
+/// Rounding of the force in an element, as a share of the largest.
+const ROUNDING: f64 = 1e-9;
+
 /// Friction within this share of its limit counts as slipping.
 const AT_LIMIT: f64 = 1e-6;
 
@@ -333,12 +336,15 @@ impl CableState {
         let chain = self.pressing(cable)?;
         let mut load = cable.loads(&self.mesh, self.thermal_force);
         chain.add_grip_loads(&mut load);
+        let forces = self.element_forces(cable)?;
+        let rounding =
+            ROUNDING * forces.fold(0.0, |most: f64, force| most.max(force.abs())) / self.node_spacing();
         let share = |i: usize| {
             let needed = chain.balancing_friction(&self.displacement, &load, i).abs();
-            if needed == 0.0 {
+            if needed <= rounding {
                 0.0
             } else {
-                needed / chain.nodes[i].limit
+                needed / (chain.nodes[i].limit + rounding)
             }
         };
         Ok(chain.free.nodes().map(share).fold(0.0, f64::max))

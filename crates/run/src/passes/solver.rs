@@ -1,17 +1,16 @@
 //! A scene's solver of the cable, and how it lets one vehicle pass.
 
 use cable_dem::{
-    CableError, CableState, Explicit, ExplicitOptions, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+    CableError, CableState, Explicit, ExplicitOptions, MovingDuct, PassOutcome, Passage, QuasiStatic,
     SigmoidLeak,
 };
-use ground_field::DuctMotion;
 
+use super::simulation::Task;
 use crate::Error;
 use crate::answer::FrictionProfile;
-use crate::cable::{cable, mass};
+use crate::cable::mass;
 use crate::ground::road::approach;
 use crate::plan::CableMethod;
-use crate::scene::Scene;
 
 /// A solver with the scene's vehicles, ready to let them pass.
 pub enum PassSolver {
@@ -20,13 +19,15 @@ pub enum PassSolver {
 }
 
 impl PassSolver {
-    pub fn new(
-        scene: &Scene,
-        method: CableMethod,
-        motions: &[DuctMotion],
-        mesh: Mesh,
-    ) -> Result<Self, Error> {
-        let cable = cable(scene)?;
+    pub fn new(task: &Task<'_>) -> Result<Self, Error> {
+        let Task {
+            scene,
+            method,
+            motions,
+            mesh,
+            ..
+        } = *task;
+        let cable = task.cable()?;
         let approach = approach(scene, motions)?;
         let motions = motions.iter();
         Ok(match method {
