@@ -287,3 +287,112 @@ fn twenty_random_routes_keep_the_tolerance_against_every_pass() {
         assert!(worst < stated * largest, "{seed}");
     }
 }
+
+/// A mesh of its own, so that both parts have the same.
+const MESH: [&str; 2] = ["solver.node_spacing=0.15 m", "solver.vehicle_step=0.075 m"];
+
+/// A run that goes on from the state of another one.
+fn go_on(before: &Run, changes: &[&str]) -> Result<Run, creepage::Error> {
+    let options = creepage::RunOptions {
+        start: before.state.as_ref(),
+        ..creepage::RunOptions::default()
+    };
+    creepage::run_with(&scene(changes), &options)
+}
+
+#[test]
+fn two_parts_are_one_life() {
+    let route = r#"route=[{length="22 m", slope="2 %"}, {length="15 m", bend_radius="6 m"}, {}]"#;
+    let clamp = r#"restraints=[{position="31.3 m", stiffness="5 MN/m", holds="100 N"}]"#;
+    let ends = r#"ends={upstream={spring="1 MN/m"}, downstream="fixed"}"#;
+    for method in ["solver.method=quasi-static", "solver.method=pass-law"] {
+        let common = [MESH[0], MESH[1], route, clamp, ends, method];
+        let with = |passes: &'static str| [&common[..], &[passes]].concat();
+        let whole = run(&with("traffic.passes=60"));
+        let first = run(&with("traffic.passes=25"));
+        let second = go_on(&first, &with("traffic.passes=35")).expect("a second part");
+        assert_eq!(second.start.expect("a start").passes, 25);
+        let [one, two] = [&whole, &second].map(|run| run.passes.last().expect("a pass").clone());
+        let accuracy = if method.ends_with("static") { 1e-9 } else { 0.01 };
+        for (a, b) in [
+            (one.downstream_force_n, two.downstream_force_n),
+            (one.upstream_force_n, two.upstream_force_n),
+            (one.upstream_displacement_m, two.upstream_displacement_m),
+            (whole.restraints[0].force_n, second.restraints[0].force_n),
+            (
+                whole.restraints[0].slipped_m.expect("a slip"),
+                second.restraints[0].slipped_m.expect("a slip"),
+            ),
+        ] {
+            assert!((a - b).abs() <= accuracy * a.abs(), "{method}: {a}, {b}");
+        }
+        // On meshes that the plan chooses.
+        let changes = [route, clamp, ends, "traffic.passes=35"];
+        let other = go_on(&first, &changes).expect("another mesh");
+        let found = other.passes.last().expect("a pass").downstream_force_n;
+        assert!(
+            (found - one.downstream_force_n).abs() < 0.02 * one.downstream_force_n,
+            "{found} N"
+        );
+    }
+}
+
+/// What is new bears nothing at first, and what was there goes on bearing what it bore.
+#[test]
+fn new_clamps_and_new_ends_bear_nothing_at_first() {
+    let common = [MESH[0], MESH[1], "traffic.passes=40"];
+    let first = run(&common);
+    let force = |run: &Run| run.passes[0].downstream_force_n;
+    let one_more = [MESH[0], MESH[1], "traffic.passes=1"];
+    let plain = go_on(&first, &one_more).expect("a second part");
+    // So soft that one pass loads it by far less than what the cable has moved.
+    let clamp = r#"restraints=[{position="2 m", stiffness="1 kN/m"}]"#;
+    let clamped = go_on(&first, &[&one_more[..], &[clamp]].concat()).expect("a clamp");
+    let moved = first.passes.last().expect("a pass").upstream_displacement_m;
+    assert!(
+        clamped.restraints[0].force_n.abs() < 0.2 * 1e3 * moved,
+        "{} N",
+        clamped.restraints[0].force_n
+    );
+    assert!((force(&clamped) / force(&plain) - 1.0).abs() < 1e-3);
+    // The joint gives way: its new spring bears nothing, and the cable springs back.
+    let spring = r#"ends={upstream="free", downstream={spring="1 kN/m"}}"#;
+    let soft = go_on(&first, &[&one_more[..], &[spring]].concat()).expect("a spring");
+    assert!(force(&soft) < 0.05 * force(&plain), "{} N", force(&soft));
+    // And held again where it is: no step in any force.
+    let again = go_on(&soft, &[&one_more[..], &[spring]].concat()).expect("the same spring");
+    assert!(again.passes[0].downstream_displacement_m >= soft.passes[0].downstream_displacement_m);
+}
+
+#[test]
+fn a_state_of_another_duct_is_refused() {
+    let first = run(&[MESH[0], MESH[1], "traffic.passes=2"]);
+    for (change, key) in [
+        ("duct.length=61 m", "duct.length"),
+        ("cable.weight=100 N/m", "cable.weight"),
+        ("cable.axial_stiffness=9 MN", "cable.axial_stiffness"),
+        (r#"route=[{length="30 m"}, {slope="1 %"}]"#, "sections"),
+        ("friction.dynamic_coefficient=0.3", "friction of section 1"),
+    ] {
+        let refused = go_on(&first, &["traffic.passes=2", change]).expect_err(change);
+        assert!(
+            refused.is_bad_input() && refused.to_string().contains(key),
+            "{change}: {refused}"
+        );
+    }
+    // Read and written to the last bit; changed, it is refused.
+    let text = serde_json::to_string(&first.state).expect("JSON");
+    let state: creepage::SavedState = serde_json::from_str(&text).expect("a state");
+    assert_eq!(Some(&state), first.state.as_ref());
+    let changed = text.replacen("108.8", "108.9", 1);
+    let changed: creepage::SavedState = serde_json::from_str(&changed).expect("a state");
+    let options = creepage::RunOptions {
+        start: Some(&changed),
+        ..creepage::RunOptions::default()
+    };
+    let refused = creepage::run_with(&scene(&["traffic.passes=2"]), &options).expect_err("a changed state");
+    assert!(
+        refused.to_string().contains("changed after it was written"),
+        "{refused}"
+    );
+}

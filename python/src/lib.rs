@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use creepage::calibration::{Loss, Unknown};
 use creepage::report::{Report, ReportOptions};
 use creepage::sweep::{AnswerColumn, AnswerValues, Evaluator, Samples, Sweep, SweepOptions};
-use creepage::{CalibrateOptions, Readings, RunOptions, SceneFile, Series};
+use creepage::{CalibrateOptions, Readings, RunOptions, SavedState, SceneFile, Series};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
@@ -53,19 +53,32 @@ fn schema() -> String {
     creepage::scene::schema().to_string()
 }
 
-/// The run of a scene as JSON.
+/// The run of a scene and the state that it leaves as JSON; it begins with the state of another run, if there is one.
 #[pyfunction]
-fn run(py: Python<'_>, scene: Source, verify: bool, call: Call) -> PyResult<String> {
+fn run(
+    py: Python<'_>,
+    scene: Source,
+    verify: bool,
+    state: Option<String>,
+    call: Call,
+) -> PyResult<(String, String)> {
     watched(py, call, |progress| {
         let file = scene.file()?;
+        let start = state
+            .as_deref()
+            .map(serde_json::from_str::<SavedState>)
+            .transpose();
+        let start = start
+            .map_err(|error| Failure::argument(format!("from_state is not the state of a run: {error}")))?;
         let options = RunOptions {
             verify,
+            start: start.as_ref(),
             progress,
             ..RunOptions::default()
         };
         let mut run = Evaluator::new(file.clone()).run::<&str>(&[], &options)?;
         with_slips(&file, &mut run.warnings);
-        json(&run)
+        Ok((json(&run)?, json(&run.state)?))
     })
 }
 

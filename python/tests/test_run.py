@@ -138,3 +138,15 @@ def test_a_call_costs_less_than_a_millisecond_beside_its_run():
     each = 1e3 * (single - whole) / count
     print(f"{each:.2f} ms a call beside {1e3 * whole / count:.2f} ms of its run")
     assert each < 1
+
+
+def test_a_run_goes_on_from_the_state_of_another(scene):
+    passes = {"solver.node_spacing": "0.1 m", "solver.vehicle_step": "0.05 m", "solver.method": "quasi-static"}
+    whole = creepage.run(scene, {**passes, "traffic.passes": 8})
+    first = creepage.run(scene, {**passes, "traffic.passes": 5})
+    second = creepage.run(scene, {**passes, "traffic.passes": 3}, from_state=pickle.loads(pickle.dumps(first)).state)
+    assert second.start == {"passes": 5}
+    assert second.downstream_force_n == pytest.approx(whole.downstream_force_n, rel=1e-9)
+    for bad in ["text", b"no state", b"{}"]:
+        with pytest.raises(creepage.InputError):
+            creepage.run(scene, from_state=bad)

@@ -17,12 +17,14 @@ from ._scene import Scene, Source, source
 class Run(dict):
     """What ``creepage run --json`` prints, as a dict whose keys are attributes too.
 
-    So are the fields of the last pass: ``run.downstream_force_n``. In Jupyter it shows its report.
+    So are the fields of the last pass: ``run.downstream_force_n``. In Jupyter it shows its report. ``run.state`` is the cable as the last
+    pass leaves it, as bytes: ``creepage.run(scene, from_state=run.state)`` goes on from there.
     """
 
-    def __init__(self, values: Mapping[str, Any], scene: Source) -> None:
+    def __init__(self, values: Mapping[str, Any], scene: Source, state: bytes = b"") -> None:
         super().__init__(values)
         self.scene = scene
+        self.state = state
 
     def __getattr__(self, name: str) -> Any:
         if name in self:
@@ -33,7 +35,7 @@ class Run(dict):
         raise AttributeError(f"a run has no {name!r}")
 
     def __reduce__(self) -> tuple:
-        return Run, (dict(self), self.scene)
+        return Run, (dict(self), self.scene, self.state)
 
     def __dir__(self) -> Iterable[str]:
         return [*super().__dir__(), *self]
@@ -52,19 +54,25 @@ def run(
     overrides: Optional[Mapping[str, Any]] = None,
     *,
     verify: bool = False,
+    from_state: Optional[bytes] = None,
     threads: Optional[int] = None,
     progress: Any = None,
 ) -> Run:
     """The force after every pass.
 
     scene: path, TOML text or dict. overrides: keys with values, ``{"traffic.passes": 200}``; None removes a key.
-    verify: measures the error by a run on a finer mesh. threads: at most so many; all cores if left out.
+    verify: measures the error by a run on a finer mesh. from_state: ``run.state`` of another run of the same duct, or the bytes of a file
+    of ``creepage run --save-state``, with which this one begins. threads: at most so many; all cores if left out.
     progress: called with the share that is done, or a bar of tqdm; an exception from it, as Ctrl-C, stops the run.
 
     Raises InputError or ComputationError, with ``line`` and ``key`` where a key of the scene is at fault.
     """
     own = source(scene, overrides)
-    return Run(json.loads(_creepage.run(own, bool(verify), (threads_of(threads), callback(progress)))), own)
+    if not isinstance(from_state, (bytes, bytearray, type(None))):
+        raise InputError(f"found from_state of type {type(from_state).__name__}; allowed: bytes, as run.state has them")
+    begin = None if from_state is None else bytes(from_state).decode(errors="replace")
+    answer, state = _creepage.run(own, bool(verify), begin, (threads_of(threads), callback(progress)))
+    return Run(json.loads(answer), own, state.encode())
 
 
 def sweep(
