@@ -123,7 +123,8 @@ impl From<JumpError> for Error {
     }
 }
 
-/// The error's message with those of its causes. Some errors repeat their cause: it is not added again.
+/// The error's message with those of its causes. Some errors repeat their cause: it is not added
+/// again.
 pub fn with_causes(error: &dyn std::error::Error) -> String {
     let mut message = error.to_string();
     let mut cause = error.source();
@@ -138,7 +139,8 @@ pub fn with_causes(error: &dyn std::error::Error) -> String {
 }
 
 impl Error {
-    /// This error with the line of the key at fault, where one is at fault and the scene came from `file`.
+    /// This error with the line of the key at fault, where one is at fault and the scene came from
+    /// `file`.
     #[must_use]
     pub fn located(self, file: &SceneFile) -> Self {
         let location = match &self {

@@ -24,6 +24,7 @@ mod refine;
 pub mod run;
 #[doc(hidden)]
 pub mod shown;
+mod tuning;
 pub use creepage_scene as scene;
 
 pub use answer::{

@@ -1,8 +1,9 @@
 //! Whether an answer can be true: the balance of forces.
 //!
-//! In equilibrium friction carries at most q = μ_d N′ per metre, beside the cable's own weight along the duct, p. So the force differs
-//! between any two points of the cable by at most q + |p| times their distance and what clamps between them carry; at an end that is free
-//! it is at most (q + |p|) L and the clamps. No solver, law or mesh may break that.
+//! In equilibrium friction carries at most q = μ_d N′ per metre, beside the cable's own weight
+//! along the duct, p. So the force differs between any two points of the cable by at most q + |p|
+//! times their distance and what clamps between them carry; at an end that is free it is at most
+//! (q + |p|) L and the clamps. No solver, law or mesh may break that.
 
 use cable_dem::{CableState, DuctedCable};
 
@@ -31,7 +32,8 @@ pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<()
     }
 }
 
-/// The most \[N\] by which the forces on both ends differ where nothing else than friction and the cable's own weight acts between them.
+/// The most \[N\] by which the forces on both ends differ where nothing else than friction and the
+/// cable's own weight acts between them.
 pub fn carried(scene: &Scene) -> f64 {
     (scene.friction_limit() + scene.body_force().abs()) * scene.duct.length
 }

@@ -1,11 +1,12 @@
 //! How far two computations of the same passes are apart.
 //!
-//! All forces count by which limits, designs and reports judge, place by place: in the cable those on its ends and the largest
-//! compression and tension after a pass, on each end the largest and the least during it, on each clamp that after it. A force in
-//! the cable or on an end is relative to the largest at its place in that pass, a force on a clamp to the largest on that clamp in
-//! the run; if a tenth of the largest of all in the run is more, or what friction holds on a centimetre of cable, they are relative
-//! to that. A movement of an end is relative to the largest of the run, or to a tenth of the duct's own. A clamp moves in
-//! proportion to its force.
+//! All forces count by which limits, designs and reports judge, place by place: in the cable those
+//! on its ends and the largest compression and tension after a pass, on each end the largest and
+//! the least during it, on each clamp that after it. A force in the cable or on an end is relative
+//! to the largest at its place in that pass, a force on a clamp to the largest on that clamp in the
+//! run; if a tenth of the largest of all in the run is more, or what friction holds on a centimetre
+//! of cable, they are relative to that. A movement of an end is relative to the largest of the run,
+//! or to a tenth of the duct's own. A clamp moves in proportion to its force.
 
 use cable_dem::PassOutcome;
 use cycle_jump::Record;
@@ -13,12 +14,7 @@ use ground_field::DuctMotion;
 
 use crate::ground::peak;
 use crate::scene::Scene;
-
-/// Forces below this share of the largest one of the run are compared with that share of it, and movements of an end below this
-/// share of the duct's largest.
-pub const SMALL: f64 = 0.1;
-/// The length of cable \[m\] on which friction holds a force that does not count.
-const SHORT: f64 = 0.01;
+use crate::tuning::meshes::{SHORT, SMALL};
 
 /// A share of the forces and one of the movements.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -102,8 +98,9 @@ impl Scale {
         }
     }
 
-    /// Whether nothing slips in any of these passes, or so little that the forces it leaves do not count: on a coarse mesh a
-    /// spring at the end may move where elsewhere a finer one would show slip.
+    /// Whether nothing slips in any of these passes, or so little that the forces it leaves do not
+    /// count: on a coarse mesh a spring at the end may move where elsewhere a finer one would show
+    /// slip.
     pub fn is_still(&self, records: &[Record]) -> bool {
         records.iter().all(|record| {
             let outcome = &record.outcome;
@@ -127,7 +124,8 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     differences(a, b, scale).into_iter().collect()
 }
 
-/// Difference of the largest and least forces and movements in two sets of passes, each relative to the largest at its place.
+/// Difference of the largest and least forces and movements in two sets of passes, each relative to
+/// the largest at its place.
 pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     let whole = Whole::of(a, scale);
     let bounds = |records: &[Record]| {

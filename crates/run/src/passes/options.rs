@@ -11,13 +11,15 @@ use crate::answer::differences::Shares;
 pub struct RunOptions<'a> {
     /// Measure the error by a run on a mesh twice as fine instead of estimating it.
     pub verify: bool,
-    /// What another run has shown of the mesh that the scene names: then no coarser ones are computed, and no jumps are looked for.
+    /// What another run has shown of the mesh that the scene names: then no coarser ones are
+    /// computed, and no jumps are looked for.
     pub mesh: Option<FixedMesh>,
     /// Called after each pass; it may stop the run.
     pub progress: Progress<'a>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
-    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's are left out.
+    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's
+    /// are left out.
     pub stages: &'a [u64],
 }
 
