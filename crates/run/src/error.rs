@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
+use creepage_tables::TableError;
 use cycle_jump::JumpError;
 use ground_field::GroundError;
 
@@ -29,6 +30,9 @@ pub enum Error {
         "too many passes would have to be simulated; solver.method = \"quasi-static\" simulates every one, at most 1 000 000"
     )]
     Jumps(#[source] JumpError),
+    /// A table, such as one of readings, is wrong.
+    #[error(transparent)]
+    Data(#[from] TableError),
     /// What is computed from many runs, such as a fit to readings, has failed.
     #[error("{error}")]
     Study {
@@ -188,6 +192,7 @@ impl Error {
             Self::Located { error, .. } => error.is_bad_input(),
             Self::Study { is_bad_input, .. } => *is_bad_input,
             Self::Scene(_)
+            | Self::Data(_)
             | Self::Unfit { .. }
             | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })

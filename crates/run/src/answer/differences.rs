@@ -276,3 +276,68 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 fn share(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCALE: Scale = Scale {
+        force: 1.0,
+        movement: 1e-6,
+    };
+
+    /// One pass that leaves 100 N on both ends and in the cable, and some forces on clamps.
+    fn pass(restraints: &[f64], change: impl Fn(&mut PassOutcome)) -> [Record; 1] {
+        let mut outcome = PassOutcome::default();
+        for ends in [&mut outcome.force, &mut outcome.peak, &mut outcome.lowest] {
+            (ends.upstream, ends.downstream) = (100.0, 100.0);
+        }
+        outcome.max_compression = 100.0;
+        outcome.restraints = restraints.to_vec();
+        change(&mut outcome);
+        [Record {
+            pass: 1,
+            outcome,
+            interpolated: false,
+        }]
+    }
+
+    #[test]
+    fn forces_during_a_pass_count_relative_to_the_largest_on_their_end() {
+        let coarse = pass(&[], |outcome| outcome.peak.downstream = 400.0);
+        let fine = pass(&[], |outcome| outcome.peak.downstream = 420.0);
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 20.0 / 400.0);
+        let fine = pass(&[], |outcome| {
+            outcome.peak.downstream = 400.0;
+            outcome.lowest.upstream = 99.0;
+        });
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 1.0 / 100.0);
+    }
+
+    #[test]
+    fn a_force_on_a_clamp_counts_relative_to_the_largest_on_that_clamp() {
+        let coarse = pass(&[500.0, 60.0], |_| {});
+        let of = |first, second| {
+            let difference = difference(&coarse, &pass(&[first, second], |_| {}), SCALE);
+            assert_eq!(
+                difference.force, difference.movement,
+                "a clamp moves with its force"
+            );
+            difference.force
+        };
+        assert_eq!(of(505.0, 60.0), 5.0 / 500.0);
+        assert_eq!(of(500.0, 63.0), 3.0 / 60.0);
+        // Relative to a tenth of the largest of all, if that is more.
+        let coarse = pass(&[500.0, 6.0], |_| {});
+        let fine = pass(&[500.0, 7.0], |_| {});
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 1.0 / 50.0);
+    }
+
+    #[test]
+    fn extremes_count_at_their_place() {
+        let coarse = pass(&[500.0], |outcome| outcome.lowest.upstream = -20.0);
+        let fine = pass(&[500.0], |outcome| outcome.lowest.upstream = -30.0);
+        assert_eq!(extremes_difference(&coarse, &fine, SCALE).force, 10.0 / 100.0);
+        assert_eq!(extremes_difference(&coarse, &coarse, SCALE), Shares::default());
+    }
+}

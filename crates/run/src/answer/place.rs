@@ -199,3 +199,35 @@ impl Run {
         values.fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{CableEnd, Limited, Limits, Place, Scene, run};
+
+    /// The error of the force on an end that bears little is a share of a tenth of the largest force
+    /// of all: limits that are nearer than that are doubtful.
+    #[test]
+    fn a_verdict_on_an_end_that_bears_little_is_doubtful_within_the_error_of_all_forces() {
+        let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml").unwrap();
+        scene.traffic.passes = 5;
+        let mut run = run(&scene).unwrap();
+        run.error_estimate.relative = 0.01;
+        let largest = run.largest(CableEnd::Downstream, Limited::Force);
+        assert_eq!(run.largest(CableEnd::Upstream, Limited::Force), 0.0);
+        let doubtful = |limit: f64| {
+            let verdicts = Limits::both(Some(limit), None).verdicts(&run);
+            let of = |end: Place| {
+                verdicts
+                    .iter()
+                    .find(|verdict| verdict.end == end)
+                    .unwrap()
+                    .doubtful
+            };
+            [of(Place::Upstream), of(Place::Downstream)]
+        };
+        assert_eq!(doubtful(0.000_5 * largest), [true, false]);
+        assert_eq!(doubtful(0.002 * largest), [false, false]);
+        assert_eq!(doubtful(0.995 * largest), [false, true]);
+        assert_eq!(doubtful(1.02 * largest), [false, false]);
+    }
+}
