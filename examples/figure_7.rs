@@ -101,7 +101,7 @@ pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, 
                         .enumerate()
                         .map(|(node, friction)| (place(node), *friction))
                         .collect(),
-                    slip: state.slip_lengths(LIMIT),
+                    slip: state.slip_lengths(&vec![LIMIT; mesh.nodes()]),
                 });
             }
         })?;

@@ -199,10 +199,9 @@ fn a_clamp_is_as_soft_as_the_limit_allows() {
     assert_eq!(design.range_n_per_m, Some((stiffness, None)));
     let clamped = |stiffness: f64| {
         let mut scene = scene.clone();
-        scene.restraints.push(creepage::scene::Restraint {
-            position: 14.0,
-            stiffness,
-        });
+        scene
+            .restraints
+            .push(creepage::scene::Restraint::new(14.0, stiffness));
         largest_force(&creepage::run(&scene).unwrap())
     };
     assert_eq!(clamped(stiffness), answer.force_n);

@@ -49,6 +49,8 @@ mod reading_shapes;
 mod readings;
 #[path = "report.rs"]
 mod report;
+#[path = "route.rs"]
+mod route;
 #[path = "scene/main.rs"]
 mod scene;
 #[path = "scene_page.rs"]

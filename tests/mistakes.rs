@@ -75,6 +75,12 @@ passes = 20 → per_day = 800¶years = 2026 | 0 | 33 | lasts 2026 years | a numb
 passes = 20 → passes = 20¶per_day = 5844000 | 0 | 35 | `traffic.per_day` is 5844000: no road has more than 200000 vehicles a day
 poisson_ratio = 0.4 → poisson_ratio = 40 | 2 | 14 | `ground.layers.1.poisson_ratio` (layer 2): out of range: found 40; allowed: a number from 0 to 0.5 | did you mean 0.4?
 dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 2 | 21 | found 30; allowed: a number from 0 to 10 | did you mean 0.3?
+depth = "1.3 m" → depth = "1.3 m"¶slope = "1 %"¶[[route]]¶slope = "2 %" | 2 | 6 | `duct.slope` | found a slope beside [[route]]; allowed: the slopes of the sections in [[route]]
+[cable] → [[route]]¶length = "10 m"¶[[route]]¶length = "15 m"¶[cable] | 2 | 16 | `route` | found sections of 25 m together; allowed: as long as the duct, 180 m
+[cable] → [[route]]¶slope = "1 %"¶[[route]]¶[cable] | 2 | 16 | `route.0.length` | the last section needs none
+[cable] → [[route]]¶bend_radius = "1 m"¶[cable] | 2 | 17 | `route.0.bend_radius` | allowed: a bend no tighter than the duct is deep, at least 1.3 m
+[cable] → [[route]]¶radius = "10 m"¶[cable] | 2 | 17 | unknown key `route.0.radius` | did you mean `bend_radius`?
+[cable] → [[route]]¶dynamic_coefficient = 0¶[cable] | 2 | 17 | `route.0.dynamic_coefficient` | greater than 0 if that of [friction] is
 [[ground.layers]]  # soil → [[ground.layer]] | 2 | 12 | unknown key `ground.layer` (did you mean `layers`?)
 [[vehicles]] → [[vehicle]] | 2 | 28 | unknown key `vehicle` (did you mean `vehicles`?)
 { spring = "3 MN/m" } → "spring" | 2 | 26 | `ends.downstream`: found "spring"; allowed: "free", "fixed" or { spring = "3 MN/m" }
@@ -261,6 +267,7 @@ shape_factor = "2e7 1/m" → shape_factor = 0 | 2 | 30 | `friction.shape_factor`
 spring = "3 MN/m" → spring = "0 MN/m" | 2 | 33 | `ends.downstream.spring` | : out of range: found "0 MN/m"; allowed: | greater than 0
 position = "20 m" → position = "31 m" | 2 | 35 | `restraints.0.position` | : out of range: found "31 m"; allowed: | a position in the duct, from 0 m to 30 m
 position = "20 m" → position = "-1 m" | 2 | 35 | `restraints.0.position` | : out of range: found "-1 m"; allowed: | a position in the duct, from 0 m to 30 m
+stiffness = "1 MN/m" → stiffness = "1 MN/m"¶holds = "0 N" | 2 | 37 | `restraints.0.holds` | : out of range: found "0 N"; allowed: | a force greater than 0
 stiffness = "1 MN/m" → stiffness = 0 | 2 | 36 | `restraints.0.stiffness` | : out of range: found 0; allowed: | greater than 0
 speed = "36 km/h" → speed = "0 km/h" | 2 | 39 | `vehicles.0.speed` | : out of range: found "0 km/h"; allowed: | a speed greater than 0
 load = "20 tf" → load = "-20 tf" | 2 | 40 | `vehicles.0.load` | : out of range: found "-20 tf"; allowed: | a force of at least 0

@@ -172,6 +172,7 @@ impl SeriesModel {
             method: self.method,
             motions,
             mesh: self.mesh(level)?,
+            start: None,
             stages: &self.stages,
             progress: Progress::default(),
         })

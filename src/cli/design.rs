@@ -75,10 +75,7 @@ impl Places {
             match place {
                 Place::Upstream => scene.ends.upstream = End::Fixed,
                 Place::Downstream => scene.ends.downstream = End::Fixed,
-                Place::Clamp(position) => scene.restraints.push(Restraint {
-                    position,
-                    stiffness: 1.0,
-                }),
+                Place::Clamp(position) => scene.restraints.push(Restraint::new(position, 1.0)),
             }
         }
         scene

@@ -12,7 +12,18 @@ pub fn clamps(out: &mut impl Write, design: &Design, units: &Units) -> std::io::
         let force = Limited::Force.shown_in(units, clamp.force_n);
         let movement = Limited::Movement.shown_in(units, clamp.movement_m);
         let place = Place::Clamp(clamp.position_m);
-        writeln!(out, "{place}: force at most {force}, movement at most {movement}")?;
+        let slipped = clamp.slipped_m.filter(|slipped| *slipped != 0.0);
+        let slipped = slipped.map(|slipped| {
+            format!(
+                ", and it has slipped by {}",
+                Limited::Movement.shown_in(units, slipped)
+            )
+        });
+        let slipped = slipped.unwrap_or_default();
+        writeln!(
+            out,
+            "{place}: force at most {force}, movement at most {movement}{slipped}"
+        )?;
     }
     if !clamps.is_empty() && design.limits.clamps.is_empty() {
         writeln!(

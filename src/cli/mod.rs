@@ -21,6 +21,7 @@ mod report;
 mod run;
 mod shared;
 mod signals;
+mod state;
 mod sweep;
 mod terminal;
 #[cfg(feature = "xlsx")]

@@ -9,6 +9,7 @@ use super::failure::Failure;
 use super::limits::LimitArguments;
 use super::progress::watched;
 use super::shared::{Input, OutputArguments, TrafficArguments};
+use super::state::{self, StateArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
@@ -30,6 +31,8 @@ Examples:
   creepage run my-duct.toml --csv forces.csv --verify
   creepage run my-duct.toml --xlsx forces.xlsx
   creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm
+  creepage run my-duct.toml --years 10 --save-state after-10-years.json
+  creepage run my-duct.toml --from-state after-10-years.json --years 5 --trucks-per-day 2000
   creepage run my-duct.toml --limit-force \"20 m=3kN\"   # of the clamp at 20 m; clamp=3kN for all clamps"
 )]
 pub struct Arguments {
@@ -40,6 +43,8 @@ pub struct Arguments {
     verify: bool,
     #[command(flatten)]
     limits: LimitArguments,
+    #[command(flatten)]
+    state: StateArguments,
     #[cfg(feature = "xlsx")]
     #[command(flatten)]
     workbook: WorkbookArguments,
@@ -78,9 +83,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
     let table = input.table();
-    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
+    let read = [
+        Some(&*arguments.scene.file.scene),
+        table.as_deref(),
+        arguments.state.read(),
+    ];
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(&mut files)?;
+    let (start, saved) = (arguments.state.start()?, arguments.state.destination(&mut files)?);
     #[cfg(feature = "xlsx")]
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());
@@ -88,6 +98,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let answer = watched(1.0, words, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
+            start: start.as_ref(),
             progress,
             ..RunOptions::default()
         };
@@ -98,6 +109,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "xlsx")]
     let file = input.file().clone();
     input.warn(&mut answer.warnings);
+    if let Some(saved) = &saved {
+        state::write(saved, &answer)?;
+    }
     let judgement = arguments
         .limits
         .are_given()
@@ -167,6 +181,9 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
     let (force, metres) = (|value| units.force(value), units.length.symbol());
     let length = |value| units.length.of_si(value);
     heading(&mut out, &run.title, &run.duct_motion)?;
+    if let Some(start) = &run.start {
+        writeln!(out, "begins with the cable after {} passes", start.passes)?;
+    }
     let a_day = run.heat.as_ref().map(|heat| heat.passes_per_day);
     table(&mut out, &run.passes, scene, (a_day, run.random.is_some()), units)?;
     if let Some(heat) = &run.heat {
@@ -227,6 +244,10 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
             units.movement(largest(Limited::Movement)),
             units.movement.symbol()
         )?;
+        if let Some(slipped) = restraint.slipped_m {
+            let (slipped, symbol) = (units.movement(slipped), units.movement.symbol());
+            writeln!(out, "    it has slipped by {slipped} {symbol}")?;
+        }
     }
     if let Some(slip) = &run.slip_lengths {
         writeln!(

@@ -135,6 +135,6 @@ fn hold(place: Place, scene: &mut Scene, stiffness: f64) {
         Place::Upstream => scene.ends.upstream = end,
         Place::Downstream => scene.ends.downstream = end,
         Place::Clamp(_) if stiffness == 0.0 => {}
-        Place::Clamp(position) => scene.restraints.push(Restraint { position, stiffness }),
+        Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
     }
 }

@@ -29,6 +29,9 @@ pub struct ClampPeak {
     pub force_n: f64,
     /// Largest displacement of the cable there \[m\].
     pub movement_m: f64,
+    /// How far a clamp that slips has slipped in the end \[m\], positive toward growing x; none if it never slips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slipped_m: Option<f64>,
 }
 
 /// A scene's answer with one stiffness, or with two.
@@ -138,7 +141,7 @@ pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = (Place, Limited, f6
 }
 
 finite::numbers! {
-    ClampPeak: position_m force_n movement_m;
+    ClampPeak: position_m force_n movement_m slipped_m;
     TradeOff: stiffness_n_per_m force_n movement_m upstream_force_n downstream_force_n upstream_movement_m downstream_movement_m
         clamp_force_n clamps error_estimate;
 }
@@ -203,6 +206,7 @@ impl TradeOff {
                 position_m: clamp.position_m,
                 force_n: run.largest(place, Limited::Force),
                 movement_m: run.largest(place, Limited::Movement),
+                slipped_m: clamp.slipped_m,
             }
         });
         let mut point = Self {

@@ -91,7 +91,7 @@ fn limits(html: &mut Html, report: &Report) {
         "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does; the scene has no [heat])"
     };
     html.paragraph(&format!(
-        "{heat}, bends and changes of slope of the route, vehicles near the speed of the ground’s waves, and any change of the ground with \
+        "{heat}, vehicles near the speed of the ground’s waves, and any change of the ground with \
          time."
     ));
     html.paragraph(

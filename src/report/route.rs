@@ -46,6 +46,7 @@ pub fn route(report: &Report) -> (String, String) {
     end(&mut drawing, scene.ends.upstream, (LEFT, DEEP), -1.0);
     end(&mut drawing, scene.ends.downstream, (RIGHT, DEEP), 1.0);
     draw_clamps(&mut drawing, scene);
+    draw_sections(&mut drawing, report);
 
     drawing.line(&level(AXIS), Ink::Dark, 1.2);
     let unit = shown.units.length;
@@ -74,7 +75,9 @@ fn caption(report: &Report) -> String {
     let Report { scene, shown, .. } = report;
     let slope = scene.duct.slope;
     let way = if slope > 0.0 { "rises" } else { "falls" };
-    let slope = if slope == 0.0 {
+    let slope = if !scene.route.is_empty() {
+        "Below the road the sections of the route: how they slope, and arcs where they bend.".to_owned()
+    } else if slope == 0.0 {
         "The duct is level.".to_owned()
     } else {
         let percent = significant(100.0 * slope.abs());
@@ -138,6 +141,43 @@ fn held(end: End, shown: &Shown) -> String {
     }
 }
 
+/// Borders between sections, with their slopes, and arcs where the duct bends.
+fn draw_sections(drawing: &mut Drawing, report: &Report) {
+    let Report { scene, shown, .. } = report;
+    let place = |x: f64| LEFT + (RIGHT - LEFT) * x / scene.duct.length;
+    let mut begin = 0.0;
+    for section in &scene.route {
+        let end = begin + section.length.unwrap_or(0.0);
+        let (from, to) = (place(begin), place(end));
+        if begin > 0.0 {
+            drawing.line(&[(from, ROAD), (from, AXIS - 6.0)], Ink::Grey, 0.8);
+        }
+        let mut words = Vec::new();
+        if section.slope != 0.0 {
+            words.push(format!("{} %", significant(100.0 * section.slope)));
+        }
+        if let Some(radius) = section.bend_radius {
+            let arc = |k: i32| {
+                let share = 0.1 * f64::from(k);
+                (
+                    from + share * (to - from),
+                    DEEP - DUCT - 4.0 - 20.0 * share * (1.0 - share),
+                )
+            };
+            drawing.line(&(0..=10).map(arc).collect::<Vec<_>>(), Ink::Series(0), 1.2);
+            words.push(format!("R {}", shown.length(radius)));
+        }
+        if to - from > 40.0 {
+            drawing.text(
+                &words.join(", "),
+                (0.5 * (from + to), DEEP + 20.0),
+                Anchor::Middle,
+            );
+        }
+        begin = end;
+    }
+}
+
 /// Clamps on the cable, numbered if there are several.
 fn draw_clamps(drawing: &mut Drawing, scene: &Scene) {
     for (k, clamp) in scene.restraints.iter().enumerate() {
@@ -161,7 +201,10 @@ fn clamps(report: &Report) -> Vec<String> {
         let number = format!("{}: ", k + 1);
         let number = words_if(clamps.len() > 1, &number);
         let (stiff, place) = (shown.stiffness(clamp.stiffness), shown.length(clamp.position));
-        format!("{number}clamp of {stiff} at {place}")
+        let holds = clamp
+            .holds
+            .map(|holds| format!(", slips above {}", shown.force(holds)));
+        format!("{number}clamp of {stiff} at {place}{}", holds.unwrap_or_default())
     };
     let mut names: Vec<String> = clamps.iter().take(MOST).enumerate().map(name).collect();
     if clamps.len() > MOST {

@@ -35,9 +35,13 @@ pub fn scene(report: &Report) -> Vec<String> {
         friction(report),
         ends,
     ];
+    points.extend(route(report));
     points.extend(scene.restraints.iter().map(|clamp| {
         let (stiff, place) = (shown.stiffness(clamp.stiffness), shown.length(clamp.position));
-        format!("Clamp of {stiff} at {place}.")
+        let holds = clamp
+            .holds
+            .map(|holds| format!(", which slips above {}", shown.force(holds)));
+        format!("Clamp of {stiff} at {place}{}.", holds.unwrap_or_default())
     }));
     points.push(traffic(scene));
     points
@@ -56,6 +60,43 @@ fn slope(report: &Report) -> String {
         significant(100.0 * slope.abs()),
         shown.weight(scene.body_force().abs())
     )
+}
+
+/// The sections of the duct, and what its bends do.
+fn route(report: &Report) -> Vec<String> {
+    let Report {
+        scene, shown, run, ..
+    } = report;
+    let largest = run
+        .passes
+        .iter()
+        .map(|pass| pass.max_compression_n.abs())
+        .fold(0.0, f64::max);
+    let mut begin = 0.0;
+    let sections = scene.route.iter().map(|section| {
+        let end = begin + section.length.unwrap_or(0.0);
+        let mut words = format!("Section from {} to {}:", shown.length(begin), shown.length(end));
+        begin = end;
+        let way = if section.slope > 0.0 { "rises" } else { "falls" };
+        words += &match section.slope {
+            0.0 => " level".to_owned(),
+            slope => format!(" {way} by {} %", significant(100.0 * slope.abs())),
+        };
+        if let Some(radius) = section.bend_radius {
+            let anchors = scene.cable.weight * radius;
+            let effect = if largest > anchors {
+                "the cable’s force presses it sideways with more than its weight, so that the bend anchors it"
+            } else {
+                "the cable’s force presses it sideways with less than its weight, which adds a few per cent"
+            };
+            words += &format!(", bend of {} radius: {effect}", shown.length(radius));
+        }
+        if let Some(friction) = section.dynamic_coefficient {
+            words += &format!(", friction {}", significant(friction));
+        }
+        words + "."
+    });
+    sections.collect()
 }
 
 fn cable(report: &Report) -> String {

@@ -61,7 +61,7 @@ pub fn held(scene: &Scene, springs: &[(Place, f64)]) -> Run {
             Place::Upstream => scene.ends.upstream = end,
             Place::Downstream => scene.ends.downstream = end,
             Place::Clamp(position) if stiffness > 0.0 => {
-                scene.restraints.push(Restraint { position, stiffness });
+                scene.restraints.push(Restraint::new(position, stiffness));
             }
             Place::Clamp(_) => {}
         }

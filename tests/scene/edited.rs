@@ -4,7 +4,7 @@ use creepage::Readings;
 use creepage::calibration::{Quantity, Unknown};
 use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{
-    Arrangement, Duct, End, Following, Law, Layer, Restraint, Scene, SceneError, SolverMethod,
+    Arrangement, Duct, End, Following, Law, Layer, Restraint, RouteSection, Scene, SceneError, SolverMethod,
     TrafficVehicle, Wheel,
 };
 use creepage::{CalibrateOptions, Error, Progress, SceneFile};
@@ -94,7 +94,7 @@ fn every_part_of_a_scene_has_its_ranges() {
     assert_refused("ends.downstream.spring", |scene| {
         scene.ends.downstream = End::Spring(-1.0);
     });
-    let clamp = |position, stiffness| Restraint { position, stiffness };
+    let clamp = |position, stiffness| Restraint::new(position, stiffness);
     assert_refused("restraints.0.position", |scene| {
         scene.restraints.push(clamp(31.0, 1e6));
     });
@@ -271,6 +271,21 @@ fn numbers() -> impl Strategy<Value = f64> {
     ]
 }
 
+/// A section of a route: length, slope, radius of a bend and friction.
+fn section(
+    length: Option<f64>,
+    slope: f64,
+    bend_radius: Option<f64>,
+    dynamic_coefficient: Option<f64>,
+) -> RouteSection {
+    RouteSection {
+        length,
+        slope,
+        bend_radius,
+        dynamic_coefficient,
+    }
+}
+
 /// Changes one number of the scene.
 fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
     let layer = &mut scene.ground.layers[0];
@@ -290,14 +305,8 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         12 => (scene.friction.law, scene.friction.shape_factor) = (Law::Sigmoid, Some(1e7 * value)),
         13 => scene.ends.upstream = End::Spring(1e6 * value),
         14 => scene.ends.downstream = End::Spring(value),
-        15 => scene.restraints.push(Restraint {
-            position: value,
-            stiffness: 1e6,
-        }),
-        16 => scene.restraints.push(Restraint {
-            position: 3.0,
-            stiffness: value,
-        }),
+        15 => scene.restraints.push(Restraint::new(value, 1e6)),
+        16 => scene.restraints.push(Restraint::new(3.0, value)),
         17 => scene.vehicles[0].share = value,
         18 => scene.vehicles.clear(),
         19 => {
@@ -325,6 +334,15 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         32 => scene.duct.inner_diameter = Some(value),
         33 => scene.cable.diameter = Some(0.067),
         34 => scene.cable.arrangement = Arrangement::CradledMiddle,
+        35 => scene.restraints.push(Restraint::new(3.0, 1e6).that_holds(value)),
+        36 => scene.route = vec![section(None, 0.01 * value, Some(10.0), None)],
+        37 => {
+            scene.route = vec![
+                section(Some(value), 0.0, None, None),
+                section(None, 0.0, Some(value), None),
+            ]
+        }
+        38 => scene.route = vec![section(None, 0.0, None, Some(value))],
         _ => {
             scene.duct = Duct {
                 length: value,
@@ -356,7 +374,7 @@ proptest! {
 
     #[test]
     fn no_edit_of_a_scene_panics(
-        edits in prop::collection::vec((0usize..36, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
+        edits in prop::collection::vec((0usize..39, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
     ) {
         let mut scene = example();
         scene.traffic.passes = 2;

@@ -143,10 +143,7 @@ fn every_key_is_read() {
         (scene.ends.upstream, scene.ends.downstream),
         (End::Free, End::Spring(3e6))
     );
-    let clamp = Restraint {
-        position: 20.0,
-        stiffness: 1e6,
-    };
+    let clamp = Restraint::new(20.0, 1e6);
     assert_eq!(scene.restraints, [clamp]);
     let [truck, van] = &scene.vehicles[..] else {
         panic!("two vehicles")

@@ -1,8 +1,8 @@
 //! A scene that is written to a file and read again is the same scene.
 
 use creepage::scene::{
-    Duct, End, Following, GroundModel, Law, Layer, Restraint, Scene, Solver, SolverMethod, TrafficVehicle,
-    Wheel,
+    Duct, End, Following, GroundModel, Law, Layer, Restraint, RouteSection, Scene, Solver, SolverMethod,
+    TrafficVehicle, Wheel,
 };
 use ground_field::{Direction, Modulus};
 use proptest::collection::vec;
@@ -164,14 +164,37 @@ fn scene() -> impl Strategy<Value = Scene> {
                     (numbers.0, numbers.1, Some(numbers.2));
                 (scene.friction.dynamic_coefficient, scene.traffic.passes) = (numbers.3, numbers.4);
                 (scene.ends.upstream, scene.ends.downstream) = (upstream, downstream);
-                let restraint = |(share, stiffness)| Restraint {
-                    position: share * length,
-                    stiffness,
-                };
+                let restraint = |(share, stiffness)| Restraint::new(share * length, stiffness);
                 scene.restraints = clamps.into_iter().map(restraint).collect();
                 // A cable that nothing holds may slide out of its duct.
                 if (upstream, downstream) != (End::Free, End::Free) {
                     scene.duct.slope = 0.1 * lateral_offset;
+                }
+                // Here and there a clamp that slips, and a route in the place of a slope.
+                let has_friction = scene.friction.dynamic_coefficient > 0.0;
+                if let Some(clamp) = scene.restraints.first_mut().filter(|_| has_friction) {
+                    clamp.holds = Some(1e3 * numbers.2);
+                }
+                if lateral_offset > 0.0 {
+                    let slope = std::mem::take(&mut scene.duct.slope);
+                    let rougher = Some(1.5 * scene.friction.dynamic_coefficient);
+                    scene.route = vec![
+                        RouteSection {
+                            length: Some(0.3 * length),
+                            slope,
+                            ..RouteSection::default()
+                        },
+                        RouteSection {
+                            length: Some(0.5 * length),
+                            bend_radius: Some(7.0 * depth),
+                            ..RouteSection::default()
+                        },
+                        RouteSection {
+                            length: Some(length - 0.3 * length - 0.5 * length),
+                            dynamic_coefficient: rougher,
+                            ..RouteSection::default()
+                        },
+                    ];
                 }
                 scene.vehicles = vec![vehicles.0, vehicles.1, vehicles.2];
                 let traffic = &mut scene.traffic;

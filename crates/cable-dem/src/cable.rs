@@ -1,6 +1,7 @@
 //! The cable in its duct: length, stiffness, friction, and what holds it.
 
 use crate::error::checked;
+use crate::section::{self, Section};
 use crate::{CableError, Friction, Mesh};
 
 /// What holds an end of the cable.
@@ -26,16 +27,36 @@ impl End {
     }
 }
 
-/// A clamp somewhere along the duct: a spring between cable and ground.
+/// A clamp somewhere along the duct: a spring between cable and ground, which may slip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Restraint {
     /// Position along the duct \[m\].
     pub position: f64,
     /// Stiffness \[N/m\].
     pub stiffness: f64,
+    /// Force above which it slips \[N\]; none if it never does.
+    pub holds: Option<f64>,
 }
 
 impl Restraint {
+    /// A clamp at `position` \[m\] with a `stiffness` \[N/m\] that never slips.
+    pub fn new(position: f64, stiffness: f64) -> Self {
+        Self {
+            position,
+            stiffness,
+            holds: None,
+        }
+    }
+
+    /// The same that slips above the force `holds` \[N\].
+    #[must_use]
+    pub fn that_holds(self, holds: f64) -> Self {
+        Self {
+            holds: Some(holds),
+            ..self
+        }
+    }
+
     /// The clamp as springs \[N/m\] on the two nodes around it, by the lever rule.
     pub(crate) fn by_node(&self, mesh: &Mesh) -> [(usize, f64); 2] {
         let (left, share) = mesh.place(self.position);
@@ -46,13 +67,14 @@ impl Restraint {
     }
 }
 
-/// A straight cable in a duct from x = 0 (upstream) to x = length (downstream).
+/// A cable in a duct from x = 0 (upstream) to x = length (downstream), level and straight unless its
+/// [sections](Section) say otherwise.
 ///
 /// ```
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Restraint};
 ///
 /// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
-/// let clamp = Restraint { position: 12.0, stiffness: 1e6 };
+/// let clamp = Restraint::new(12.0, 1e6).that_holds(2e3);
 /// let cable = DuctedCable::new(30.0, 8.01e6, friction)?
 ///     .with_ends(End::Spring(5e6), End::Fixed)?
 ///     .with_restraints(vec![clamp])?;
@@ -67,7 +89,10 @@ pub struct DuctedCable {
     upstream: End,
     downstream: End,
     restraints: Vec<Restraint>,
-    body_force: f64,
+    /// Where the ends stand that are fixed, and where the springs of others bear nothing \[m\].
+    end_positions: [f64; 2],
+    /// At least one, from x = 0 on; neighbours differ.
+    sections: Vec<Section>,
 }
 
 impl DuctedCable {
@@ -79,13 +104,14 @@ impl DuctedCable {
     pub fn new(length: f64, axial_stiffness: f64, friction: Friction) -> Result<Self, CableError> {
         let allowed = "finite and positive";
         Ok(Self {
+            sections: vec![Section::new(length, friction.limit())],
             length: checked("length", length, allowed, |v| v > 0.0)?,
             axial_stiffness: checked("axial_stiffness", axial_stiffness, allowed, |v| v > 0.0)?,
             friction,
             upstream: End::Free,
             downstream: End::Free,
             restraints: Vec::new(),
-            body_force: 0.0,
+            end_positions: [0.0; 2],
         })
     }
 
@@ -106,11 +132,26 @@ impl DuctedCable {
         Ok(self)
     }
 
+    /// The same cable whose upstream and downstream ends are held where they are displaced by `positions` \[m\]: there a fixed one
+    /// stands, and a spring bears nothing. It is what holds a cable that has crept before it was held.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless they are finite.
+    pub fn with_end_positions(mut self, positions: [f64; 2]) -> Result<Self, CableError> {
+        for position in positions {
+            checked("position of an end", position, "finite", |_| true)?;
+        }
+        self.end_positions = positions;
+        Ok(self)
+    }
+
     /// The same cable with clamps along it.
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless positions lie on the duct and stiffnesses are finite and not negative.
+    /// [`CableError::InvalidParameter`] unless positions lie on the duct, stiffnesses are finite and not negative and holding forces
+    /// finite and positive.
     pub fn with_restraints(mut self, restraints: Vec<Restraint>) -> Result<Self, CableError> {
         for restraint in &restraints {
             checked("restraint position", restraint.position, "on the duct", |v| {
@@ -122,6 +163,9 @@ impl DuctedCable {
                 "finite and not negative",
                 |v| v >= 0.0,
             )?;
+            if let Some(holds) = restraint.holds {
+                checked("holding force", holds, "finite and positive", |v| v > 0.0)?;
+            }
         }
         self.restraints = restraints;
         Ok(self)
@@ -134,7 +178,35 @@ impl DuctedCable {
     ///
     /// [`CableError::InvalidParameter`] unless it is finite.
     pub fn with_body_force(mut self, body_force: f64) -> Result<Self, CableError> {
-        self.body_force = checked("body_force", body_force, "finite", |_| true)?;
+        checked("body_force", body_force, "finite", |_| true)?;
+        for section in &mut self.sections {
+            section.body_force = body_force;
+        }
+        Ok(self)
+    }
+
+    /// The same cable in a duct of these `sections`, one after the other from x = 0 on. The slope of the friction law is
+    /// everywhere that of the cable's own friction, q b/2: it is the sheath's, and not the surface's.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless they are as long as the cable together and their values are finite, lengths and limits
+    /// positive and bends not negative; the limit of a cable without friction is 0 everywhere.
+    pub fn with_sections(mut self, sections: &[Section]) -> Result<Self, CableError> {
+        for section in sections {
+            section.check(self.friction.limit())?;
+        }
+        let length: f64 = sections.iter().map(|section| section.length).sum();
+        checked("length of all sections", length, "the cable's length", |v| {
+            (v / self.length - 1.0).abs() < 1e-9
+        })?;
+        self.sections.clear();
+        for section in sections {
+            match self.sections.last_mut() {
+                Some(last) if last.is_like(section) => last.length += section.length,
+                _ => self.sections.push(*section),
+            }
+        }
         Ok(self)
     }
 
@@ -154,7 +226,11 @@ impl DuctedCable {
         for restraint in &mut mirrored.restraints {
             restraint.position = self.length - restraint.position;
         }
-        mirrored.body_force = -self.body_force;
+        mirrored.end_positions = [-self.end_positions[1], -self.end_positions[0]];
+        mirrored.sections.reverse();
+        for section in &mut mirrored.sections {
+            section.body_force = -section.body_force;
+        }
         mirrored
     }
 
@@ -188,18 +264,43 @@ impl DuctedCable {
         &self.restraints
     }
 
-    /// Force p along the duct on every metre of the cable \[N/m\].
-    pub fn body_force(&self) -> f64 {
-        self.body_force
+    /// Displacements at which its ends are held \[m\], upstream and downstream.
+    pub fn end_positions(&self) -> [f64; 2] {
+        self.end_positions
     }
 
-    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, and the `thermal_force` \[N\],
-    /// which pushes the two ends apart and nothing between them.
+    /// The sections of the duct from x = 0 on; equal neighbours are one.
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// The smallest friction limit of a cable without force \[N/m\].
+    pub(crate) fn least_limit(&self) -> f64 {
+        let limits = self.sections.iter().map(|section| section.limit);
+        limits.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The sections on which `node` of `mesh` lies, each with its length there \[m\].
+    pub(crate) fn parts(&self, mesh: &Mesh, node: usize) -> Vec<(f64, Section)> {
+        section::parts(&self.sections, mesh, node)
+    }
+
+    /// The force along the duct on the nodes of `mesh` \[N\].
+    pub(crate) fn body_loads(&self, mesh: &Mesh) -> Vec<f64> {
+        let body = |node| {
+            let parts = self.parts(mesh, node).into_iter();
+            parts.map(|(length, section)| section.body_force * length).sum()
+        };
+        (0..mesh.nodes()).map(body).collect()
+    }
+
+    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, springs of ends that are held elsewhere than as laid, and the
+    /// `thermal_force` \[N\], which pushes the two ends apart and nothing between them.
     pub(crate) fn loads(&self, mesh: &Mesh, thermal_force: f64) -> Vec<f64> {
-        let body = |node| self.body_force * mesh.tributary_length(node);
-        let mut loads: Vec<f64> = (0..mesh.nodes()).map(body).collect();
-        loads[0] -= thermal_force;
-        loads[mesh.elements()] += thermal_force;
+        let mut loads = self.body_loads(mesh);
+        let pull = |end: End, position: f64| end.stiffness().map_or(0.0, |spring| spring * position);
+        loads[0] += pull(self.upstream, self.end_positions[0]) - thermal_force;
+        loads[mesh.elements()] += pull(self.downstream, self.end_positions[1]) + thermal_force;
         loads
     }
 

@@ -39,6 +39,10 @@ pub(crate) struct EndReader {
     /// s/(s + c) of a spring that clamps share its node with, 1 of a fixed end, 0 of a free one;
     /// upstream and downstream.
     shares: [f64; 2],
+    /// Stiffness of a spring whose node a clamp that slips is on too \[N/m\]: its displacement is what it reads.
+    springs: [Option<f64>; 2],
+    /// Where it bears nothing \[m\].
+    positions: [f64; 2],
     /// Body force on either end node \[N\].
     body: [f64; 2],
 }
@@ -47,7 +51,7 @@ impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
         let supports = Support::of(cable, mesh);
-        let body = cable.loads(mesh, 0.0);
+        let body = cable.body_loads(mesh);
         let share = |node: usize, end: End| {
             let on_node = supports.iter().filter(|support| support.node == node);
             let all: f64 = on_node.filter_map(|support| support.stiffness).sum();
@@ -57,7 +61,15 @@ impl EndReader {
                 None => 1.0,
             }
         };
+        let spring = |node: usize, end: End| {
+            let slips = supports
+                .iter()
+                .any(|support| support.node == node && support.slips);
+            end.stiffness().filter(|stiffness| slips && *stiffness > 0.0)
+        };
         Self {
+            springs: [spring(0, cable.upstream()), spring(last, cable.downstream())],
+            positions: cable.end_positions(),
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             tributary: mesh.tributary_length(0),
             last,
@@ -76,6 +88,9 @@ impl EndReader {
         let force = |side: usize, node: usize, inner: usize, outward: f64| {
             if self.shares[side] == 0.0 {
                 return 0.0;
+            }
+            if let Some(spring) = self.springs[side] {
+                return outward * spring * (displacement(node) - self.positions[side]);
             }
             let chain = self.stiffness * (displacement(inner) - displacement(node));
             let inward = chain + self.tributary * friction(node) + self.body[side];

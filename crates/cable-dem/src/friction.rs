@@ -138,14 +138,25 @@ impl Friction {
     ///
     /// Coulomb's law leaves friction undetermined while stuck; without slip it stays as it was.
     pub fn after_slip(self, friction: f64, slip: f64) -> f64 {
-        let q = self.limit;
+        self.after_slip_within(friction, slip, self.limit)
+    }
+
+    /// The same where another `limit` \[N/m\] holds: the slope q b/2 stays.
+    pub(crate) fn after_slip_within(self, friction: f64, slip: f64, limit: f64) -> f64 {
         match self.law {
-            FrictionLaw::Coulomb if slip == 0.0 => friction.clamp(-q, q),
-            FrictionLaw::Coulomb => q.copysign(slip),
+            FrictionLaw::Coulomb if slip == 0.0 => friction.clamp(-limit, limit),
+            FrictionLaw::Coulomb => limit.copysign(slip),
             FrictionLaw::ElasticPlastic { shape_factor } => {
-                (friction + 0.5 * q * shape_factor * slip).clamp(-q, q)
+                (friction + 0.5 * self.limit * shape_factor * slip).clamp(-limit, limit)
             }
-            FrictionLaw::Sigmoid { shape_factor } => q * (0.5 * shape_factor * slip).tanh(),
+            FrictionLaw::Sigmoid { shape_factor } => {
+                let steepness = if limit == self.limit {
+                    1.0
+                } else {
+                    self.limit / limit
+                };
+                limit * (0.5 * shape_factor * steepness * slip).tanh()
+            }
         }
     }
 }

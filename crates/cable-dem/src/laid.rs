@@ -2,7 +2,7 @@
 
 use crate::step::{Chain, Stretch, largest};
 use crate::tridiagonal::{self, Row};
-use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable};
+use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable, Section};
 
 /// `cable` on `mesh` as laid: in a level duct without displacement or friction, under a body force p at rest after one step from there,
 ///
@@ -24,17 +24,24 @@ use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable
 ///
 /// # Errors
 ///
-/// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NothingHolds`] where |p| ≥ q and no end and
+/// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NothingHolds`] where p over the whole duct is no less than q and no end and
 /// no clamp holds the cable, [`CableError::NoConvergence`] where no equilibrium is found.
 pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> {
+    let cable = &cable.clone().with_end_positions([0.0; 2])?;
     let mut state = CableState::at_rest(mesh);
-    let (body_force, limit) = (cable.body_force(), cable.friction().limit());
-    if body_force == 0.0 {
+    let (sections, limit) = (cable.sections(), cable.friction().limit());
+    if sections.iter().all(|section| section.body_force == 0.0) {
         return Ok(state);
     }
     mesh.check_length(cable.length())?;
     let chain = Chain::new(cable, mesh);
-    if !chain.is_held && body_force.abs() >= limit {
+    let mean = |of: fn(&Section) -> f64| {
+        let whole: f64 = sections.iter().map(|section| of(section) * section.length).sum();
+        whole / cable.length()
+    };
+    let (body_force, limit_of_all) = (mean(|section| section.body_force), mean(|section| section.limit));
+    if !chain.is_held && body_force.abs() >= limit_of_all {
+        let limit = limit_of_all;
         return Err(CableError::NothingHolds { body_force, limit });
     }
     let elastic = if chain.is_held {
@@ -47,12 +54,16 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         return Ok(state);
     }
     // It moves no farther than what friction does not hold can stretch it, and its sheath shears.
-    let unheld = (1.0 - limit / body_force.abs()).max(0.0);
+    let unheld = |section: &Section| (1.0 - section.limit / section.body_force.abs()).max(0.0);
+    let unheld = sections.iter().map(unheld).fold(0.0, f64::max);
     let farthest = unheld * largest(&elastic, 0.0) + cable.friction().compliance() * limit;
     RestingCable::with_memory(cable, mesh).follow(&mut state, None, 0.0, farthest)?;
     if cable.friction().law() == FrictionLaw::Coulomb {
         // Between a fixed end and its neighbour nothing slips, and friction holds as everywhere else.
         for node in (0..mesh.nodes()).filter(|node| !chain.free.nodes().contains(node)) {
+            let Section {
+                body_force, limit, ..
+            } = sections[if node == 0 { 0 } else { sections.len() - 1 }];
             state.friction[node] = (-body_force).clamp(-limit, limit);
         }
     }

@@ -5,6 +5,10 @@ use crate::step::{Chain, FixedEndFriction, Load, StepSolver, Stretch, largest};
 use crate::tridiagonal::{self, Row};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
+/// Change of a friction limit in a bend, as a share of it, with which a step has found its force; and rounds until then at most.
+const PRESSED: f64 = 1e-7;
+const MAX_ROUNDS: usize = 100;
+
 /// One cable on one mesh, at rest in a duct at rest.
 ///
 /// Where it rests friction balances the chain's force at every node,
@@ -25,7 +29,7 @@ use crate::{CableError, CableState, DuctedCable, Mesh};
 /// let displacement: Vec<f64> = (0..mesh.nodes()).map(|i| 1e-4 * (1.0 - 0.1 * mesh.spacing() * i as f64)).collect();
 /// let mut state = CableState::from_parts(&mesh, displacement, vec![0.0; mesh.nodes()])?;
 /// resting.settle(&mut state)?;
-/// assert!(state.friction_needed(&cable)? < 27.2 * 1.000001);
+/// assert!(state.friction_share(&cable)? < 1.000001);
 /// # Ok::<(), cable_dem::CableError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -35,7 +39,8 @@ pub struct RestingCable {
     held: FixedEndFriction,
     anchor: Vec<f64>,
     nothing: Vec<f64>,
-    /// Body force w p of every node, and what heat does to the ends \[N\].
+    /// Body force w p of every node \[N\]; and with what heat does to the ends.
+    body: Vec<f64>,
     load: Vec<f64>,
     mesh: Mesh,
     /// Storage of [`Self::diffuse`].
@@ -66,6 +71,7 @@ impl RestingCable {
             held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
+            body: cable.loads(mesh, 0.0),
             load: cable.loads(mesh, 0.0),
             mesh: *mesh,
             factor: zeros(),
@@ -87,6 +93,43 @@ impl RestingCable {
     /// Length of cable \[m\] that belongs to `node`.
     pub fn tributary(&self, node: usize) -> f64 {
         self.step.chain.nodes[node].tributary
+    }
+
+    /// Friction limit of `node` \[N/m\] under the force that the cable had in its last step.
+    pub fn limit(&self, node: usize) -> f64 {
+        self.step.chain.nodes[node].limit
+    }
+
+    /// Takes clamps that slip and have slid from `before` to `after` as ones that bear a force and are no springs, and the others as
+    /// springs: what the cable answers to a small change then.
+    pub fn release(&mut self, before: &CableState, after: &CableState) {
+        self.step.chain.release(before, after);
+    }
+
+    /// The cable of `state` with its nodes displaced by `displacement` \[m\] and clamps that slide ([`RestingCable::release`]) taken along;
+    /// not yet at rest.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::from_parts`].
+    pub fn moved(&self, state: &CableState, displacement: Vec<f64>) -> Result<CableState, CableError> {
+        let friction = state.friction.clone();
+        let mut moved = CableState::from_parts(&self.mesh, displacement, friction)?;
+        moved.thermal_force = state.thermal_force;
+        moved.clamp_slips.clone_from(&state.clamp_slips);
+        for grip in &self.step.chain.grips {
+            let advance = moved.displacement[grip.node] - state.displacement[grip.node];
+            grip.follow(advance, &mut moved);
+        }
+        Ok(moved)
+    }
+
+    /// Lets the clamps of `state` that slide ([`RestingCable::release`]) slip until they bear these `forces` \[N\], in the order of
+    /// [`DuctedCable::restraints`].
+    pub fn bear(&self, state: &mut CableState, forces: &[f64]) {
+        for grip in &self.step.chain.grips {
+            grip.bear_in(state, forces, self.cable.restraints());
+        }
     }
 
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
@@ -148,7 +191,9 @@ impl RestingCable {
     /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
+        self.step.chain.grip(state);
         self.heat(state.thermal_force);
+        self.press(state, state.thermal_force);
         let StepSolver { chain, .. } = &self.step;
         let mut at_rest = true;
         for i in chain.free.nodes() {
@@ -199,12 +244,15 @@ impl RestingCable {
         Ok(())
     }
 
-    /// Heat pushes the two ends apart and nothing between them.
+    /// Heat pushes the two ends apart and nothing between them; clamps that slip bear their part.
     fn heat(&mut self, thermal_force: f64) {
-        let (last, weight) = (self.mesh.elements(), self.cable.body_force());
-        for (node, outward) in [(0, -thermal_force), (last, thermal_force)] {
-            self.load[node] = weight * self.mesh.tributary_length(node) + outward;
-        }
+        set_loads(&mut self.load, &self.body, &self.step.chain, thermal_force);
+    }
+
+    /// Lets the cable in `state` press on the bends of the duct, as warm as it will be: that is the force before anything moves.
+    fn press(&mut self, state: &CableState, thermal_force: f64) {
+        let u = &state.displacement;
+        self.step.chain.press(|i| u[i], thermal_force);
     }
 
     /// One step of the whole cable from `state` to the heat `thermal_force` \[N\], in which the
@@ -217,7 +265,9 @@ impl RestingCable {
         thermal_force: f64,
         movement: f64,
     ) -> Result<f64, CableError> {
+        self.step.chain.grip(state);
         self.heat(thermal_force);
+        self.press(state, thermal_force);
         let duct = duct.unwrap_or(&self.nothing);
         let StepSolver { chain, trial, .. } = &mut self.step;
         let compliance = chain.compliance;
@@ -227,24 +277,45 @@ impl RestingCable {
         }
         trial.r.copy_from_slice(u);
         self.step.start(largest(u, movement));
-        let load = Load {
-            adhesion: &self.nothing,
-            support: &self.load,
-            anchor: &self.anchor,
-        };
-        let solved = self.step.solve(&load, self.step.chain.free);
-        solved.map_err(|violation| CableError::NoConvergence {
-            vehicle_position: f64::INFINITY,
-            violation,
-        })?;
-        let StepSolver { chain, trial, .. } = &self.step;
+        // With the force before it where the duct bends, and then with the force that it leads to; with clamps that stick, and then
+        // with those that slide.
+        let mut changes = f64::INFINITY;
+        let mut rounds = 0;
+        while changes > PRESSED {
+            let load = Load {
+                adhesion: &self.nothing,
+                support: &self.load,
+                anchor: &self.anchor,
+            };
+            let solved = self.step.solve(&load, self.step.chain.free);
+            let violation = solved.err().or((rounds == MAX_ROUNDS).then_some(changes));
+            if let Some(violation) = violation {
+                return Err(CableError::NoConvergence {
+                    vehicle_position: f64::INFINITY,
+                    violation,
+                });
+            }
+            let StepSolver { chain, trial, .. } = &mut self.step;
+            changes = chain.press(|i| trial.r[i], thermal_force);
+            if chain.correct_grips(chain.free, |i| trial.r[i]) {
+                changes = f64::INFINITY;
+                set_loads(&mut self.load, &self.body, chain, thermal_force);
+            }
+            rounds += 1;
+        }
+        let StepSolver { chain, trial, .. } = &mut self.step;
         let mut heat = 0.0;
+        for grip in &mut chain.grips {
+            heat += grip.settle(trial.r[grip.node]);
+            grip.store(state);
+        }
+        let (u, f) = (&mut state.displacement, &mut state.friction);
         for (i, node) in chain.nodes.iter().enumerate() {
             let is_free = chain.free.nodes().contains(&i);
             let after = if is_free {
                 trial.g[i]
             } else {
-                self.held.after_slip(f[i], duct[i])
+                self.held.after_slip(f[i], duct[i], node.limit)
             };
             let slip = duct[i] - (trial.r[i] - u[i]) - compliance * (after - f[i]);
             heat += node.tributary * after * slip;
@@ -253,6 +324,16 @@ impl RestingCable {
         state.thermal_force = thermal_force;
         Ok(heat)
     }
+}
+
+/// Loads on all nodes \[N\]: the `body` force, heat at the ends, and clamps that slip.
+fn set_loads(load: &mut [f64], body: &[f64], chain: &Chain, thermal_force: f64) {
+    let last = load.len() - 1;
+    for grip in &chain.grips {
+        load[grip.node] = body[grip.node];
+    }
+    (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
+    chain.add_grip_loads(load);
 }
 
 #[cfg(test)]

@@ -8,6 +8,9 @@ use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 /// A clamp nearer to a node than this share of the spacing counts as on it.
 const AT_NODE: f64 = 1e-6;
 
+/// Rounding of the force in an element, as a share of the largest.
+const ROUNDING: f64 = 1e-9;
+
 /// Friction within this share of its limit counts as slipping.
 const AT_LIMIT: f64 = 1e-6;
 
@@ -46,6 +49,8 @@ pub struct CableState {
     pub(crate) friction: Vec<f64>,
     /// Θ = EA α T \[N\].
     pub(crate) thermal_force: f64,
+    /// How far each clamp has slipped on the nodes before and after it \[m\], positive toward growing x; those that are missing have not.
+    pub(crate) clamp_slips: Vec<[f64; 2]>,
 }
 
 /// A state as it is stored; checked as it is read.
@@ -57,6 +62,8 @@ struct Stored {
     friction: Vec<f64>,
     #[serde(default)]
     thermal_force: f64,
+    #[serde(default)]
+    clamp_slips: Vec<[f64; 2]>,
 }
 
 #[cfg(feature = "serde")]
@@ -67,6 +74,7 @@ impl From<CableState> for Stored {
             displacement: state.displacement,
             friction: state.friction,
             thermal_force: state.thermal_force,
+            clamp_slips: state.clamp_slips,
         }
     }
 }
@@ -78,7 +86,8 @@ impl TryFrom<Stored> for CableState {
     fn try_from(stored: Stored) -> Result<Self, CableError> {
         let mesh = Mesh::of_elements(stored.displacement.len().saturating_sub(1), stored.node_spacing)?;
         Self::from_parts(&mesh, stored.displacement, stored.friction)?
-            .with_thermal_force(stored.thermal_force)
+            .with_thermal_force(stored.thermal_force)?
+            .with_clamp_slips(stored.clamp_slips)
     }
 }
 
@@ -90,6 +99,7 @@ impl CableState {
             displacement: vec![0.0; mesh.nodes()],
             friction: vec![0.0; mesh.nodes()],
             thermal_force: 0.0,
+            clamp_slips: Vec::new(),
         }
     }
 
@@ -115,6 +125,7 @@ impl CableState {
             displacement,
             friction,
             thermal_force: 0.0,
+            clamp_slips: Vec::new(),
         })
     }
 
@@ -127,6 +138,97 @@ impl CableState {
     pub fn with_thermal_force(mut self, thermal_force: f64) -> Result<Self, CableError> {
         self.thermal_force = checked("thermal_force", thermal_force, "finite", |_| true)?;
         Ok(self)
+    }
+
+    /// The same cable in clamps that have slipped by these lengths on the nodes before and after them \[m\].
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless all are finite.
+    #[cfg(feature = "serde")]
+    fn with_clamp_slips(mut self, slips: Vec<[f64; 2]>) -> Result<Self, CableError> {
+        for &slip in slips.as_flattened() {
+            checked("slip of a clamp", slip, "finite", |_| true)?;
+        }
+        self.clamp_slips = slips;
+        Ok(self)
+    }
+
+    /// The same with this friction on the two end nodes \[N/m\]: at a fixed end it does not follow from the displacements.
+    #[must_use]
+    pub fn with_end_friction(mut self, [upstream, downstream]: [f64; 2]) -> Self {
+        let last = self.mesh.elements();
+        (self.friction[0], self.friction[last]) = (upstream, downstream);
+        self
+    }
+
+    /// The same cable on another `mesh` of the duct, with displacements along cubics through four nodes; a clamp has slipped as far on both
+    /// of its nodes. On its own mesh it is the same to the last bit. Not yet at rest ([`crate::RestingCable::settle`]).
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless the mesh is as long.
+    pub fn on(&self, mesh: &Mesh) -> Result<Self, CableError> {
+        self.mesh.check_length(mesh.length())?;
+        if self.mesh == mesh.nodes_alone() {
+            return Ok(self.clone());
+        }
+        let last = self.mesh.elements();
+        let read = |values: &[f64], node: usize| {
+            let (left, share) = self.mesh.place(mesh.spacing() * node as f64);
+            let first = left.saturating_sub(1).min(last.saturating_sub(3));
+            let at = (left - first) as f64 + share;
+            let nodes = &values[first..=(first + 3).min(last)];
+            let weight = |i: usize| {
+                let others = (0..nodes.len()).filter(|j| *j != i);
+                others
+                    .map(|j| (at - j as f64) / (i as f64 - j as f64))
+                    .product::<f64>()
+            };
+            nodes.iter().enumerate().map(|(i, value)| weight(i) * value).sum()
+        };
+        let all = |values: &[f64]| (0..mesh.nodes()).map(|node| read(values, node)).collect();
+        let mut state = Self::from_parts(mesh, all(&self.displacement), all(&self.friction))?;
+        let ends = [self.friction[0], self.friction[last]];
+        (state.displacement[0], state.displacement[mesh.elements()]) =
+            (self.displacement[0], self.displacement[last]);
+        state = state
+            .with_end_friction(ends)
+            .with_thermal_force(self.thermal_force)?;
+        state.clamp_slips = self
+            .clamp_slips
+            .iter()
+            .map(|[before, after]| [0.5 * (before + after); 2])
+            .collect();
+        Ok(state)
+    }
+
+    /// The same with this slip of each clamp of a cable \[m\], on both of its nodes.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless all are finite.
+    pub fn with_slipped_clamps(mut self, slips: &[f64]) -> Result<Self, CableError> {
+        for &slip in slips {
+            checked("slip of a clamp", slip, "finite", |_| true)?;
+        }
+        self.clamp_slips = slips.iter().map(|slip| [*slip; 2]).collect();
+        Ok(self)
+    }
+
+    /// How far each clamp of `cable` has slipped \[m\], positive toward growing x, in the order of [`DuctedCable::restraints`].
+    pub fn clamp_slips(&self, cable: &DuctedCable) -> Vec<f64> {
+        let of = |(index, restraint): (usize, &Restraint)| {
+            let share = self.mesh.place(restraint.position).1;
+            let [before, after] = self.slips(index);
+            (1.0 - share) * before + share * after
+        };
+        cable.restraints().iter().enumerate().map(of).collect()
+    }
+
+    /// How far a clamp has slipped on the nodes before and after it \[m\].
+    fn slips(&self, restraint: usize) -> [f64; 2] {
+        self.clamp_slips.get(restraint).copied().unwrap_or_default()
     }
 
     /// Θ = EA α T \[N\]: the compression that heat makes in a cable that cannot move.
@@ -187,44 +289,74 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        let on = |restraint: &Restraint| {
-            let springs = restraint.by_node(&self.mesh).into_iter();
+        let on = |(index, restraint): (usize, &Restraint)| {
+            let springs = restraint.by_node(&self.mesh).into_iter().zip(self.slips(index));
             springs
-                .map(|(node, stiffness)| stiffness * self.displacement[node])
+                .map(|((node, stiffness), slip)| stiffness * (self.displacement[node] - slip))
                 .sum()
         };
-        Ok(cable.restraints().iter().map(on).collect())
+        Ok(cable.restraints().iter().enumerate().map(on).collect())
     }
 
-    /// Lengths of cable whose friction is at its `limit` \[N/m\]; none without friction.
-    pub fn slip_lengths(&self, limit: f64) -> SlipLengths {
-        let at_limit = (1.0 - AT_LIMIT) * limit;
+    /// The largest friction \[N/m\] that every node can bear with the cable's force as it is; it depends on that in bends alone.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn friction_limits(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
+        Ok(self
+            .pressing(cable)?
+            .nodes
+            .iter()
+            .map(|node| node.limit)
+            .collect())
+    }
+
+    /// Lengths of cable whose friction is at its `limits` \[N/m\] ([`CableState::friction_limits`]); none without friction.
+    pub fn slip_lengths(&self, limits: &[f64]) -> SlipLengths {
         let mut lengths = SlipLengths::default();
-        if limit <= 0.0 {
-            return lengths;
-        }
-        for (node, &friction) in self.friction.iter().enumerate() {
-            if friction >= at_limit {
+        for (node, (&friction, &limit)) in self.friction.iter().zip(limits).enumerate() {
+            let at_limit = (1.0 - AT_LIMIT) * limit;
+            if limit > 0.0 && friction >= at_limit {
                 lengths.forward += self.mesh.tributary_length(node);
-            } else if friction <= -at_limit {
+            } else if limit > 0.0 && friction <= -at_limit {
                 lengths.backward += self.mesh.tributary_length(node);
             }
         }
         lengths
     }
 
-    /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
-    /// clamps, end springs and the body force carry, over the node's length of cable. In a state at rest it is at most the friction limit q.
+    /// Largest friction that equilibrium needs at any node, as a share of its limit: the difference of the forces in both elements, less
+    /// what clamps, end springs and the body force carry, over the node's length of cable. In a state at rest it is at most 1.
     ///
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
-    pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
+    pub fn friction_share(&self, cable: &DuctedCable) -> Result<f64, CableError> {
+        let chain = self.pressing(cable)?;
+        let mut load = cable.loads(&self.mesh, self.thermal_force);
+        chain.add_grip_loads(&mut load);
+        let forces = self.element_forces(cable)?;
+        let rounding =
+            ROUNDING * forces.fold(0.0, |most: f64, force| most.max(force.abs())) / self.node_spacing();
+        let share = |i: usize| {
+            let needed = chain.balancing_friction(&self.displacement, &load, i).abs();
+            if needed <= rounding {
+                0.0
+            } else {
+                needed / (chain.nodes[i].limit + rounding)
+            }
+        };
+        Ok(chain.free.nodes().map(share).fold(0.0, f64::max))
+    }
+
+    /// The chain of `cable` as this state presses on its bends.
+    fn pressing(&self, cable: &DuctedCable) -> Result<Chain, CableError> {
         self.mesh.check_length(cable.length())?;
-        let chain = Chain::new(cable, &self.mesh);
-        let load = cable.loads(&self.mesh, self.thermal_force);
-        let needed = |i| chain.balancing_friction(&self.displacement, &load, i).abs();
-        Ok(chain.free.nodes().map(needed).fold(0.0, f64::max))
+        let mut chain = Chain::new(cable, &self.mesh);
+        chain.press(|i| self.displacement[i], self.thermal_force);
+        chain.grip(self);
+        Ok(chain)
     }
 
     /// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
@@ -237,7 +369,7 @@ impl CableState {
         let force = |element: usize| {
             stiffness * (self.displacement[element] - self.displacement[element + 1]) + self.thermal_force
         };
-        let body = cable.loads(mesh, 0.0);
+        let body = cable.body_loads(mesh);
         let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
         let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
         let after = |node: usize| force(node) - 0.5 * h * drag(node);
@@ -291,6 +423,9 @@ impl CableState {
                 *value = -*value;
             }
         }
+        for slips in &mut self.clamp_slips {
+            *slips = [-slips[1], -slips[0]];
+        }
     }
 }
 
@@ -319,10 +454,7 @@ mod tests {
     #[test]
     fn forces_are_read_on_the_state_s_own_mesh_alone() -> Result<(), CableError> {
         let friction = Friction::new(FrictionLaw::Coulomb, 1.0)?;
-        let clamp = Restraint {
-            position: 0.9,
-            stiffness: 1.0,
-        };
+        let clamp = Restraint::new(0.9, 1.0);
         let cable = DuctedCable::new(1.0, 1.0, friction)?.with_restraints(vec![clamp])?;
         let (coarse, fine) = (Mesh::new(1.0, 0.5, 0.5)?, Mesh::new(1.0, 0.125, 0.125)?);
         let mismatch = CableError::StateMismatch {

@@ -76,6 +76,7 @@ fn days(criterion: &mut Criterion) {
             wanted_days: &[days],
             every_day: false,
             guide: Guide::Free,
+            start: None,
         };
         evolve_days(
             &cable,

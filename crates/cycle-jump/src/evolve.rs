@@ -263,7 +263,6 @@ where
         self.done += length + 1;
         let next = self.next_period()?;
         let jump = JumpInterval {
-            mesh: self.simulation.mesh,
             begin,
             length: length + CHECKED,
             from: (&from, offset),

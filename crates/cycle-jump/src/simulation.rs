@@ -20,7 +20,10 @@ use crate::within_jump::JumpInterval;
 pub struct Simulation<'a, P> {
     pub request: &'a Request<'a>,
     pub mesh: &'a Mesh,
+    /// What the cable answers to small changes, clamps that slide as loads.
     pub cable: RestingCable,
+    /// Brings the cable to rest.
+    pub resting: RestingCable,
     pass: P,
     wanted: BTreeSet<u64>,
     pub state: CableState,
@@ -50,6 +53,7 @@ impl<'a, P> Simulation<'a, P> {
             request,
             mesh,
             cable: RestingCable::new(cable, mesh)?,
+            resting: RestingCable::new(cable, mesh)?,
             pass,
             wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
             state: start.map_or_else(|| laid(cable, mesh), Ok)?,
@@ -128,11 +132,13 @@ where
     /// Simulates the first `length` passes of a period, which follow the pass `after` where they
     /// have numbers.
     pub fn period(&mut self, length: usize, after: Option<u64>) -> Result<Period, E> {
-        let mut period = Period::begin(self.state.displacement());
+        let before = self.state.clone();
+        let mut period = Period::begin(before.displacement());
         for rounds in rounds(&self.request.order[..length]) {
             self.rounds(rounds, after, &mut period)?;
         }
         period.end(self.state.displacement());
+        self.cable.release(&before, &self.state);
         if self.request.days.is_some() {
             // In a day forces come and go.
             (0..length).for_each(|place| self.scale.see(&period.phase(place).outcome));
@@ -221,12 +227,16 @@ where
         }
         let passes: Vec<u64> = passes.into_iter().collect();
         for &pass in passes.iter().filter(|pass| self.request.looked_at.contains(pass)) {
-            let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
+            let (mut state, _) = jump
+                .state((&mut self.cable, &mut self.resting), pass - 1)
+                .map_err(wrap)?;
             let phase = phase_of(pass, self.request.order.len());
             let number = Some(pass);
             (self.pass)(Next { phase, number }, &mut state)?;
         }
-        let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
+        let outcomes = jump
+            .outcomes((&mut self.cable, &mut self.resting), &passes)
+            .map_err(wrap)?;
         for (pass, outcome) in passes.into_iter().zip(outcomes) {
             self.record(pass, outcome, true);
         }
@@ -242,11 +252,7 @@ where
     }
 
     fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {
-        let friction = self.state.friction().to_vec();
-        let thermal_force = self.state.thermal_force();
-        let state = CableState::from_parts(self.mesh, displacement, friction);
-        let state = state.and_then(|state| state.with_thermal_force(thermal_force));
-        self.state = state.map_err(wrap)?;
-        self.cable.settle(&mut self.state).map_err(wrap)
+        self.state = self.cable.moved(&self.state, displacement).map_err(wrap)?;
+        self.resting.settle(&mut self.state).map_err(wrap)
     }
 }

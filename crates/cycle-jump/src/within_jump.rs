@@ -1,6 +1,6 @@
 //! The cable within a jump.
 
-use cable_dem::{CableError, CableState, Mesh, PassOutcome, RestingCable};
+use cable_dem::{CableError, CableState, PassOutcome, RestingCable};
 
 use crate::flow::Flow;
 use crate::period::{Period, phase_of, remove_mean};
@@ -12,7 +12,6 @@ const ROW_RATIO: f64 = 1.03;
 
 /// A jump that was taken, from one simulated period to another.
 pub struct JumpInterval<'a> {
-    pub mesh: &'a Mesh,
     /// Periods before it, and its length with the two simulated periods at its end.
     pub begin: u64,
     pub length: u64,
@@ -32,7 +31,11 @@ impl JumpInterval<'_> {
     }
 
     /// The cable at rest after `pass`, and its movement as a whole \[m\].
-    pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<(CableState, f64), CableError> {
+    pub fn state(
+        &self,
+        (cable, resting): (&mut RestingCable, &mut RestingCable),
+        pass: u64,
+    ) -> Result<(CableState, f64), CableError> {
         let (phase, time) = (phase_of(pass, self.before.len()), self.time(pass));
         let share = time / self.length as f64;
         let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
@@ -47,19 +50,23 @@ impl JumpInterval<'_> {
         let whole = self.from.1 + remove_mean(cable, &mut displacement);
         let [before, after] = [self.before, self.after].map(|period| period.phase(phase));
         // Everywhere else friction follows from the displacements.
-        let mut friction = vec![0.0; displacement.len()];
-        let last = friction.len() - 1;
-        friction[0] = between(before.friction[0], after.friction[0]);
-        friction[last] = between(before.friction[1], after.friction[1]);
-        let state = CableState::from_parts(self.mesh, displacement, friction)?;
-        let mut state = state.with_thermal_force(before.thermal_force)?;
-        cable.settle(&mut state)?;
+        let ends = [0, 1].map(|end| between(before.friction[end], after.friction[end]));
+        let mut moved = cable.moved(self.from.0, displacement)?.with_end_friction(ends);
+        let clamps = before.outcome.restraints.iter().zip(&after.outcome.restraints);
+        let forces: Vec<f64> = clamps.map(|(before, after)| between(*before, *after)).collect();
+        cable.bear(&mut moved, &forces);
+        let mut state = moved.with_thermal_force(before.thermal_force)?;
+        resting.settle(&mut state)?;
         Ok((state, whole))
     }
 
     /// Outcomes of `passes`, in ascending order. Passes far enough apart follow from the state after
     /// them; those between are interpolated from the two nearest of the same vehicle.
-    pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
+    pub fn outcomes(
+        &self,
+        (cable, resting): (&mut RestingCable, &mut RestingCable),
+        passes: &[u64],
+    ) -> Result<Vec<PassOutcome>, CableError> {
         let mut outcomes = vec![PassOutcome::default(); passes.len()];
         for phase in 0..self.before.len() {
             let is_of_phase = |row: &usize| phase_of(passes[*row], self.before.len()) == phase;
@@ -70,7 +77,7 @@ impl JumpInterval<'_> {
                 if k > 0 && rows.get(k + 1).is_some_and(is_near) {
                     continue;
                 }
-                outcomes[row] = self.outcome(cable, passes[row])?;
+                outcomes[row] = self.outcome((cable, resting), passes[row])?;
                 let (from, to) = (outcomes[rows[last]].clone(), outcomes[row].clone());
                 for &between in rows.get(last + 1..k).unwrap_or(&[]) {
                     let [begin, pass, end] = [rows[last], between, row].map(|row| passes[row] as f64);
@@ -85,9 +92,13 @@ impl JumpInterval<'_> {
 
     /// What `pass` did: the cable at rest after it, with peaks and heat between those of the same
     /// pass of both periods.
-    fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
-        let (state, whole) = self.state(cable, pass)?;
-        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
+    fn outcome(
+        &self,
+        (cable, resting): (&mut RestingCable, &mut RestingCable),
+        pass: u64,
+    ) -> Result<PassOutcome, CableError> {
+        let (state, whole) = self.state((cable, resting), pass)?;
+        let mut outcome = PassOutcome::at_rest(resting.cable(), &state)?.moved(whole);
         let phase = phase_of(pass, self.before.len());
         let share = self.time(pass) / self.length as f64;
         let [before, after] = [self.before, self.after].map(|period| &period.phase(phase).outcome);

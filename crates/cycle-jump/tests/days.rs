@@ -71,7 +71,7 @@ impl Scene {
         let clamps = self
             .clamps
             .iter()
-            .map(|&(position, stiffness)| Restraint { position, stiffness });
+            .map(|&(position, stiffness)| Restraint::new(position, stiffness));
         let cable = DuctedCable::new(self.length, STIFFNESS, friction)?
             .with_ends(self.ends.0, self.ends.1)?
             .with_restraints(clamps.collect())?
@@ -126,6 +126,7 @@ impl Scene {
             wanted_days: &all,
             every_day,
             guide: Guide::Free,
+            start: None,
         };
         let one_pass = |next: Next, state: &mut CableState| {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
@@ -376,6 +377,7 @@ fn what_is_no_day_is_refused() -> Outcome {
         wanted_days: &[1, 2],
         every_day: false,
         guide: Guide::Free,
+        start: None,
     };
     let jumps = Jumps::new(5e-3, 1.2, (1.0, 1e-6))?;
     let noon = || DailyHeat::Cosine {

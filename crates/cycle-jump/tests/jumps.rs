@@ -3,7 +3,7 @@
 use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, QuasiStatic,
-    RestingCable,
+    RestingCable, Restraint, Section,
 };
 use cycle_jump::{Evolution, Guide, JumpError, Jumps, Next, Request, evolve};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
@@ -134,13 +134,24 @@ fn trucks(
     guide: Guide<'_>,
     friction: f64,
 ) -> Result<(Evolution, Vec<PassOutcome>), Box<dyn std::error::Error>> {
+    let (cable, mesh) = cable(End::Free, End::Fixed, friction)?;
+    let directions = [Direction::Forward, Direction::Forward, Direction::Reverse];
+    traffic(&cable, mesh, guide, &directions)
+}
+
+/// 300 passes of a truck that comes in these `directions` by turns, with jumps and one by one.
+fn traffic(
+    cable: &DuctedCable,
+    mesh: Mesh,
+    guide: Guide<'_>,
+    directions: &[Direction],
+) -> Result<(Evolution, Vec<PassOutcome>), Box<dyn std::error::Error>> {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
     let line = DuctLine::new(1.2, 0.0)?;
-    let (cable, mesh) = cable(End::Free, End::Fixed, friction)?;
     let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
     let wheels = Vehicle::point("truck", 196_133.0, 11.1)?.wheels().to_vec();
     let mut passages = Vec::new();
-    for direction in [Direction::Forward, Direction::Forward, Direction::Reverse] {
+    for &direction in directions {
         let truck = Vehicle::new("truck", wheels.clone(), 11.1, direction)?;
         let motion = DuctMotion::new(&ground, &truck, line, 130.0, 1e-8)?;
         passages.push(solver.passage(&motion, 48.0)?);
@@ -148,11 +159,11 @@ fn trucks(
     let mut state = solver.at_rest();
     let mut every = Vec::new();
     for pass in 0..300 {
-        every.push(solver.pass(&passages[pass % 3], &mut state)?);
+        every.push(solver.pass(&passages[pass % directions.len()], &mut state)?);
     }
     let wanted: Vec<u64> = (1..=300).collect();
-    let request = request(300, 3, &wanted, guide)?;
-    let found = evolve(&cable, &mesh, &jumps(5e-3)?, &request, |next: Next, state| {
+    let request = request(300, directions.len(), &wanted, guide)?;
+    let found = evolve(cable, &mesh, &jumps(5e-3)?, &request, |next: Next, state| {
         solver.pass(&passages[next.phase], state).map_err(JumpError::from)
     })?;
     Ok((found, every))
@@ -171,6 +182,52 @@ fn two_way_traffic_agrees_with_every_pass() -> Result<(), Box<dyn std::error::Er
         assert!(off < 5e-3 * largest, "pass {}: {off} N", record.pass);
         let off = (record.outcome.peak.downstream - every.peak.downstream).abs();
         assert!(off < 1e-2 * largest, "peak of pass {}: {off} N", record.pass);
+    }
+    Ok(())
+}
+
+/// A slope, a bend and a rougher part with a clamp that sticks, slips for a while, or slips in every pass.
+#[test]
+fn routes_with_clamps_that_slip_agree_with_every_pass() -> Result<(), Box<dyn std::error::Error>> {
+    let sections = [
+        Section::new(9.0, LIMIT).with_body_force(-0.03 * 108.8),
+        Section::new(9.0, LIMIT).with_bend(0.25 / 4.0),
+        Section::new(12.0, 1.3 * LIMIT),
+    ];
+    let one_way = [Direction::Forward];
+    let two_way = [Direction::Forward, Direction::Forward, Direction::Reverse];
+    for (holds, directions) in [
+        (5e3, &one_way[..]),
+        (300.0, &one_way),
+        (100.0, &one_way),
+        (100.0, &two_way),
+    ] {
+        let clamp = Restraint::new(14.93, 5e6).that_holds(holds);
+        let (cable, mesh) = cable(End::Free, End::Fixed, LIMIT)?;
+        let cable = cable.with_sections(&sections)?.with_restraints(vec![clamp])?;
+        let (found, every) = traffic(&cable, mesh, Guide::Free, directions)?;
+        let size = |pass: &PassOutcome| pass.max_compression.max(pass.restraints[0].abs());
+        let largest = every.iter().map(size).fold(0.0, f64::max);
+        let moved = every
+            .iter()
+            .map(|pass| pass.upstream_displacement.abs())
+            .fold(0.0, f64::max);
+        let mut worst = [0.0_f64; 3];
+        for (record, every) in found.records.iter().zip(&every) {
+            let found = &record.outcome;
+            let off = [
+                (found.force.downstream - every.force.downstream).abs() / largest,
+                (found.restraints[0] - every.restraints[0]).abs() / largest,
+                (found.upstream_displacement - every.upstream_displacement).abs() / moved,
+            ];
+            worst = [0, 1, 2].map(|k| worst[k].max(off[k]));
+        }
+        println!(
+            "{holds} N: {} of 300 simulated, {worst:?} off of {largest} N",
+            found.simulated
+        );
+        assert!(found.simulated < 150, "{holds} N: {}", found.simulated);
+        assert!(worst.iter().all(|off| *off < 1e-2), "{holds} N: {worst:?}");
     }
     Ok(())
 }

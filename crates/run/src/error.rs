@@ -25,6 +25,12 @@ pub enum Error {
     /// The cable could not be computed.
     #[error(transparent)]
     Cable(#[from] CableError),
+    /// A run cannot go on from a state.
+    #[error("the state is not one of this duct: {reason}")]
+    State {
+        /// Why.
+        reason: String,
+    },
     /// Jumps over passes do not get on.
     #[error(
         "too many passes would have to be simulated; solver.method = \"quasi-static\" simulates every one, at most 1 000 000"
@@ -193,6 +199,7 @@ impl Error {
             Self::Study { is_bad_input, .. } => *is_bad_input,
             Self::Scene(_)
             | Self::Data(_)
+            | Self::State { .. }
             | Self::Unfit { .. }
             | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })

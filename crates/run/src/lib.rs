@@ -22,6 +22,7 @@ mod progress;
 mod refine;
 #[doc(hidden)]
 pub mod run;
+mod saved_state;
 #[doc(hidden)]
 pub mod shown;
 mod tuning;
@@ -31,7 +32,7 @@ pub use answer::{
     ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
     ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
     PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation,
-    SlipRecord, Stage, Units, Verdict,
+    SlipRecord, Stage, Start, Units, Verdict,
 };
 pub use error::{Error, with_causes};
 pub use error_source::ErrorSource;
@@ -40,4 +41,5 @@ pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
 pub use run::{check, run, run_plan, run_with};
+pub use saved_state::SavedState;
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};

@@ -21,6 +21,7 @@ pub mod presets;
 mod quantity;
 mod range;
 mod rivals;
+mod route;
 mod rules;
 mod scene;
 #[cfg(feature = "schema")]
@@ -36,7 +37,7 @@ mod words;
 
 pub use arrangement::Arrangement;
 pub use cable::{Cable, Friction, Law};
-pub use cable_dem::{End, FrictionLaw, Order, Restraint};
+pub use cable_dem::{End, FrictionLaw, Order, Restraint, Section};
 pub use cable_end::CableEnd;
 pub use error::{SceneError, Wrong, WrongKind, did_you_mean};
 pub use file::{SceneFile, Typed, TypedValue};
@@ -48,6 +49,7 @@ pub use names::{KeyMeaning, key_meanings, nearest_key, si_unit};
 pub use nearest::nearest;
 pub use quantity::{QuantityError, leading_number};
 pub use range::{PER_DAY, Quantity, YEARS};
+pub use route::RouteSection;
 pub use scene::{Duct, Ends, Scene};
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -15,7 +15,7 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("area", "conductor_area"), ("coefficient", "dynamic_coefficient"), ("conduit", "duct"), ("days", "years"),
     ("e", "young_modulus"), ("ea", "axial_stiffness"), ("end", "downstream"), ("friction_coefficient", "dynamic_coefficient"),
     ("gradient", "slope"), ("left", "upstream"), ("mass", "weight"), ("mu", "dynamic_coefficient"), ("nu", "poisson_ratio"),
-    ("pavement", "ground"), ("pipe", "duct"), ("right", "downstream"), ("road", "ground"), ("soil", "ground"),
+    ("bend", "bend_radius"), ("pavement", "ground"), ("pipe", "duct"), ("radius", "bend_radius"), ("right", "downstream"), ("road", "ground"), ("sections", "route"), ("soil", "ground"),
     ("soils", "ground"), ("start", "upstream"), ("trucks", "vehicles"), ("velocity", "speed"),
 ];
 

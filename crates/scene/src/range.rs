@@ -66,6 +66,9 @@ quantities! {
     SHAPE_FACTOR: Some(D::InverseLength), 1.0, 1e18, "greater than 0, from 1 to 1e18 1/m", "\"2e7 1/m\"";
     SPRING: Some(D::ForcePerLength), 1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m", "\"3 MN/m\"";
     CLAMP: Some(D::ForcePerLength), 1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m", "\"1 MN/m\"";
+    HOLDS: Some(D::Force), 1e-3, 1e9, "greater than 0, from 1e-3 N to 1000 MN", "\"2 kN\"";
+    SECTION_LENGTH: Some(D::Length), 1e-3, 1e5, "greater than 0, from 1 mm to 100 km", "\"40 m\"";
+    BEND_RADIUS: Some(D::Length), 0.01, 1e12, "greater than 0, from 1 cm to 1e12 m", "\"10 m\"";
     LOAD: Some(D::Force), 0.0, 1e9, "of at least 0 and at most 1000 MN", "\"20 tf\"";
     WHEEL_LOAD: Some(D::Force), 0.0, 1e9, "of at least 0 and at most 1000 MN", "\"50 kN\"";
     AXLE_LOAD: Some(D::Force), LEAST, 1e9, "greater than 0 and at most 1000 MN", "\"100 kN\"";

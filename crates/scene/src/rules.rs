@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use cable_dem::End;
+use cable_dem::{End, Section};
 use ground_field::Modulus;
 
 use crate::arrangement::CLOSEST;
@@ -12,7 +12,8 @@ use crate::ground::{Ground, GroundModel};
 use crate::key::listed;
 use crate::nearest::nearest;
 use crate::range::{
-    AXIAL_STIFFNESS, DIAMETER, INNER_DIAMETER, PASSES, Quantity, SHAPE_FACTOR, THICKNESS, shown,
+    AXIAL_STIFFNESS, DIAMETER, INNER_DIAMETER, PASSES, Quantity, SECTION_LENGTH, SHAPE_FACTOR, THICKNESS,
+    shown,
 };
 use crate::scene::{Scene, VEHICLES};
 use crate::shown::four_digits;
@@ -25,6 +26,7 @@ pub fn check(scene: &Scene) -> Checked {
     ground(&scene.ground)?;
     given(scene)?;
     lengths(scene)?;
+    route(scene)?;
     slope(scene)?;
     vehicles(scene)?;
     sequence(scene)?;
@@ -123,6 +125,18 @@ fn lengths(scene: &Scene) -> Checked {
         let words = format!("at most the duct's length, {all} m, and at least its ten-millionth part");
         suits("solver.vehicle_step", step, length / 1e7..=length, &words)?;
     }
+    let slips = scene.restraints.iter().position(|clamp| clamp.holds.is_some());
+    if let Some(index) = slips.filter(|_| scene.friction.dynamic_coefficient == 0.0) {
+        let (key, allowed) = (
+            format!("restraints.{index}.holds"),
+            "only where the cable has friction",
+        );
+        return Err(SceneError::value(
+            &key,
+            "a clamp that slips, without friction",
+            allowed,
+        ));
+    }
     for (index, clamp) in scene.restraints.iter().enumerate() {
         let key = format!("restraints.{index}.position");
         let words = format!("a position in the duct, from 0 m to {all} m");
@@ -140,17 +154,88 @@ fn lengths(scene: &Scene) -> Checked {
     suits("cable.diameter", diameter, 0.0..=most, &words)
 }
 
+/// Sections of the duct that the rest of the scene allows.
+fn route(scene: &Scene) -> Checked {
+    let (friction, depth, length) = (
+        scene.friction.dynamic_coefficient,
+        scene.duct.depth,
+        scene.duct.length,
+    );
+    let Some((last, others)) = scene.route.split_last() else {
+        return Ok(());
+    };
+    let (found, allowed) = (
+        "a slope beside [[route]]",
+        "the slopes of the sections in [[route]]",
+    );
+    hold(scene.duct.slope == 0.0, "duct.slope", found, allowed)?;
+    for (index, section) in scene.route.iter().enumerate() {
+        let key = |name: &str| format!("route.{index}.{name}");
+        let is_long = section.length.is_some() || index == others.len();
+        need(
+            is_long,
+            &key("length"),
+            SECTION_LENGTH,
+            "; the last section needs none",
+        )?;
+        let radius = section.bend_radius.unwrap_or(f64::INFINITY);
+        let allowed = format!(
+            "a bend no tighter than the duct is deep, at least {} m",
+            shown(depth)
+        );
+        suits(&key("bend_radius"), radius, depth..=f64::INFINITY, &allowed)?;
+        let own = section.dynamic_coefficient.unwrap_or(friction);
+        let allowed = "greater than 0 if that of [friction] is, and 0 if it is 0";
+        hold(
+            (own > 0.0) == (friction > 0.0),
+            &key("dynamic_coefficient"),
+            &shown(own),
+            allowed,
+        )?;
+    }
+    let sum: f64 = scene.route.iter().filter_map(|section| section.length).sum();
+    let fits = last.length.is_some() && (sum / length - 1.0).abs() < 1e-9;
+    let [sum, length] = [sum, length].map(shown);
+    let (found, allowed) = (
+        format!("sections of {sum} m together"),
+        format!("as long as the duct, {length} m; the last section may leave its length out"),
+    );
+    hold(fits, "route", &found, &allowed)
+}
+
 /// A cable that nothing else holds must not slide out of its duct.
 fn slope(scene: &Scene) -> Checked {
     let ends = [scene.ends.upstream, scene.ends.downstream];
-    let is_held = !scene.restraints.is_empty() || ends != [End::Free; 2];
-    let (drawn, limit) = (scene.body_force().abs(), scene.friction_limit());
+    let holds = scene
+        .restraints
+        .iter()
+        .map(|clamp| clamp.holds.unwrap_or(f64::INFINITY));
+    let holds: f64 = holds.sum();
+    let sections = scene.sections();
+    let whole = |of: fn(&Section) -> f64| -> f64 {
+        sections.iter().map(|section| of(section) * section.length).sum()
+    };
+    let (drawn, limit) = (
+        whole(|section| section.body_force).abs(),
+        whole(|section| section.limit),
+    );
+    let rests = ends != [End::Free; 2] || drawn == 0.0 || drawn < limit + holds;
+    if !scene.route.is_empty() {
+        let found = format!(
+            "slopes between free ends that draw the cable with {} N",
+            four_digits(drawn)
+        );
+        let allowed = format!(
+            "slopes that draw with less than friction and clamps hold, {} N, or an end that holds the cable",
+            four_digits(limit + holds)
+        );
+        return hold(rests, "route", &found, &allowed);
+    }
     let slope = four_digits(100.0 * scene.duct.slope);
-    let steepest = shown(limit / (scene.cable.weight * scene.duct.cosine()));
+    let steepest = shown(scene.friction.dynamic_coefficient * scene.normal_load_factor());
     let found = format!("{slope} % between free ends, where the cable slides out of the duct");
     let friction = format!("a slope less than what friction holds, {steepest}");
     let allowed = friction + ", or an end or a clamp that holds the cable";
-    let rests = is_held || drawn == 0.0 || drawn < limit;
     hold(rests, "duct.slope", &found, &allowed)
 }
 

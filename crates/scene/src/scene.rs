@@ -11,7 +11,10 @@ use crate::ground::Ground;
 use crate::heat::Heat;
 use crate::key::Form::{Either, List, Number, Table, Text, Words};
 use crate::key::{Form, Key, keys};
-use crate::range::{CLAMP, DEPTH, DUCT_LENGTH, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING};
+use crate::range::{
+    CLAMP, DEPTH, DUCT_LENGTH, HOLDS, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING,
+};
+use crate::route::RouteSection;
 use crate::solver::Solver;
 use crate::stored::{Stored, value};
 use crate::traffic::{Following, Traffic};
@@ -23,8 +26,10 @@ keys! {
     pub struct Scene {
         /// Name of the scene in tables and reports.
         title: String = Text("a text in quotes"), "the file's name";
-        /// Where the duct lies: straight, and as deep everywhere below a road that may slope.
+        /// Where the duct lies: as deep everywhere below a road that slopes and bends as it does.
         duct: Duct = Table(Duct::KEYS);
+        /// Sections of a duct that slopes or bends, in place of `duct.slope`.
+        route: Vec<RouteSection> = List(&Table(RouteSection::KEYS), 0, "a list of [[route]] sections, from x = 0 on"), "straight, with `duct.slope`";
         /// The ground around the duct.
         ground: Ground = Table(Ground::KEYS);
         /// The cable in the duct.
@@ -51,7 +56,7 @@ const AXLE_SPEED: f64 = 40.0 / 3.6;
 pub const VEHICLES: &str = "one [[vehicles]] or more, or traffic.histogram";
 
 keys! {
-    /// A straight duct at constant depth below a road that slopes as it does, from x = 0 to x = `length`; in SI.
+    /// A duct at constant depth below a road that slopes and bends as it does, from x = 0 to x = `length`; in SI.
     #[derive(Copy)]
     pub struct Duct {
         /// Length of the duct, from manhole to manhole.
@@ -84,6 +89,8 @@ keys! {
         position = Number(POSITION);
         /// Stiffness of the clamp; `spring` is understood too.
         stiffness = Number(CLAMP);
+        /// Force above which the clamp slips.
+        holds = Number(HOLDS), "it never slips";
     }
 }
 
@@ -113,18 +120,6 @@ impl Stored for End {
     }
 }
 
-impl Duct {
-    /// sin θ of the slope.
-    pub fn sine(&self) -> f64 {
-        self.slope / 1.0_f64.hypot(self.slope)
-    }
-
-    /// cos θ of the slope.
-    pub fn cosine(&self) -> f64 {
-        1.0 / 1.0_f64.hypot(self.slope)
-    }
-}
-
 impl Scene {
     /// Normal force on the duct as a multiple of the cable's weight: as it is given, or as the cable's arrangement and the diameters make
     /// it; 1 where none of them is known.
@@ -139,16 +134,6 @@ impl Scene {
     /// Normal force between cable and duct per length N' in a level duct \[N/m\].
     pub fn normal_load(&self) -> f64 {
         self.normal_load_factor() * self.cable.weight
-    }
-
-    /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\].
-    pub fn friction_limit(&self) -> f64 {
-        self.friction.dynamic_coefficient * self.normal_load() * self.duct.cosine()
-    }
-
-    /// Force of the cable's weight along the duct per length, p = −w sin θ \[N/m\], positive toward growing x.
-    pub fn body_force(&self) -> f64 {
-        -self.cable.weight * self.duct.sine()
     }
 
     /// The heat of its days, if it makes any force.
@@ -195,6 +180,7 @@ impl Scene {
         }
         self.cable.resolve()?;
         self.traffic.resolve()?;
+        self.complete_route();
         if let Some(histogram) = self.traffic.histogram.take() {
             self.vehicles = histogram.axles(file, self.traffic.speed.take().unwrap_or(AXLE_SPEED))?;
             self.traffic.order = Following::Random;

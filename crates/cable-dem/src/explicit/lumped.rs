@@ -6,7 +6,7 @@
 
 use crate::ends::EndReader;
 use crate::error::checked;
-use crate::step::{Chain, FixedEndFriction};
+use crate::step::{Chain, FixedEndFriction, Grip};
 use crate::{CableError, DuctedCable, End, EndForces, Mesh};
 
 /// Masses, springs and supports of one cable on one mesh.
@@ -18,6 +18,8 @@ pub(crate) struct Lumped {
     pub mass_per_metre: f64,
     /// K + S.
     pub chain: Chain,
+    /// Clamps that slip.
+    pub grips: Vec<Grip>,
     /// Body force w p of every node \[N\].
     pub load: Vec<f64>,
     /// Friction of held nodes.
@@ -34,6 +36,7 @@ impl Lumped {
         Ok(Self {
             mass_per_metre,
             chain: Chain::new(&cable, &mesh),
+            grips: Vec::new(),
             load: cable.loads(&mesh, 0.0),
             held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
@@ -42,11 +45,16 @@ impl Lumped {
         })
     }
 
-    /// ½ uᵀ(K + S) u \[J\].
+    /// ½ uᵀ(K + S) u \[J\], clamps that slip as they are now.
     pub fn elastic_energy(&self, u: &[f64]) -> f64 {
+        let gripped = self
+            .grips
+            .iter()
+            .map(|grip| grip.energy(u[grip.node]))
+            .sum::<f64>();
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let supported: f64 = (0..u.len()).map(|i| self.chain.spring(i) * u[i] * u[i]).sum();
-        0.5 * (self.chain.stiffness * stretched + supported)
+        0.5 * (self.chain.stiffness * stretched + supported) + gripped
     }
 
     /// ½ γ Σ w f² \[J\]: energy in the contact's shear; 0 for Coulomb's law and for laws without
@@ -81,10 +89,10 @@ impl Lumped {
         let mut forces = self.ends.read(0.0, |i| u[i], |i| f[i]);
         // The force of the chain on a spring also accelerates the half element there.
         if let End::Spring(spring) = self.cable.upstream() {
-            forces.upstream = -spring * u[0];
+            forces.upstream = -spring * (u[0] - self.cable.end_positions()[0]);
         }
         if let End::Spring(spring) = self.cable.downstream() {
-            forces.downstream = spring * u[u.len() - 1];
+            forces.downstream = spring * (u[u.len() - 1] - self.cable.end_positions()[1]);
         }
         forces
     }

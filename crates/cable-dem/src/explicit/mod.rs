@@ -131,8 +131,9 @@ impl Explicit {
         mass_per_metre: f64,
         options: ExplicitOptions,
     ) -> Result<Self, CableError> {
-        let lumped = Lumped::new(cable, mesh, mass_per_metre)?;
+        let mut lumped = Lumped::new(cable, mesh, mass_per_metre)?;
         let limits = StepLimits::new(&lumped);
+        lumped.grips = lumped.chain.take_grips();
         checked(
             "max_node_updates",
             options.max_node_updates,
@@ -240,16 +241,17 @@ impl Explicit {
             check_precision(self.cable(), self.mesh(), &state.displacement, duct.peak())?;
             self.check_work(steps, time_step)?;
             let arrival = self.rest(duct, 0.0, 1.0, &mut moving)?;
+            let mesh = self.lumped.mesh;
             let look = |t: f64, nodes: &MovingNodes| {
                 let state = || {
-                    let mut state = CableState::at_rest(&self.lumped.mesh);
+                    let mut state = CableState::at_rest(&mesh);
                     nodes.store(&mut state);
                     state
                 };
                 observe(duct.vehicle_position(t), &state);
             };
             energy = run(
-                &self.lumped,
+                &mut self.lumped,
                 duct,
                 steps as usize,
                 &mut moving,
@@ -318,7 +320,7 @@ impl Explicit {
 
 /// All steps of time of one pass; `state` is carried on.
 fn run(
-    lumped: &Lumped,
+    lumped: &mut Lumped,
     duct: &MovingDuct,
     steps: usize,
     state: &mut CableState,
@@ -327,6 +329,10 @@ fn run(
 ) -> Result<EnergyBalance, CableError> {
     let count = lumped.mesh.nodes();
     let time_step = duct.duration() / steps as f64;
+    for grip in &mut lumped.grips {
+        grip.start(state);
+    }
+    let elastic = lumped.elastic_energy(&state.displacement);
     let mut nodes = MovingNodes::new(state);
     duct.displacement(0.0, &mut nodes.duct);
     let mut peak_kinetic = 0.0_f64;
@@ -340,7 +346,9 @@ fn run(
             if !kinetic.is_finite() {
                 return Err(CableError::EnergyNotConserved {
                     unbalanced: 1.0,
-                    returned: nodes.energy(lumped, state, peak_kinetic).returned_share(),
+                    returned: nodes
+                        .energy(lumped, (state, elastic), peak_kinetic)
+                        .returned_share(),
                 });
             }
             peak_kinetic = peak_kinetic.max(kinetic);
@@ -348,11 +356,14 @@ fn run(
     }
     let energy = EnergyBalance {
         reference: lumped.cable.friction().limit() * lumped.cable.length() * duct.peak(),
-        ..nodes.energy(lumped, state, peak_kinetic)
+        ..nodes.energy(lumped, (state, elastic), peak_kinetic)
     };
     recorder.statistics.steps = steps;
     recorder.statistics.node_updates += steps * count;
     recorder.statistics.widest_window = count;
     nodes.store(state);
+    for grip in &lumped.grips {
+        grip.store(state);
+    }
     Ok(energy)
 }

@@ -29,7 +29,7 @@ pub(super) struct MovingNodes {
 #[derive(Debug, Clone, Copy)]
 struct NodeFriction {
     law: FrictionLaw,
-    /// q \[N/m\].
+    /// Friction limit that makes the law's slope \[N/m\].
     limit: f64,
     /// Δt \[s\], and Δt/m′.
     time_step: f64,
@@ -38,10 +38,9 @@ struct NodeFriction {
 
 impl NodeFriction {
     /// Given the node's `velocity` after the elastic forces \[m/s\], how far its duct moves in the
-    /// step \[m\] and the `friction` before \[N/m\]: its velocity with friction, and the friction
-    /// after.
-    fn act(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
-        let q = self.limit;
+    /// step \[m\] and the `friction` before \[N/m\], with the limit `q` \[N/m\]: its velocity with
+    /// friction, and the friction after.
+    fn act(self, velocity: f64, duct: f64, friction: f64, q: f64) -> (f64, f64) {
         // All but Coulomb friction are found after the step that they act in.
         let rubbed = velocity + self.per_mass * friction;
         let slip = duct - self.time_step * rubbed;
@@ -55,10 +54,12 @@ impl NodeFriction {
             }
             // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
             FrictionLaw::ElasticPlastic { shape_factor } => {
-                let trial = friction + 0.5 * q * shape_factor * slip;
+                let trial = friction + 0.5 * self.limit * shape_factor * slip;
                 (rubbed, trial.max(-q).min(q))
             }
-            FrictionLaw::Sigmoid { shape_factor } => (rubbed, q * (0.5 * shape_factor * slip).tanh()),
+            FrictionLaw::Sigmoid { shape_factor } => {
+                (rubbed, q * (0.5 * shape_factor * (self.limit / q) * slip).tanh())
+            }
         }
     }
 }
@@ -82,8 +83,9 @@ impl MovingNodes {
     }
 
     /// One step of `time_step` \[s\]; `displacement` writes where the duct stands after it \[m\].
-    pub fn step(&mut self, lumped: &Lumped, displacement: impl Fn(&mut [f64]), time_step: f64) {
+    pub fn step(&mut self, lumped: &mut Lumped, displacement: impl Fn(&mut [f64]), time_step: f64) {
         displacement(&mut self.increment);
+        lumped.chain.press(|i| self.displacement[i], 0.0);
         for (duct, increment) in self.duct.iter_mut().zip(&mut self.increment) {
             let before = std::mem::replace(duct, *increment);
             *increment -= before;
@@ -95,6 +97,12 @@ impl MovingNodes {
                 * lumped
                     .chain
                     .balancing_friction(&self.displacement, &lumped.load, i);
+        }
+        let mut gripped = 0.0;
+        for grip in &mut lumped.grips {
+            let (force, heat) = grip.bear(self.displacement[grip.node]);
+            gripped += heat;
+            self.velocity[grip.node] -= per_mass * force * lumped.chain.nodes[grip.node].per_tributary;
         }
         let friction = NodeFriction {
             law: lumped.cable.friction().law(),
@@ -108,11 +116,17 @@ impl MovingNodes {
         let (mut work, mut heat, mut gross) = (0.0, 0.0, 0.0);
         for i in 0..self.velocity.len() {
             let (increment, before) = (self.increment[i], self.friction[i]);
-            let (mut velocity, mut after) = friction.act(self.velocity[i], increment, before);
+            let (mut velocity, mut after) =
+                friction.act(self.velocity[i], increment, before, lumped.chain.nodes[i].limit);
             // Fixed ends do not move; their friction follows their own slip.
             let is_held = !lumped.chain.free.nodes().contains(&i);
             if is_held {
-                (velocity, after) = (0.0, lumped.held.after_slip(before, increment));
+                (velocity, after) = (
+                    0.0,
+                    lumped
+                        .held
+                        .after_slip(before, increment, lumped.chain.nodes[i].limit),
+                );
             }
             let moved = time_step * velocity;
             (self.velocity[i], self.friction[i]) = (velocity, after);
@@ -130,8 +144,8 @@ impl MovingNodes {
             gross += if is_held { done } else { done.abs() };
         }
         self.work += work;
-        self.heat += heat;
-        self.gross += gross;
+        self.heat += heat + gripped;
+        self.gross += gross + gripped;
     }
 
     pub fn end_forces(&self, lumped: &Lumped) -> EndForces {
@@ -149,9 +163,13 @@ impl MovingNodes {
         0.5 * lumped.mass_per_metre * lumped.weighted(|i| self.velocity[i].powi(2))
     }
 
-    /// The accounts of a pass that began in `state`.
-    pub fn energy(&self, lumped: &Lumped, state: &CableState, peak_kinetic: f64) -> EnergyBalance {
-        let elastic = lumped.elastic_energy(&state.displacement);
+    /// The accounts of a pass that began in `state` with the `elastic` energy \[J\].
+    pub fn energy(
+        &self,
+        lumped: &Lumped,
+        (state, elastic): (&CableState, f64),
+        peak_kinetic: f64,
+    ) -> EnergyBalance {
         let stored = lumped.stored_energy(&state.friction);
         let moved = self.displacement.iter().zip(&state.displacement);
         let body_work = moved

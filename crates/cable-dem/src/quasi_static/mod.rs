@@ -153,7 +153,7 @@ impl QuasiStatic {
             after.mirror();
         }
         let (mesh, thermal_force) = (&self.mesh, state.thermal_force);
-        let mut recorder = solver.pass(passage, &mut after, |r, g, snapshot| {
+        let mut recorder = solver.pass(passage, &mut after, |r, g, grips, snapshot| {
             let position = mesh.lattice_step() * snapshot.position as f64;
             let state = || {
                 let mut state = CableState::at_rest(mesh);
@@ -161,6 +161,9 @@ impl QuasiStatic {
                 for node in 0..mesh.nodes() {
                     state.displacement[node] = r[node] + snapshot.adherent_at(node);
                     state.friction[node] = g[node] + snapshot.adhesion[node];
+                }
+                for grip in grips {
+                    grip.store(&mut state);
                 }
                 if mirrored {
                     state.mirror();

@@ -5,9 +5,12 @@ use super::supports::Supports;
 use super::window::{self, WindowBounds};
 use crate::ends::EndReader;
 use crate::outcome::Recorder;
-use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
+use crate::step::{Chain, Grip, Load, Prediction, StepSolver, Stretch, largest};
 use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+
+/// Solves at most in which clamps change between sticking and sliding: a few are right at once.
+const MAX_CORRECTIONS: usize = 100;
 
 /// Drives vehicles forward over one cable; allocated once.
 #[derive(Debug, Clone)]
@@ -61,13 +64,13 @@ impl ForwardSolver {
         }
     }
 
-    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees r, g and the vehicle at every
-    /// step.
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees r, g, clamps that slip and the
+    /// vehicle at every step.
     pub fn pass(
         &mut self,
         passage: &Passage,
         state: &mut CableState,
-        mut observe: impl FnMut(&[f64], &[f64], Snapshot<'_>),
+        mut observe: impl FnMut(&[f64], &[f64], &[Grip], Snapshot<'_>),
     ) -> Result<Recorder, CableError> {
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
@@ -76,6 +79,7 @@ impl ForwardSolver {
             *anchor = r + self.step.chain.compliance * g;
         }
         self.step.trial.r.copy_from_slice(&self.r);
+        self.step.chain.grip(state);
         self.supports
             .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
@@ -84,11 +88,18 @@ impl ForwardSolver {
         self.recorder = Recorder::new(state.end_forces(&self.cable)?);
 
         let mut behind = self.bounds.free.lo;
+        let mut last = passage.still();
         for (step, &position) in passage.positions.iter().enumerate() {
+            self.press(&last);
             let snapshot = passage.snapshot(position);
+            last = snapshot;
             let under = self.bounds.under(snapshot.node, passage.reach);
-            // A node is looked at once more where adhesion no longer reaches it.
-            let watched = Stretch { lo: behind, ..under };
+            // A node is looked at once more where adhesion no longer reaches it, and all of them where the friction limit changes.
+            let watched = if self.step.chain.bends() {
+                self.bounds.free
+            } else {
+                Stretch { lo: behind, ..under }
+            };
             behind = under.lo;
             if step == 0 {
                 self.step_whole(&snapshot)?;
@@ -96,15 +107,26 @@ impl ForwardSolver {
                 let first = passage.first_point(&snapshot);
                 self.step_windows(&snapshot, watched, first)?;
             }
-            observe(&self.r, &self.g, snapshot);
+            observe(&self.r, &self.g, &self.step.chain.grips, snapshot);
         }
 
         // The ground comes to rest. What the windows left out of account is settled by the same step.
+        self.press(&last);
         self.step_whole(&passage.still())?;
         state.displacement.copy_from_slice(&self.r);
         state.friction.copy_from_slice(&self.g);
+        for grip in &self.step.chain.grips {
+            grip.store(state);
+        }
         self.recorder.statistics += self.step.statistics;
         Ok(self.recorder)
+    }
+
+    /// Lets the cable press on the bends of the duct with the force that it has under `snapshot`.
+    fn press(&mut self, snapshot: &Snapshot<'_>) {
+        let r = &self.r;
+        let u = |node: usize| r[node] + snapshot.adherent_at(node);
+        self.step.chain.press(u, self.thermal_force);
     }
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
@@ -172,7 +194,11 @@ impl ForwardSolver {
         // Between them and beyond.
         let known = windows.len();
         let near = watched.lo..watched.hi + 1;
-        let limit = self.step.chain.least_limit * (1.0 + SLIPPING_SHARE);
+        let chain = &self.step.chain;
+        let slips_above = |limit: f64| limit * (1.0 + SLIPPING_SHARE);
+        let (least, limit) = (slips_above(chain.least_limit), |i: usize| {
+            slips_above(chain.nodes[i].limit)
+        });
         let mut lo = near.start;
         for at in 0..=known {
             let (hi, next) = if at < known {
@@ -181,7 +207,7 @@ impl ForwardSolver {
             } else {
                 (near.end, near.end)
             };
-            window::slipping(lo..hi, &self.g, snapshot.adhesion, limit, |slips| {
+            window::slipping(lo..hi, (&self.g, snapshot.adhesion), (least, limit), |slips| {
                 windows.push(bounds.widened(slips, bounds.margin));
             });
             lo = lo.max(next);
@@ -211,7 +237,7 @@ impl ForwardSolver {
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
     /// moves is appended to `moving`.
     fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
-        let mut growth = self.bounds.margin;
+        let (mut growth, mut corrections) = (self.bounds.margin, 0);
         loop {
             self.recorder.statistics.windows += 1;
             let load = Load {
@@ -220,17 +246,32 @@ impl ForwardSolver {
                 anchor: &self.anchor,
             };
             let solved = self.step.solve(&load, stretch);
+            let solved = if corrections > MAX_CORRECTIONS {
+                Err(f64::INFINITY)
+            } else {
+                solved
+            };
             solved.map_err(|violation| CableError::NoConvergence {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
                 violation,
             })?;
+            let StepSolver { chain, trial, .. } = &mut self.step;
+            if chain.correct_grips(stretch, |i| trial.r[i] + snapshot.adherent_at(i)) {
+                self.supports.grip(snapshot, chain);
+                corrections += 1;
+                continue;
+            }
             let (grown, next) = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
             if grown == stretch {
                 break;
             }
             (stretch, growth) = (grown, next);
         }
-        let trial = &self.step.trial;
+        let StepSolver { chain, trial, .. } = &mut self.step;
+        for grip in chain.grips.iter_mut().filter(|grip| grip.is_within(stretch)) {
+            let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
+            self.recorder.dissipated += grip.settle(u);
+        }
         let moves = |node: usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();

@@ -33,6 +33,7 @@ pub struct Passage {
     mesh: Mesh,
     axial_stiffness: f64,
     friction: Friction,
+    least_limit: f64,
     direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s, with m = phases
     /// per node spacing.
@@ -114,7 +115,7 @@ impl Passage {
         course: &Course<impl Fn(f64) -> f64>,
     ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
-        let unseen = WATCHED_SHARE * UNBALANCED_SHARE * cable.friction().limit();
+        let unseen = WATCHED_SHARE * UNBALANCED_SHARE * cable.least_limit();
         let m = mesh.phases() as i64;
         let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
         let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;
@@ -152,6 +153,7 @@ impl Passage {
             mesh: *mesh,
             axial_stiffness: cable.axial_stiffness(),
             friction: cable.friction(),
+            least_limit: cable.least_limit(),
             direction: course.direction,
             behind: behind as usize,
             positions,
@@ -167,6 +169,7 @@ impl Passage {
         self.mesh == *mesh
             && self.axial_stiffness == cable.axial_stiffness()
             && self.friction == cable.friction()
+            && self.least_limit == cable.least_limit()
     }
 
     /// Which way the vehicle drives.

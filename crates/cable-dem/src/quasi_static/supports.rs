@@ -10,12 +10,16 @@ use crate::{DuctedCable, Mesh};
 #[derive(Debug, Clone)]
 struct WatchedSupport {
     support: Support,
+    /// Where a fixed end stands \[m\].
+    position: f64,
     /// Its least window, and what moved in it when it was last solved.
     least: Stretch,
     window: Stretch,
     /// For which it was last solved: the load on a spring \[N\], or the adherent displacement
     /// against which the ground holds a fixed end \[m\].
     solved: f64,
+    /// Displacement of the adherent frame then \[m\].
+    frame: f64,
     /// Whether that has changed since.
     due: bool,
     /// Displacement \[m\] and adhesion \[N/m\] of the duct up to which a fixed end's own friction
@@ -42,10 +46,13 @@ impl Supports {
     pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, bounds: WindowBounds) -> Self {
         let body = cable.loads(mesh, 0.0);
         let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
+        let [upstream, downstream] = cable.end_positions();
         let watched = |support: Support| WatchedSupport {
+            position: if support.node == 0 { upstream } else { downstream },
             least: around(support.node),
             window: around(support.node),
             solved: 0.0,
+            frame: 0.0,
             due: false,
             followed: [0.0; 2],
             support,
@@ -65,8 +72,20 @@ impl Supports {
         self.load.copy_from_slice(&body);
         self.body = body;
         for watched in &mut self.all {
-            (watched.solved, watched.followed) = (0.0, [0.0; 2]);
+            (watched.solved, watched.frame, watched.followed) = (0.0, 0.0, [0.0; 2]);
             watched.window = watched.least;
+        }
+    }
+
+    /// Loads the nodes of clamps that slip anew, after they have changed between sticking and sliding.
+    pub fn grip(&mut self, snapshot: &Snapshot<'_>, chain: &Chain) {
+        for watched in self.all.iter_mut().filter(|watched| watched.support.slips) {
+            let node = watched.support.node;
+            if let Some(spring) = watched.support.stiffness {
+                watched.frame = snapshot.adherent_at(node);
+                watched.solved = cut(snapshot, node, chain) - spring * watched.frame;
+                self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
+            }
         }
     }
 
@@ -106,23 +125,24 @@ impl Supports {
                 Some(spring) => (cut(snapshot, node, chain) - spring * adherent, 1.0),
                 None => (adherent, FIXED_END * chain.stiffness),
             };
-            watched.due = all || force * (target - watched.solved).abs() > self.threshold;
+            let changed = force * (target - watched.solved).abs() > self.threshold;
+            watched.due = all || changed || chain.slides(node);
             if watched.due {
-                watched.solved = target;
+                (watched.solved, watched.frame) = (target, adherent);
             }
             if watched.support.stiffness.is_some() {
-                self.load[node] = watched.solved + self.body[node];
+                self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
                 continue;
             }
-            r[node] = -watched.solved;
-            trial.r[node] = -watched.solved;
+            r[node] = watched.position - watched.solved;
+            trial.r[node] = r[node];
             // Its friction turns at slips far smaller than those that matter to its neighbours.
             // The duct stands at D = a + γ A.
             let (gamma, adhesion) = (chain.compliance, snapshot.adhesion[node]);
             let duct = adherent + gamma * adhesion;
             let [duct_before, adhesion_before] = std::mem::replace(&mut watched.followed, [duct, adhesion]);
             let (slip, before) = (duct - duct_before, g[node] + adhesion_before);
-            let after = self.law.after_slip(before, slip);
+            let after = self.law.after_slip(before, slip, chain.nodes[node].limit);
             heat += chain.nodes[node].tributary * after * (slip - gamma * (after - before));
             g[node] = after - adhesion;
         }

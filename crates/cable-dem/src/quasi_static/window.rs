@@ -108,22 +108,22 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut
     parts.push(with_edges(lo, last));
 }
 
-/// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond `limit` \[N/m\].
+/// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond the `limit` of the node,
+/// and so beyond the `least` one \[N/m\].
 pub(super) fn slipping(
     nodes: Range<usize>,
-    friction: &[f64],
-    adhesion: &[f64],
-    limit: f64,
+    (friction, adhesion): (&[f64], &[f64]),
+    (least, limit): (f64, impl Fn(usize) -> f64),
     mut found: impl FnMut(Stretch),
 ) {
-    let slips = |node: &usize| (friction[*node] + adhesion[*node]).abs() > limit;
+    let slips = |node: &usize| (friction[*node] + adhesion[*node]).abs() > limit(*node);
     let mut from = nodes.start;
     while from < nodes.end {
         let block = from..(from + BLOCK).min(nodes.end);
         let pairs = friction[block.clone()].iter().zip(&adhesion[block.clone()]);
         // Several nodes are looked at at once: a third of the time of a pass in which few slip.
         let beyond = pairs.fold(false, |beyond, (friction, adhesion)| {
-            beyond | ((friction + adhesion).abs() > limit)
+            beyond | ((friction + adhesion).abs() > least)
         });
         let Some(lo) = beyond.then(|| block.clone().find(slips)).flatten() else {
             from = block.end;

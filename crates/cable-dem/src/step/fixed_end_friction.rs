@@ -27,29 +27,26 @@ use crate::{DuctedCable, Friction, FrictionLaw, Mesh};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FixedEndFriction {
     friction: Friction,
-    /// q h²/EA \[m\]: slip after which the whole half element has turned over.
-    turning_slip: f64,
+    /// h²/EA \[m²/N\]: times q the slip after which the whole half element has turned over.
+    turning: f64,
 }
 
 impl FixedEndFriction {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
-        let friction = cable.friction();
-        let h = mesh.spacing();
         Self {
-            friction,
-            turning_slip: friction.limit() * h * h / cable.axial_stiffness(),
+            friction: cable.friction(),
+            turning: mesh.spacing().powi(2) / cable.axial_stiffness(),
         }
     }
 
-    /// Friction \[N/m\] after the duct has slipped by `slip` \[m\] past the node, from `before`.
-    pub fn after_slip(self, before: f64, slip: f64) -> f64 {
+    /// Friction \[N/m\] of a node with the friction `limit` q after the duct has slipped by `slip` \[m\] past it, from `before`.
+    pub fn after_slip(self, before: f64, slip: f64, limit: f64) -> f64 {
         if self.friction.law() != FrictionLaw::Coulomb || slip == 0.0 {
-            return self.friction.after_slip(before, slip);
+            return self.friction.after_slip_within(before, slip, limit);
         }
-        let limit = self.friction.limit();
         let turned = (0.5 + 0.5 * before / limit.copysign(slip)).clamp(0.0, 1.0);
         let reached = 1.0 - (1.0 - turned).sqrt();
-        let y = (reached * reached + slip.abs() / self.turning_slip)
+        let y = (reached * reached + slip.abs() / (limit * self.turning))
             .sqrt()
             .min(1.0);
         (2.0 * y * (2.0 - y) - 1.0) * limit.copysign(slip)
@@ -71,8 +68,8 @@ mod tests {
     fn many_small_slips_are_one_large_one() -> Result<(), CableError> {
         let node = node()?;
         for slip in [0.01, 0.3, 0.9, 2.0] {
-            let small = (0..100).fold(1.0, |f, _| node.after_slip(f, -0.01 * slip));
-            assert!((small - node.after_slip(1.0, -slip)).abs() < 1e-9);
+            let small = (0..100).fold(1.0, |f, _| node.after_slip(f, -0.01 * slip, 1.0));
+            assert!((small - node.after_slip(1.0, -slip, 1.0)).abs() < 1e-9);
         }
         Ok(())
     }
@@ -81,13 +78,16 @@ mod tests {
     fn both_directions_are_mirror_images_that_stay_within_the_limit() -> Result<(), CableError> {
         let node = node()?;
         for before in [-1.0, -0.4, 0.0, 0.7, 1.0] {
-            assert_eq!(node.after_slip(before, 0.0), before);
+            assert_eq!(node.after_slip(before, 0.0, 1.0), before);
             for slip in [1e-300, 1e-9, 0.1, 1.0, 1e300] {
-                let (up, down) = (node.after_slip(before, slip), node.after_slip(-before, -slip));
+                let (up, down) = (
+                    node.after_slip(before, slip, 1.0),
+                    node.after_slip(-before, -slip, 1.0),
+                );
                 assert_eq!(up, -down);
                 assert!((before - 1e-9..=1.0).contains(&up), "{before} {slip}: {up}");
             }
-            assert_eq!(node.after_slip(before, 1.0), 1.0);
+            assert_eq!(node.after_slip(before, 1.0, 1.0), 1.0);
         }
         Ok(())
     }

@@ -9,6 +9,7 @@
 
 mod bisection;
 mod fixed_end_friction;
+mod grip;
 mod prediction;
 mod problem;
 mod response;
@@ -17,6 +18,7 @@ mod support;
 mod tolerance;
 
 pub(crate) use fixed_end_friction::FixedEndFriction;
+pub(crate) use grip::Grip;
 pub(crate) use prediction::Prediction;
 pub(crate) use problem::{Chain, Load, Stretch, Trial};
 pub(crate) use solver::StepSolver;

@@ -9,9 +9,11 @@
 //! and once these are known r follows from a linear system. An answer is right exactly when every stuck node's friction
 //! lies within its bounds and every slipping node has slipped the way its friction points.
 
+use super::grip::Grip;
 use super::support::Support;
+use crate::section::{Section, limit_of};
 use crate::tridiagonal::Row;
-use crate::{DuctedCable, Mesh};
+use crate::{CableState, DuctedCable, Mesh, Restraint};
 
 /// State of the contact between one node and the duct.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,12 +35,17 @@ pub(crate) struct Chain {
     pub nodes: Vec<Node>,
     /// Shear compliance γ \[m²/N\]; 0 for Coulomb's law.
     pub compliance: f64,
-    /// The smallest friction limit of all nodes \[N/m\].
+    /// The smallest friction limit of all nodes of a cable without force \[N/m\].
     pub least_limit: f64,
+    /// Nodes whose friction limit grows with the force in the cable, and the sections they lie on.
+    pub(super) bends: Vec<(usize, Vec<(f64, Section)>)>,
+    /// Clamps that slip; their springs are among the nodes' while they stick.
+    pub grips: Vec<Grip>,
     /// The unknown nodes: all but fixed ends.
     pub free: Stretch,
-    /// Whether a fixed end, a spring or a clamp holds the cable.
+    /// Whether a fixed end, a spring or a clamp holds the cable; and whether one does that never slips.
     pub is_held: bool,
+    pub(super) is_held_for_ever: bool,
     /// Rounding error of a node's force per metre \[N/m\], for each metre of displacement.
     pub rounding: f64,
 }
@@ -203,6 +210,7 @@ impl Chain {
         for Support {
             node,
             stiffness: spring,
+            ..
         } in Support::of(cable, mesh)
         {
             match spring {
@@ -214,23 +222,133 @@ impl Chain {
                 None => free.hi = last - 1,
             }
         }
-        let limit = cable.friction().limit();
         let node = |(i, &diagonal): (usize, &f64)| {
+            let limit = limit_of(&cable.parts(mesh, i), 0.0);
             Node::new(diagonal, mesh.tributary_length(i), limit, stiffness, compliance)
         };
+        let parts = (0..=last).map(|i| (i, cable.parts(mesh, i)));
+        let bends = |(_, parts): &(usize, Vec<(f64, Section)>)| parts.iter().any(|(_, part)| part.bend > 0.0);
         let mut chain = Self {
             rounding: rounding(stiffness, mesh.spacing()) + stiffest,
             stiffness,
             per_stiffness: 1.0 / stiffness,
             nodes: diagonal.iter().enumerate().map(node).collect(),
             compliance,
-            least_limit: limit,
+            least_limit: cable.least_limit(),
+            bends: parts.filter(bends).collect(),
             free,
-            is_held: free.len() < mesh.nodes(),
+            grips: Grip::of(cable, mesh),
+            is_held: false,
+            is_held_for_ever: free.len() < mesh.nodes(),
         };
         // A spring that rounding loses holds nothing.
-        chain.is_held |= free.nodes().any(|i| chain.spring(i) > 0.0);
+        let springs = free.nodes().any(|i| chain.spring(i) > 0.0);
+        let sticks = |restraint: &Restraint| restraint.holds.is_none() && restraint.stiffness > 0.0;
+        let ends = [cable.upstream(), cable.downstream()];
+        let never_slips =
+            ends.iter().any(|end| end.stiffness() > Some(0.0)) || cable.restraints().iter().any(sticks);
+        chain.is_held_for_ever |= springs && (chain.grips.is_empty() || never_slips);
+        chain.is_held = chain.is_held_for_ever || !chain.grips.is_empty();
         chain
+    }
+
+    /// Adds the spring of a clamp that slips to its node (`sign` 1), or takes it away (−1).
+    fn hang(&mut self, index: usize, sign: f64) {
+        let Grip { node, stiffness, .. } = self.grips[index];
+        let Node {
+            diagonal,
+            tributary,
+            limit,
+            ..
+        } = self.nodes[node];
+        let diagonal = diagonal + sign * stiffness / self.stiffness;
+        self.nodes[node] = Node::new(diagonal, tributary, limit, self.stiffness, self.compliance);
+        self.is_held = self.is_held_for_ever || self.grips.iter().any(Grip::is_stuck);
+    }
+
+    /// Lets all clamps stick, slipped as in `state`.
+    pub fn grip(&mut self, state: &CableState) {
+        for index in 0..self.grips.len() {
+            let was_stuck = self.grips[index].is_stuck();
+            self.grips[index].start(state);
+            if !was_stuck {
+                self.hang(index, 1.0);
+            }
+        }
+    }
+
+    /// Takes away the springs of clamps that have slid from `before` to `after`, and no others.
+    pub fn release(&mut self, before: &CableState, after: &CableState) {
+        self.grip(after);
+        for index in 0..self.grips.len() {
+            if self.grips[index].slide(before) {
+                self.hang(index, -1.0);
+            }
+        }
+    }
+
+    /// Lets the clamps on `stretch` stick or slide as displacements `u` \[m\] demand. Returned: whether one of them does so otherwise
+    /// than was assumed.
+    pub fn correct_grips(&mut self, stretch: Stretch, u: impl Fn(usize) -> f64) -> bool {
+        let mut corrected = false;
+        for index in 0..self.grips.len() {
+            let grip = &mut self.grips[index];
+            if grip.is_within(stretch) && grip.correct(u(grip.node)) {
+                let sign = if grip.is_stuck() { 1.0 } else { -1.0 };
+                self.hang(index, sign);
+                corrected = true;
+            }
+        }
+        corrected
+    }
+
+    /// What clamps on `node` that have slipped, or slide, do to its load \[N\] where those of their springs are in a frame that has
+    /// moved by `frame` \[m\].
+    pub fn grip_load(&self, node: usize, frame: f64) -> f64 {
+        let here = self.grips.iter().filter(|grip| grip.node == node);
+        here.map(|grip| grip.load(frame)).sum()
+    }
+
+    /// Adds the same to the `load` of every node in the frame of the ground.
+    pub fn add_grip_loads(&self, load: &mut [f64]) {
+        for grip in &self.grips {
+            load[grip.node] += grip.load(0.0);
+        }
+    }
+
+    /// Whether a clamp on `node` slides.
+    pub fn slides(&self, node: usize) -> bool {
+        self.grips
+            .iter()
+            .any(|grip| grip.node == node && !grip.is_stuck())
+    }
+
+    /// Leaves the clamps that slip to the caller.
+    pub fn take_grips(&mut self) -> Vec<Grip> {
+        for index in 0..self.grips.len() {
+            self.hang(index, -1.0);
+        }
+        std::mem::take(&mut self.grips)
+    }
+
+    /// Whether a part of the duct bends.
+    pub fn bends(&self) -> bool {
+        !self.bends.is_empty()
+    }
+
+    /// Lets the cable press on the bends with the force that displacements `u` \[m\] and the thermal force \[N\] make. Returned: the
+    /// largest change of a friction limit, as a share of it.
+    pub fn press(&mut self, u: impl Fn(usize) -> f64, thermal_force: f64) -> f64 {
+        let last = self.nodes.len() - 1;
+        let mut change = 0.0_f64;
+        for (i, parts) in &self.bends {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            let stretch = (u(after) - u(before)) / (after - before) as f64;
+            let limit = limit_of(parts, thermal_force - self.stiffness * stretch);
+            let before = std::mem::replace(&mut self.nodes[*i].limit, limit);
+            change = change.max((limit - before).abs() / limit);
+        }
+        change
     }
 
     /// Neighbours of node i: one at an end, else two.

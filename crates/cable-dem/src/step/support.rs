@@ -10,6 +10,8 @@ pub(crate) struct Support {
     pub node: usize,
     /// Spring to the ground \[N/m\]; `None` holds the node.
     pub stiffness: Option<f64>,
+    /// Whether a clamp that slips is on the node.
+    pub slips: bool,
 }
 
 impl Support {
@@ -20,17 +22,22 @@ impl Support {
         let supports = ends.map(|(node, end)| Self {
             node,
             stiffness: end.stiffness(),
+            slips: false,
         });
         let mut supports = supports.to_vec();
-        for (node, stiffness) in cable.restraints().iter().flat_map(|clamp| clamp.by_node(mesh)) {
-            if stiffness == 0.0 {
-                continue;
-            }
+        let clamps = cable.restraints().iter();
+        let springs =
+            clamps.flat_map(|clamp| clamp.by_node(mesh).map(|spring| (spring, clamp.holds.is_some())));
+        for ((node, stiffness), slips) in springs.filter(|((_, stiffness), _)| *stiffness > 0.0) {
             match supports.iter_mut().find(|support| support.node == node) {
-                Some(support) => support.stiffness = support.stiffness.map(|already| already + stiffness),
+                Some(support) => {
+                    support.stiffness = support.stiffness.map(|already| already + stiffness);
+                    support.slips |= slips;
+                }
                 None => supports.push(Self {
                     node,
                     stiffness: Some(stiffness),
+                    slips,
                 }),
             }
         }

@@ -37,7 +37,7 @@ pub(crate) fn check_precision(
     peak: f64,
 ) -> Result<(), CableError> {
     let h = mesh.spacing();
-    let share = rounding(cable.axial_stiffness() / h, h) * largest(u, peak) / cable.friction().limit();
+    let share = rounding(cable.axial_stiffness() / h, h) * largest(u, peak) / cable.least_limit();
     // Written so that NaN fails.
     if share <= MAX_ROUNDING {
         Ok(())

@@ -48,7 +48,7 @@ proptest! {
         friction.compliance();
         let cable = DuctedCable::new(length, stiffness, friction)
             .and_then(|cable| cable.with_ends(End::Spring(spring), End::Fixed))
-            .and_then(|cable| cable.with_restraints(vec![Restraint { position: clamp, stiffness: spring }]));
+            .and_then(|cable| cable.with_restraints(vec![Restraint::new(clamp, spring)]));
         let Ok(cable) = cable else { return Ok(()); };
         cable.mirrored().screening_length();
         let _ = inertia_ratio(&cable, clamp, other);

@@ -85,10 +85,10 @@ fn scene() -> impl Strategy<Value = Scene> {
 
 impl Scene {
     fn cable(&self) -> DuctedCable {
-        let clamps = self.clamps.iter().map(|&(share, stiffness)| Restraint {
-            position: share * self.length,
-            stiffness,
-        });
+        let clamps = self
+            .clamps
+            .iter()
+            .map(|&(share, stiffness)| Restraint::new(share * self.length, stiffness));
         cable(
             self.length,
             self.axial_stiffness,
@@ -194,7 +194,18 @@ fn differences(scene: &Scene, depths: f64, stops: Stops) -> Differences {
         .map(|(one, other)| (one - other).abs())
         .sum();
     let stretch = scene.limit * scene.length * scene.length / scene.axial_stiffness;
-    let size = scene.peak.max(stretch).max(2.0 / scene.shape_factor);
+    // Weak springs that alone hold it move before they bear a share of the friction.
+    let ends = [scene.ends.0, scene.ends.1].map(|end| end.stiffness().unwrap_or(f64::INFINITY));
+    let springs = ends
+        .iter()
+        .chain(scene.clamps.iter().map(|(_, stiffness)| stiffness))
+        .sum::<f64>();
+    let given = if springs > 0.0 {
+        0.1 * scene.limit * scene.length / springs
+    } else {
+        0.0
+    };
+    let size = scene.peak.max(stretch).max(2.0 / scene.shape_factor).max(given);
     let mean = |u: &[f64]| u.iter().sum::<f64>() / u.len() as f64;
     let drift = if scene.adrift() {
         mean(run.state.displacement()) - mean(&oracle.displacement)

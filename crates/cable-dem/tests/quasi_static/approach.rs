@@ -82,10 +82,9 @@ fn any_scene() -> impl Strategy<Value = Scene> {
     )
         .prop_map(
             |((length, stiffness, spacing), friction, ends, clamps, shape, traffic)| {
-                let clamps = clamps.into_iter().map(|(share, stiffness)| Restraint {
-                    position: share * length,
-                    stiffness,
-                });
+                let clamps = clamps
+                    .into_iter()
+                    .map(|(share, stiffness)| Restraint::new(share * length, stiffness));
                 let spacing = spacing * shape.width;
                 Scene {
                     cable: cable(length, stiffness, friction, ends.0, ends.1)

@@ -346,10 +346,7 @@ fn a_clamp_holds_a_long_cable_from_both_sides() {
     for spring in [0.1, 1.0, 10.0].map(|share| share * EA / x) {
         let (bar, mesh) = long_bar(coulomb(Q), End::Free, 43.1);
         let position = mesh.spacing() * (mesh.elements() / 2) as f64;
-        let clamp = Restraint {
-            position,
-            stiffness: spring,
-        };
+        let clamp = Restraint::new(position, spring);
         let bar = bar.with_restraints(vec![clamp]).expect("a valid clamp");
         let mut run = Run::new(bar.clone(), mesh);
         let (outcome, last) = run.pass_and_last(&front(&bar, &mesh, 2.0 * x, D));

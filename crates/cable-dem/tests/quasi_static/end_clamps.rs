@@ -17,7 +17,7 @@ const ACCURACY: f64 = 1e-3;
 fn clamped(ends: (End, End), clamps: &[(f64, f64)]) -> DuctedCable {
     let clamps = clamps
         .iter()
-        .map(|&(position, stiffness)| Restraint { position, stiffness });
+        .map(|&(position, stiffness)| Restraint::new(position, stiffness));
     cable(LENGTH, AXIAL_STIFFNESS, sheathed(LIMITS[0]), ends.0, ends.1)
         .with_restraints(clamps.collect())
         .expect("valid clamps")

@@ -18,7 +18,7 @@ const EXPANSION: f64 = 17e-6;
 const LIMIT: f64 = LIMITS[0];
 
 /// Θ of a cable that is warmer by `kelvin` \[N\].
-fn thermal_force(kelvin: f64) -> f64 {
+pub fn thermal_force(kelvin: f64) -> f64 {
     AXIAL_STIFFNESS * EXPANSION * kelvin
 }
 
@@ -293,58 +293,14 @@ const DAYS: [Day; 5] = [
 /// An independent full-chain program: passes evenly over the day, the cable brought to the day's temperature, a cosine, before each.
 #[test]
 fn days_of_traffic_are_those_of_an_independent_program() -> Outcome {
-    let motion = reference_motion();
     for (ends, length, kelvin, passes, days, expected) in DAYS {
         let spacing = if length < 50.0 { 0.1 } else { 0.2 };
         let bar = cable(length, AXIAL_STIFFNESS, sheathed(LIMIT), ends.0, ends.1);
-        let mesh = Mesh::new(length, spacing, 0.5 * spacing)?;
-        let passage = unjudged_passage(&bar, &mesh, &motion);
-        let mut run = Run::new(bar.clone(), mesh);
-        let mut resting = RestingCable::new(&bar, &mesh)?;
-        for day in 1..=days {
-            let mut seen = [
-                f64::NEG_INFINITY,
-                f64::INFINITY,
-                f64::NEG_INFINITY,
-                f64::INFINITY,
-                0.0,
-            ];
-            let mut see = |state: &CableState| -> Result<(), CableError> {
-                let force = state.end_forces(&bar)?.downstream;
-                let end = 1e3 * state.displacement()[0];
-                seen = [
-                    seen[0].max(force),
-                    seen[1].min(force),
-                    seen[2].max(end),
-                    seen[3].min(end),
-                    end,
-                ];
-                Ok(())
-            };
-            for pass in 0..passes {
-                if 2 * pass == passes {
-                    resting.warm(&mut run.state, thermal_force(kelvin))?;
-                    see(&run.state)?;
-                }
-                let time = (pass as f64 + 0.5) / passes as f64;
-                resting.warm(
-                    &mut run.state,
-                    thermal_force(0.5 * kelvin * (1.0 - (2.0 * PI * time).cos())),
-                )?;
-                see(&run.state)?;
-                run.pass(&passage);
-                see(&run.state)?;
-            }
-            resting.warm(&mut run.state, 0.0)?;
-            see(&run.state)?;
-            let expected = match day {
-                1 => expected[0],
-                day if day == days => expected[1],
-                _ => continue,
-            };
+        let seen = extremes_of_days(&bar, spacing, kelvin, passes, days)?;
+        for (day, expected) in [(1, expected[0]), (days, expected[1])] {
             let force = expected[0].abs().max(expected[1].abs()).max(1.0);
             let range = expected[2] - expected[3];
-            for (k, (seen, expected)) in seen.into_iter().zip(expected).enumerate() {
+            for (k, (seen, expected)) in seen[day - 1].into_iter().zip(expected).enumerate() {
                 let apart = (seen - expected).abs() / if k < 2 { force } else { range };
                 println!(
                     "{length} m, {kelvin} K, day {day}: {seen:.3} {expected} ({:.2} %)",
@@ -358,4 +314,59 @@ fn days_of_traffic_are_those_of_an_independent_program() -> Outcome {
         }
     }
     Ok(())
+}
+
+/// Largest and least force on the downstream end \[N\], largest and least movement of the upstream one and the last of it \[mm\] of each
+/// day with so many `passes`, between which the cable is warmed by up to `kelvin` at noon.
+pub fn extremes_of_days(
+    bar: &DuctedCable,
+    spacing: f64,
+    kelvin: f64,
+    passes: usize,
+    days: usize,
+) -> Result<Vec<[f64; 5]>, CableError> {
+    let mesh = Mesh::new(bar.length(), spacing, 0.5 * spacing)?;
+    let passage = unjudged_passage(bar, &mesh, &reference_motion());
+    let mut run = Run::new(bar.clone(), mesh);
+    let mut resting = RestingCable::new(bar, &mesh)?;
+    let mut all = Vec::new();
+    for _ in 0..days {
+        let mut seen = [
+            f64::NEG_INFINITY,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::INFINITY,
+            0.0,
+        ];
+        let mut see = |state: &CableState| -> Result<(), CableError> {
+            let force = state.end_forces(bar)?.downstream;
+            let end = 1e3 * state.displacement()[0];
+            seen = [
+                seen[0].max(force),
+                seen[1].min(force),
+                seen[2].max(end),
+                seen[3].min(end),
+                end,
+            ];
+            Ok(())
+        };
+        for pass in 0..passes {
+            if 2 * pass == passes {
+                resting.warm(&mut run.state, thermal_force(kelvin))?;
+                see(&run.state)?;
+            }
+            let time = (pass as f64 + 0.5) / passes as f64;
+            resting.warm(
+                &mut run.state,
+                thermal_force(0.5 * kelvin * (1.0 - (2.0 * PI * time).cos())),
+            )?;
+            see(&run.state)?;
+            run.pass(&passage);
+            see(&run.state)?;
+        }
+        resting.warm(&mut run.state, 0.0)?;
+        see(&run.state)?;
+        all.push(seen);
+    }
+    Ok(all)
 }

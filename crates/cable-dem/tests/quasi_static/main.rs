@@ -14,6 +14,7 @@ mod heat;
 mod reference;
 mod refusals;
 mod robustness;
+mod route;
 mod scenes;
 mod slow_turn;
 mod windows;

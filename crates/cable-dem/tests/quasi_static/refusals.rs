@@ -106,7 +106,7 @@ fn what_belongs_to_another_mesh_or_cable_is_refused() {
 fn arguments_out_of_range_are_refused() {
     let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0];
     let friction = coulomb(1.0);
-    let clamp = |position, stiffness| vec![Restraint { position, stiffness }];
+    let clamp = |position, stiffness| vec![Restraint::new(position, stiffness)];
     let cable = DuctedCable::new(10.0, 1e6, friction).expect("a valid cable");
     let mesh = Mesh::new(10.0, 1.0, 0.5).expect("a valid mesh");
     let flat = |approach| Passage::from_shape(&cable, &mesh, Direction::Forward, |_| 0.0, approach);

@@ -177,7 +177,7 @@ fn every_spring_and_clamp_is_solved() {
             assert!(force > 0.0 && force < LIMITS[1] * 12.0);
             last = force;
             for position in [0.0, 0.05, 6.0, 6.1, 12.0] {
-                let clamp = Restraint { position, stiffness };
+                let clamp = Restraint::new(position, stiffness);
                 run_with(End::Free, End::Fixed, vec![clamp]);
                 run_with(End::Spring(stiffness), End::Free, vec![clamp, clamp]);
             }

@@ -42,10 +42,9 @@ fn any_scene() -> impl Strategy<Value = (Problem, Vec<usize>)> {
     )
         .prop_map(
             |((length, stiffness), (law, limit, steepness), ends, clamps, (peak, width), traffic)| {
-                let clamps = clamps.into_iter().map(|(share, stiffness)| Restraint {
-                    position: share * length,
-                    stiffness,
-                });
+                let clamps = clamps
+                    .into_iter()
+                    .map(|(share, stiffness)| Restraint::new(share * length, stiffness));
                 let cable = Friction::new(law, limit)
                     .and_then(|friction| DuctedCable::new(length, stiffness, friction))
                     .and_then(|cable| cable.with_ends(ends.0, ends.1))

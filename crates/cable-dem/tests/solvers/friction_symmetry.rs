@@ -58,10 +58,7 @@ fn any_scene(slowest: f64, fastest: f64, longest: f64) -> impl Strategy<Value = 
                 (peak, width, speed),
                 traffic,
             )| {
-                let clamp = |(share, stiffness)| Restraint {
-                    position: share * length,
-                    stiffness,
-                };
+                let clamp = |(share, stiffness)| Restraint::new(share * length, stiffness);
                 Scene {
                     length,
                     axial_stiffness,

@@ -12,10 +12,7 @@ fn a_run_resumed_from_a_saved_state_equals_a_straight_run() -> Outcome {
         sheathed(LIMITS[1]),
         FrictionLaw::Sigmoid { shape_factor: 1e9 },
     ] {
-        let clamp = Restraint {
-            position: 4.1,
-            stiffness: 1e6,
-        };
+        let clamp = Restraint::new(4.1, 1e6);
         let problem = Problem {
             cable: DuctedCable::new(12.0, AXIAL_STIFFNESS, Friction::new(law, LIMITS[1])?)?
                 .with_ends(End::Spring(1e6), End::Fixed)?

@@ -1,6 +1,6 @@
-//! Ducts that slope: the cable's weight along the duct, by every solver.
+//! Ducts that slope, and routes of several sections: the cable's weight along the duct, by every solver.
 
-use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw, Mesh, Restraint, laid};
+use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw, Mesh, Restraint, Section, laid};
 
 use super::harness::{AXIAL_STIFFNESS, Kind, Outcome, Problem, Run, truck};
 
@@ -113,10 +113,10 @@ fn where_friction_holds_the_cable_it_stays() -> Outcome {
         let mesh = Mesh::new(30.0, 0.2, 0.1)?;
         let state = laid(&cable, &mesh)?;
         // Friction carries the weight along the duct but for what a sheath gives way beside an end that holds.
-        let screened = cable.body_force().abs() * cable.screening_length();
+        let screened = cable.sections()[0].body_force.abs() * cable.screening_length();
         let (force, moved) = (
             state.end_forces(&cable)?,
-            cable.body_force() * cable.friction().compliance(),
+            cable.sections()[0].body_force * cable.friction().compliance(),
         );
         for force in [force.upstream, force.downstream] {
             assert!(force.abs() <= 1.2 * screened + 1e-9, "{force} N, {screened} N");
@@ -126,7 +126,8 @@ fn where_friction_holds_the_cable_it_stays() -> Outcome {
             (middle - moved).abs() <= 1e-3 * moved.abs(),
             "{middle} m, {moved} m"
         );
-        assert!(state.friction_needed(&cable)? <= cable.body_force().abs() * (1.0 + 1e-6));
+        let needed = state.friction_share(&cable)? * cable.friction().limit();
+        assert!(needed <= cable.sections()[0].body_force.abs() * (1.0 + 1e-6));
     }
     Ok(())
 }
@@ -161,7 +162,7 @@ fn what_friction_does_not_hold_rests_on_the_lower_end() -> Outcome {
                     force.downstream
                 };
                 let limit = cable.friction().limit();
-                let rest = (cable.body_force().abs() - limit) * length;
+                let rest = (cable.sections()[0].body_force.abs() - limit) * length;
                 // A sheath at a fixed end is not sheared: there no friction acts on the end's half element.
                 let half = 0.5 * mesh.spacing() * limit;
                 let off = if sheathed { half } else { 0.0 } + 1e-6 * rest;
@@ -183,10 +184,7 @@ fn what_friction_does_not_hold_rests_on_the_lower_end() -> Outcome {
 #[test]
 fn without_friction_the_lower_ends_and_clamps_hold_the_weight() -> Outcome {
     let friction = Friction::new(FrictionLaw::Coulomb, 0.0)?;
-    let clamp = Restraint {
-        position: 12.3,
-        stiffness: 2e5,
-    };
+    let clamp = Restraint::new(12.3, 2e5);
     let cable = DuctedCable::new(30.0, AXIAL_STIFFNESS, friction)?
         .with_ends(End::Spring(3e5), End::Fixed)?
         .with_restraints(vec![clamp])?
@@ -221,10 +219,7 @@ fn what_nothing_holds_is_an_error() -> Outcome {
 #[test]
 fn the_mirror_image_of_a_slope_gives_the_mirror_image_of_the_answer() -> Outcome {
     for sheathed in [true, false] {
-        let clamp = Restraint {
-            position: 4.0,
-            stiffness: 1e6,
-        };
+        let clamp = Restraint::new(4.0, 1e6);
         let cable =
             sloping(12.0, 0.08, sheathed, (End::Spring(2e6), End::Fixed))?.with_restraints(vec![clamp])?;
         let (here, there) = (problem(cable.clone(), 0.2)?, problem(cable.mirrored(), 0.2)?);
@@ -251,10 +246,7 @@ fn the_mirror_image_of_a_slope_gives_the_mirror_image_of_the_answer() -> Outcome
 /// Ends of all kinds, one way and both: little inertia, one answer, with balanced forces and energy.
 #[test]
 fn all_solvers_agree_on_slopes() -> Outcome {
-    let clamp = Restraint {
-        position: 5.1,
-        stiffness: 1e6,
-    };
+    let clamp = Restraint::new(5.1, 1e6);
     for (slope, ends, clamps) in [
         (0.05, (End::Free, End::Fixed), vec![]),
         (-0.12, (End::Free, End::Spring(2e6)), vec![clamp]),
@@ -271,8 +263,8 @@ fn all_solvers_agree_on_slopes() -> Outcome {
                 let mut forces = Vec::new();
                 for run in &mut runs {
                     let pass = run.pass(vehicle)?;
-                    let needed = run.state.friction_needed(&cable)?;
-                    assert!(needed <= cable.friction().limit() * (1.0 + 1e-6), "{needed} N/m");
+                    let needed = run.state.friction_share(&cable)?;
+                    assert!(needed <= 1.0 + 1e-6, "{needed} of the limit");
                     if let Some(energy) = pass.energy {
                         let (unbalanced, returned) = (energy.unbalanced_share(), energy.returned_share());
                         assert!(unbalanced < 0.01 || energy.residual() > 0.0, "{energy:?}");
@@ -325,6 +317,90 @@ fn at_saturation_the_slope_takes_its_part_of_the_weight_off_the_force() -> Outco
         let (found, expected) = (force(slope)?, level - WEIGHT * 30.0 * slope.atan().sin());
         println!("{slope}: {found:.1} N, {expected:.1} N");
         assert!((found - expected).abs() < 0.03 * level, "{found} N, {expected} N");
+    }
+    Ok(())
+}
+
+/// A slope, a bend, a rougher level part, and a clamp that slips in the first passes.
+fn route(sheathed: bool) -> Result<DuctedCable, CableError> {
+    let limit = FRICTION * WEIGHT;
+    let clamp = Restraint::new(7.03, 5e6).that_holds(40.0);
+    let sections = [
+        Section::new(4.0, limit).with_body_force(0.08 * WEIGHT),
+        Section::new(3.2, limit).with_bend(FRICTION / 2.0),
+        Section::new(4.8, 1.4 * limit),
+    ];
+    sloping(12.0, 0.0, sheathed, (End::Spring(2e6), End::Fixed))?
+        .with_restraints(vec![clamp])?
+        .with_sections(&sections)
+}
+
+#[test]
+fn all_solvers_agree_on_a_route() -> Outcome {
+    for sheathed in [true, false] {
+        let cable = route(sheathed)?;
+        let problem = problem(cable.clone(), 0.2)?;
+        let mut runs = Vec::new();
+        for kind in Kind::ALL {
+            runs.push(Run::new(kind, &problem)?);
+        }
+        for vehicle in [0, 0, 1, 0] {
+            let mut found = Vec::new();
+            for run in &mut runs {
+                let pass = run.pass(vehicle)?;
+                assert!(run.state.friction_share(&cable)? < 1.0 + 1e-2);
+                if let Some(energy) = pass.energy {
+                    assert!(
+                        energy.unbalanced_share() < 0.01 && energy.returned_share() < 1e-3,
+                        "{energy:?}"
+                    );
+                }
+                let force = pass.outcome.force;
+                let slipped = 5e6 * run.state.clamp_slips(&cable)[0];
+                found.push([
+                    force.upstream,
+                    force.downstream,
+                    pass.outcome.restraints[0],
+                    slipped,
+                ]);
+            }
+            println!("{sheathed}: {found:?}");
+            for other in &found[1..] {
+                for (a, b) in other.iter().zip(found[0]) {
+                    assert!((a - b).abs() < 1e-2 * problem.largest_force(), "{found:?}");
+                }
+            }
+        }
+        assert!(runs[0].state.clamp_slips(&cable)[0] > 1e-6);
+    }
+    Ok(())
+}
+
+#[test]
+fn the_mirror_image_of_a_route_gives_the_mirror_image_of_the_answer() -> Outcome {
+    let cable = route(true)?;
+    let (here, there) = (problem(cable.clone(), 0.2)?, problem(cable.mirrored(), 0.2)?);
+    for kind in Kind::ALL {
+        let (mut one, mut other) = (Run::new(kind, &here)?, Run::new(kind, &there)?);
+        for vehicle in [0, 0, 1, 0] {
+            let (a, b) = (one.pass(vehicle)?.outcome, other.pass(1 - vehicle)?.outcome);
+            let slips = [
+                one.state.clamp_slips(&here.cable)[0],
+                -other.state.clamp_slips(&there.cable)[0],
+            ]
+            .map(|slip| 5e6 * slip);
+            for (a, b) in [
+                (a.force.upstream, b.force.downstream),
+                (a.force.downstream, b.force.upstream),
+                (a.restraints[0], -b.restraints[0]),
+                (slips[0], slips[1]),
+            ] {
+                assert!(
+                    (a - b).abs() < 1e-5 * here.largest_force(),
+                    "{kind:?}: {a} N, {b} N"
+                );
+            }
+        }
     }
     Ok(())
 }

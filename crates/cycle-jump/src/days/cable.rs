@@ -13,12 +13,13 @@ use crate::{JumpError, Next};
 /// Does what happens; its pass is the caller's.
 pub struct DailyCable<'a, P> {
     day: &'a Day,
-    mesh: &'a Mesh,
     cable: RestingCable,
     pub step: LongStep,
     pass: P,
-    /// Displacement before the last simulated period \[m\], if no step has used that period yet.
-    before: Option<Vec<f64>>,
+    /// The cable before the last simulated period, if no step has used that period yet.
+    before: Option<CableState>,
+    /// The cable before and after the simulated period that steps go by.
+    period: Option<[CableState; 2]>,
     /// What the last two simulated periods before steps have shown, the later one first.
     measured: [Option<Measured>; 2],
     /// The cable when it was hottest and coldest on the day under way.
@@ -45,18 +46,18 @@ where
 {
     pub fn new(
         cable: &DuctedCable,
-        mesh: &'a Mesh,
+        mesh: &Mesh,
         day: &'a Day,
         law: LockedLaw,
         pass: P,
     ) -> Result<Self, CableError> {
         Ok(Self {
             day,
-            mesh,
             cable: RestingCable::new(cable, mesh)?,
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
+            period: None,
             measured: [None, None],
             hot: None,
             cold: None,
@@ -78,7 +79,7 @@ where
         state: &mut CableState,
     ) -> Result<PassOutcome, E> {
         if event.begins {
-            self.before = Some(state.displacement().to_vec());
+            self.before = Some(state.clone());
         }
         let outcome = match event.act {
             Act::Pass(phase) => {
@@ -109,8 +110,12 @@ where
     /// simulated ones before them have shown it.
     fn step(&mut self, event: &Event, from: u64, to: u64, state: &mut CableState) -> Result<(), CableError> {
         if let Some(before) = self.before.take() {
-            let measured = self.measure(&before, from as f64, state);
+            self.cable.release(&before, state);
+            let measured = self.measure(before.displacement(), from as f64, state);
             self.measured = [Some(measured), self.measured[0].take()];
+            self.period = Some([before, state.clone()]);
+        } else if let Some([before, after]) = &self.period {
+            self.cable.release(before, after);
         }
         let [Some(last), earlier] = &self.measured else {
             return Ok(());
@@ -130,8 +135,7 @@ where
         let stages = [(first, &defects[0][..]), (second, &defects[1][..])];
         let (cable, u) = (&mut self.cable, state.displacement());
         let u = self.step.take(cable, u, periods, stages, &last.advance)?;
-        let moved = CableState::from_parts(self.mesh, u, state.friction().to_vec())?;
-        *state = moved.with_thermal_force(event.thermal_force)?;
+        *state = cable.moved(state, u)?.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }
 
@@ -142,8 +146,8 @@ where
         let mut defect = vec![0.0; advance.len()];
         let (u, thermal_force) = (state.displacement(), state.thermal_force());
         self.cable.needed(u, thermal_force, &mut defect);
-        for (defect, v) in defect.iter_mut().zip(&advance) {
-            *defect -= self.step.law.friction(*v);
+        for (i, (defect, v)) in defect.iter_mut().zip(&advance).enumerate() {
+            *defect -= self.step.law.friction(*v, self.cable.limit(i));
         }
         Measured {
             time,

@@ -25,6 +25,8 @@ pub struct DaysRequest<'a> {
     pub every_day: bool,
     /// Jumps over days of another run.
     pub guide: Guide<'a>,
+    /// The cable before the first day, if not as laid.
+    pub start: Option<&'a CableState>,
 }
 
 /// The cable over all days.
@@ -90,7 +92,11 @@ pub fn evolve_days<E: From<JumpError>>(
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Days, E> {
     check("passes", request.passes > 0, "at least one")?;
-    let mut state = laid(cable, mesh).map_err(wrap)?;
+    let mut state = request
+        .start
+        .cloned()
+        .map_or_else(|| laid(cable, mesh), Ok)
+        .map_err(wrap)?;
     let (passes, a_day) = (request.passes, day.passes());
     let days = passes.div_ceil(a_day);
     let of_last = passes - (days - 1) * a_day;

@@ -63,17 +63,22 @@ impl LockedLaw {
         self.is_still
     }
 
-    /// Φ(v) \[N/m\].
-    pub fn friction(&self, advance: f64) -> f64 {
-        self.segment(advance).0
+    /// Φ(v) \[N/m\] on a section of the duct with another friction `limit` \[N/m\]: the same share of it.
+    pub fn friction(&self, advance: f64, limit: f64) -> f64 {
+        self.segment(advance).0 * (limit / self.limit)
     }
 
-    /// Friction Φ(v) + r within ±q, and minus its slope \[N/m²\].
-    pub(super) fn with_defect(&self, advance: f64, defect: f64) -> (f64, f64) {
+    /// Friction Φ(v) + r within ± the `limit` of the section, and minus its slope \[N/m²\].
+    pub(super) fn with_defect(&self, advance: f64, defect: f64, limit: f64) -> (f64, f64) {
         let (friction, slope) = self.segment(advance);
-        let shifted = friction + defect;
-        let slope = if shifted.abs() >= self.limit { 0.0 } else { slope };
-        let friction = shifted.clamp(-self.limit, self.limit) - self.residual * advance;
+        let relative = limit / self.limit;
+        let shifted = friction * relative + defect;
+        let slope = if shifted.abs() >= limit {
+            0.0
+        } else {
+            slope * relative
+        };
+        let friction = shifted.clamp(-limit, limit) - self.residual * advance;
         (friction, slope + self.residual)
     }
 
@@ -98,10 +103,10 @@ mod tests {
         let advances = LockedLaw::SHARES.map(|share| 10e-6 * (0.7 - share));
         let law = LockedLaw::new(advances, 30.0);
         for (share, advance) in LockedLaw::SHARES.iter().zip(advances) {
-            assert!((law.friction(advance) - 30.0 * share).abs() < 1e-9);
+            assert!((law.friction(advance, 30.0) - 30.0 * share).abs() < 1e-9);
         }
-        assert_eq!((law.friction(-1.0), law.friction(1.0)), (30.0, -30.0));
-        let falls = (-600..600).map(|k| law.friction(1e-7 * f64::from(k)));
+        assert_eq!((law.friction(-1.0, 30.0), law.friction(1.0, 30.0)), (30.0, -30.0));
+        let falls = (-600..600).map(|k| law.friction(1e-7 * f64::from(k), 30.0));
         assert!(
             falls
                 .collect::<Vec<_>>()
@@ -109,14 +114,16 @@ mod tests {
                 .all(|pair| pair[1] <= pair[0])
         );
         // The defect moves it, but not beyond the limit.
-        let (friction, slope) = law.with_defect(0.0, 3.0);
+        let (friction, slope) = law.with_defect(0.0, 3.0, 30.0);
         assert!((friction - 24.0).abs() < 1e-9 && slope > 0.0);
-        assert!((law.with_defect(0.0, 20.0).0 - 30.0).abs() < 1e-9);
+        assert!((law.with_defect(0.0, 20.0, 30.0).0 - 30.0).abs() < 1e-9);
     }
 
     #[test]
     fn where_no_vehicle_moves_the_cable_the_law_is_that_of_friction() {
         let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], 30.0);
-        assert!((law.friction(-1e-7) - 30.0).abs() < 1e-9 && (law.friction(1e-7) + 30.0).abs() < 1e-9);
+        assert!(
+            (law.friction(-1e-7, 30.0) - 30.0).abs() < 1e-9 && (law.friction(1e-7, 30.0) + 30.0).abs() < 1e-9
+        );
     }
 }

@@ -111,7 +111,7 @@ impl LongStep {
         cable.needed(&place.collect::<Vec<_>>(), stage.thermal_force, &mut needed);
         let (mut residual, mut slope) = (vec![0.0; v.len()], vec![1.0; v.len()]);
         for i in cable.free() {
-            let (found, steepness) = self.law.with_defect(v[i], stage.defect[i]);
+            let (found, steepness) = self.law.with_defect(v[i], stage.defect[i], cable.limit(i));
             residual[i] = found - needed[i];
             slope[i] = steepness;
         }

@@ -9,33 +9,30 @@ use cable_dem::{CableState, DuctedCable};
 
 use super::record::{PassRecord, RestraintRecord};
 use crate::Error;
-use crate::scene::Scene;
+use crate::scene::{Scene, Section};
 
 /// Share of what friction can carry by which rounding and interpolation may exceed it.
 pub const MARGIN: f64 = 0.01;
-/// Rounding of the force in an element, as a share of the largest.
-const ROUNDING: f64 = 1e-9;
 
 /// Checks the cable as `pass` left it.
 pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<(), Error> {
-    let largest = state
-        .element_forces(cable)?
-        .fold(0.0_f64, |largest, force| largest.max(force.abs()));
-    let limit = cable.friction().limit();
-    let allowed = (1.0 + MARGIN) * limit + ROUNDING * largest / state.node_spacing();
-    let needed = state.friction_needed(cable)?;
+    let (share, limit) = (state.friction_share(cable)?, cable.friction().limit());
     // Written so that what is not a number fails.
-    if needed <= allowed {
+    if share <= 1.0 + MARGIN {
         Ok(())
     } else {
+        let needed = share * limit;
         Err(Error::Unbalanced { pass, needed, limit })
     }
 }
 
 /// The most \[N\] by which the forces on both ends differ where nothing else than friction and the
-/// cable's own weight acts between them.
-pub fn carried(scene: &Scene) -> f64 {
-    (scene.friction_limit() + scene.body_force().abs()) * scene.duct.length
+/// cable's own weight acts between them, with forces of up to `largest` \[N\] in the cable, which
+/// press it on bends.
+pub fn carried(scene: &Scene, largest: f64) -> f64 {
+    let sections = scene.sections().into_iter();
+    let on = |section: Section| (section.limit_under(largest) + section.body_force.abs()) * section.length;
+    sections.map(on).sum()
 }
 
 /// Checks the forces on the ends of a cable whose clamps carry `restraints`.
@@ -45,12 +42,17 @@ pub fn of_records(
     restraints: &[RestraintRecord],
 ) -> Result<(), Error> {
     let limit = scene.friction_limit();
-    let friction = carried(scene);
     for (index, record) in records.iter().enumerate() {
         // Of this pass: where it is warm, others find other forces on the clamps.
         let clamps = restraints.iter().map(|clamp| clamp.after_passes_n[index].abs());
         let clamps: f64 = clamps.sum();
         let (upstream, downstream) = (record.upstream_force_n, record.downstream_force_n);
+        let largest = record
+            .max_compression_n
+            .abs()
+            .max(upstream.abs())
+            .max(downstream.abs());
+        let friction = carried(scene, largest);
         let carried = (downstream - upstream).abs();
         if carried > (1.0 + MARGIN) * friction + clamps {
             return Err(Error::Unbalanced {

@@ -193,7 +193,7 @@ impl Run {
             };
             match quantity {
                 Limited::Force => force,
-                Limited::Movement => force / clamp.stiffness_n_per_m,
+                Limited::Movement => force / clamp.stiffness_n_per_m + clamp.slipped_m.unwrap_or(0.0).abs(),
             }
         });
         values.fold(0.0, f64::max)
@@ -204,8 +204,8 @@ impl Run {
 mod tests {
     use crate::{CableEnd, Limited, Limits, Place, Scene, run};
 
-    /// The error of the force on an end that bears little is a share of a tenth of the largest force
-    /// of all: limits that are nearer than that are doubtful.
+    /// The error of the force on an end that bears little is a share of a tenth of the largest
+    /// force of all: limits that are nearer than that are doubtful.
     #[test]
     fn a_verdict_on_an_end_that_bears_little_is_doubtful_within_the_error_of_all_forces() {
         let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml").unwrap();

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::error_shares::ErrorEstimate;
 use super::force_profile::ForceProfile;
 use super::heat::{DayExtremes, HeatRecord};
+use crate::SavedState;
 use crate::scene::{CableEnd, Traffic};
 
 /// Forces that differ by a smaller share are the same to a reader.
@@ -58,10 +59,23 @@ pub struct Run {
     pub slip_lengths: Option<SlipRecord>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
+    /// Where the run began, if not with the cable as laid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<Start>,
+    /// The cable after the last pass, with which another run can begin; not in the JSON document.
+    #[serde(skip)]
+    pub state: Option<SavedState>,
     /// What the answer cost, in counts that do not depend on the machine.
     pub cost: Cost,
     /// What the user should know before trusting the answer.
     pub warnings: Vec<String>,
+}
+
+/// The state that a run began with.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Start {
+    /// Passes before it.
+    pub passes: u64,
 }
 
 /// Which models and steps were used, and why.
@@ -174,6 +188,9 @@ pub struct RestraintRecord {
     /// The same after each of [`Run::passes`] \[N\].
     #[serde(default)]
     pub after_passes_n: Vec<f64>,
+    /// How far it has slipped \[m\], positive toward growing x; none if it never slips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slipped_m: Option<f64>,
 }
 
 /// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.

@@ -122,7 +122,8 @@ impl Course<'_> {
         let one_free = ends.contains(&End::Free) && self.scene.restraints.is_empty();
         let reached = self.records.iter().map(|record| self.shown(&record.outcome));
         let negligible = force_n.abs() < NOTHING * self.scale;
-        let impossible = one_free && force_n.abs() > (1.0 + balance::MARGIN) * balance::carried(self.scene);
+        let impossible =
+            one_free && force_n.abs() > (1.0 + balance::MARGIN) * balance::carried(self.scene, force_n.abs());
         let falls = reached.fold(0.0, larger).abs() > (1.0 + NEARLY) * force_n.abs();
         if negligible || impossible || falls {
             return None;

@@ -7,7 +7,7 @@ use cycle_jump::{Guide, Jumps, Next, Record};
 use super::locked_law::locked_law;
 use crate::answer::differences::{Scale, Shares, largest_force};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed};
-use crate::cable::{cable, traffic};
+use crate::cable::traffic;
 use crate::passes::{Passes, Simulation, Task, force_profile, listed_passes, seldom_passes};
 use crate::plan::{Period, Plan};
 use crate::scene::{DAYS_PER_YEAR, Heat, Scene};
@@ -200,17 +200,18 @@ impl<'a> DaySimulator<'a> {
         let (law, of_law) = locked_law(&task, period, self.sequence_of_a_day())?;
         let count = scene.traffic.passes;
         let jumps = self.jumps(jumping.finer)?;
+        let (cable, start) = (task.cable()?, task.begin()?);
         let request = DaysRequest {
             passes: count,
             wanted: &listed_passes(scene, self.period),
             wanted_days: &listed(count.div_ceil(day.passes())),
             every_day: self.every_pass,
+            start: start.as_ref(),
             guide: jumping.guide,
         };
         let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.
         let mut order = traffic(scene, scene.order())?;
-        let cable = cable(scene)?;
         let days = evolve_days(
             &cable,
             &mesh,

@@ -309,8 +309,8 @@ impl Search<'_> {
 mod tests {
     use crate::{Scene, run};
 
-    /// A short duct between springs, whose cable lies still after ten passes: the first jump goes to
-    /// the end, whatever error is asked for.
+    /// A short duct between springs, whose cable lies still after ten passes: the first jump goes
+    /// to the end, whatever error is asked for.
     const SETTLED: &str = "
 [duct]
 length = 12.6

@@ -3,8 +3,8 @@
 use ground_field::GroundField;
 
 use super::jump_search::KnownJumps;
-use crate::Progress;
 use crate::answer::differences::Shares;
+use crate::{Progress, SavedState};
 
 /// How to run.
 #[derive(Default, Clone, Copy)]
@@ -18,6 +18,8 @@ pub struct RunOptions<'a> {
     pub progress: Progress<'a>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
+    /// The state that another run has left, with which this one begins; else the cable as laid.
+    pub start: Option<&'a SavedState>,
     /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's
     /// are left out.
     pub stages: &'a [u64],

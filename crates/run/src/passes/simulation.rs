@@ -1,6 +1,6 @@
 //! All passes of a scene on one mesh: every one simulated, or few with jumps between them.
 
-use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics};
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics};
 use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve};
 use ground_field::DuctMotion;
 
@@ -13,7 +13,7 @@ use crate::ground::length_scale;
 use crate::plan::{CableMethod, Period, Plan};
 use crate::scene::Scene;
 use crate::tuning::jumps::{DOUBTFUL, FEW, PATIENCE, PATIENCE_WITH_MANY};
-use crate::{Error, Progress};
+use crate::{Error, Progress, SavedState};
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -22,6 +22,8 @@ pub struct Task<'a> {
     pub method: CableMethod,
     pub motions: &'a [DuctMotion],
     pub mesh: Mesh,
+    /// The state that the passes begin with, if not as laid.
+    pub start: Option<&'a SavedState>,
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
     pub progress: Progress<'a>,
@@ -94,6 +96,7 @@ impl Plan<'_> {
             method: self.choice.method.cable_method(),
             motions: &self.ground.motions,
             mesh,
+            start: self.start,
             stages: &[],
             progress: Progress::default(),
         }
@@ -101,6 +104,19 @@ impl Plan<'_> {
 }
 
 impl Task<'_> {
+    /// The cable, held where the passes begin.
+    pub fn cable(&self) -> Result<DuctedCable, CableError> {
+        self.start
+            .map_or_else(|| cable(self.scene), |start| start.cable(self.scene))
+    }
+
+    /// The cable before the first pass, if not as laid.
+    pub fn begin(&self) -> Result<Option<CableState>, CableError> {
+        self.start
+            .map(|start| start.on(self.scene, &self.mesh))
+            .transpose()
+    }
+
     /// Simulates every pass, or few where there is a `way` to jump over the others.
     pub fn carry_out(&self, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
         match way {
@@ -114,7 +130,7 @@ impl Task<'_> {
         let mut simulation = Simulation::new(self)?;
         let traffic = traffic(self.scene, self.scene.order())?;
         let count = self.scene.traffic.passes;
-        let mut state = simulation.solver.at_rest();
+        let mut state = self.begin()?.unwrap_or_else(|| simulation.solver.at_rest());
         let mut records = Vec::new();
         for (vehicle, pass) in traffic.zip(1..=count) {
             let outcome = simulation.pass(vehicle, Some(pass), &mut state)?;
@@ -169,6 +185,8 @@ impl Task<'_> {
         (request.wanted, request.beyond) = (&wanted, &beyond);
         (request.looked_at, request.first_passes) = (self.stages, first);
         request.guide = jumping.guide;
+        let begin = self.begin()?;
+        request.start = begin.as_ref();
         let cable = simulation.cable.clone();
         let mut evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
             let vehicle = listing.vehicle(jumping.period, phase, number);
@@ -236,8 +254,8 @@ pub struct Simulation<'a> {
 impl<'a> Simulation<'a> {
     pub fn new(task: &'a Task<'a>) -> Result<Self, Error> {
         Ok(Self {
-            solver: PassSolver::new(task.scene, task.method, task.motions, task.mesh)?,
-            cable: cable(task.scene)?,
+            solver: PassSolver::new(task)?,
+            cable: task.cable()?,
             task,
             slip: None,
             stages: Vec::new(),

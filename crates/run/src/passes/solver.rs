@@ -1,17 +1,16 @@
 //! A scene's solver of the cable, and how it lets one vehicle pass.
 
 use cable_dem::{
-    CableError, CableState, Explicit, ExplicitOptions, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+    CableError, CableState, Explicit, ExplicitOptions, MovingDuct, PassOutcome, Passage, QuasiStatic,
     SigmoidLeak,
 };
-use ground_field::DuctMotion;
 
+use super::simulation::Task;
 use crate::Error;
 use crate::answer::FrictionProfile;
-use crate::cable::{cable, mass};
+use crate::cable::mass;
 use crate::ground::road::approach;
 use crate::plan::CableMethod;
-use crate::scene::Scene;
 
 /// A solver with the scene's vehicles, ready to let them pass.
 pub enum PassSolver {
@@ -20,13 +19,15 @@ pub enum PassSolver {
 }
 
 impl PassSolver {
-    pub fn new(
-        scene: &Scene,
-        method: CableMethod,
-        motions: &[DuctMotion],
-        mesh: Mesh,
-    ) -> Result<Self, Error> {
-        let cable = cable(scene)?;
+    pub fn new(task: &Task<'_>) -> Result<Self, Error> {
+        let Task {
+            scene,
+            method,
+            motions,
+            mesh,
+            ..
+        } = *task;
+        let cable = task.cable()?;
         let approach = approach(scene, motions)?;
         let motions = motions.iter();
         Ok(match method {
@@ -87,9 +88,9 @@ impl PassSolver {
         state: &mut CableState,
         position: f64,
     ) -> Result<(PassOutcome, Option<FrictionProfile>), CableError> {
-        let (mesh, limit) = match self {
-            Self::QuasiStatic(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
-            Self::Explicit(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
+        let (mesh, cable) = match self {
+            Self::QuasiStatic(solver, _) => (*solver.mesh(), solver.cable().clone()),
+            Self::Explicit(solver, _) => (*solver.mesh(), solver.cable().clone()),
         };
         let mut nearest = f64::INFINITY;
         let mut seen = None;
@@ -99,6 +100,7 @@ impl PassSolver {
             if distance <= mesh.vehicle_step() && distance < nearest {
                 nearest = distance;
                 let state = state();
+                let limits = state.friction_limits(&cable).unwrap_or_default();
                 seen = Some(FrictionProfile {
                     vehicle,
                     vehicle_position_m,
@@ -106,7 +108,7 @@ impl PassSolver {
                         .map(|node| mesh.spacing() * node as f64)
                         .collect(),
                     friction_n_per_m: state.friction().to_vec(),
-                    slip_lengths: state.slip_lengths(limit).into(),
+                    slip_lengths: state.slip_lengths(&limits).into(),
                 });
             }
         })?;

@@ -174,6 +174,8 @@ impl Levels {
 /// length √(2 EA D/q), which no mesh may pass over.
 fn resolved(scene: &Scene, motions: &[DuctMotion]) -> f64 {
     let depth = scene.duct.depth;
-    let slip = (2.0 * scene.cable.axial_stiffness * peak(motions) / scene.friction_limit()).sqrt();
+    let limits = scene.sections().into_iter().map(|section| section.limit);
+    let largest = limits.fold(0.0, f64::max);
+    let slip = (2.0 * scene.cable.axial_stiffness * peak(motions) / largest).sqrt();
     length_scale(motions, depth).min(SLIPS * slip).max(depth)
 }

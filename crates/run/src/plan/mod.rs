@@ -18,6 +18,7 @@ use std::sync::Arc;
 
 use ground_field::GroundField;
 
+use crate::SavedState;
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
 pub use mesh::Levels;
@@ -34,6 +35,8 @@ pub struct Plan<'a> {
     pub choice: MethodChoice,
     pub levels: Levels,
     pub warnings: Vec<String>,
+    /// The state that the passes begin with, if not as laid.
+    pub start: Option<&'a SavedState>,
 }
 
 /// Plans how to compute `scene`.
@@ -74,5 +77,6 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
         choice,
         levels,
         warnings,
+        start: None,
     })
 }

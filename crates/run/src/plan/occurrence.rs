@@ -154,6 +154,7 @@ fn is_of_the_table(scene: &Scene) -> bool {
         && wheel.y == 0.0
         && scene.offset_from(traffic) == 0.0
         && scene.duct.slope == 0.0
+        && scene.route.is_empty()
         && scene.restraints.is_empty()
 }
 

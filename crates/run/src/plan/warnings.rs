@@ -19,6 +19,7 @@ pub fn warnings(scene: &Scene) -> Vec<String> {
     let mut warnings = unusual(scene);
     warnings.extend(fast(scene));
     warnings.extend(warm(scene));
+    warnings.extend(bends(scene));
     warnings
 }
 
@@ -46,6 +47,15 @@ fn warm(scene: &Scene) -> Vec<String> {
         );
     }
     warnings
+}
+
+/// That friction in a bend knows what came before.
+fn bends(scene: &Scene) -> Option<String> {
+    let is_bent = scene.route.iter().any(|section| section.bend_radius.is_some());
+    is_bent.then(|| {
+        "friction in a bend grows with the force in the cable: the state that traffic leads to may depend on what came first"
+            .to_owned()
+    })
 }
 
 /// Vehicles that do not come within the passes of the scene.

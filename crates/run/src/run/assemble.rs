@@ -3,10 +3,11 @@
 use cycle_jump::{Record, peaks};
 
 use crate::Error;
+use crate::SavedState;
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, PassRecord, PlanSummary,
-    RestraintRecord, Run, Stage, balance, saturation,
+    RestraintRecord, Run, Stage, Start, balance, saturation,
 };
 use crate::passes::{Passes, Solved, force_profile, listed_passes};
 use crate::plan::Plan;
@@ -63,6 +64,7 @@ impl<'a> RunBuilder<'a> {
         balance::of_records(scene, &passes, &restraints)?;
         self.summarise(solved, passes.iter().find(|record| record.interpolated));
         let total = solved.error.total();
+        let state = Some(self.state(&solved.passes));
         let beyond = solved.passes.beyond.as_ref();
         let (days, heat) = solved.heat.clone().unzip();
         let (saturation, range) = if heat.is_some() {
@@ -91,9 +93,20 @@ impl<'a> RunBuilder<'a> {
                 method: solved.error.to_string(),
                 parts: solved.error.shares(),
             },
+            start: self.plan.start.map(|start| Start {
+                passes: start.passes(),
+            }),
+            state,
             cost: Cost::new(solved.passes.simulated, &solved.statistics),
             warnings: self.warnings,
         })
+    }
+
+    /// The cable as the passes have left it.
+    fn state(&self, passes: &Passes) -> SavedState {
+        let before = self.plan.start.map_or(0, SavedState::passes);
+        let scene = self.plan.scene;
+        SavedState::new(scene, &passes.cable, &passes.state, before + scene.traffic.passes)
     }
 
     /// Refuses a friction law that loses too much of the stored force, and warns of one that loses
@@ -218,10 +231,14 @@ impl<'a> RunBuilder<'a> {
 
 fn restraints(passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
-    let forces = state.restraint_forces(cable)?;
+    let forces = state
+        .restraint_forces(cable)?
+        .into_iter()
+        .zip(state.clamp_slips(cable));
     let restraints = cable.restraints().iter().zip(forces).enumerate();
     Ok(restraints
-        .map(|(i, (restraint, force_n))| RestraintRecord {
+        .map(|(i, (restraint, (force_n, slip)))| RestraintRecord {
+            slipped_m: restraint.holds.map(|_| slip),
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,

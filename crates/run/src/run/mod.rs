@@ -42,7 +42,9 @@ pub fn run_shown(
     ground: Arc<Ground>,
     options: &RunOptions<'_>,
 ) -> Result<(Run, Option<FixedMesh>), Error> {
-    let (run, shown) = answer(&plan_over(scene, ground)?, options)?;
+    let mut plan = plan_over(scene, ground)?;
+    plan.start = options.start;
+    let (run, shown) = answer(&plan, options)?;
     finite::check(&run)?;
     Ok((run, shown))
 }
@@ -77,6 +79,9 @@ fn may_help(error: &Error) -> bool {
 }
 
 fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<FixedMesh>), Error> {
+    if let Some(start) = plan.start {
+        start.check(plan.scene)?;
+    }
     let mut answer = RunBuilder::new(plan);
     if plan.scene.friction_limit() == 0.0 {
         return Ok((answer.without_friction(options.stages)?, None));

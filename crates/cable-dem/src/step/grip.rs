@@ -1,0 +1,177 @@
+//! Clamps that slip: springs between cable and ground that bear no more than they hold.
+//!
+//! A spring of stiffness s that has slipped by p bears F = s (u − p) while |F| is at most its holding force, and ± that force while it
+//! slips, u the displacement of its node. The first makes it a spring of the chain, the second a load. A clamp between two nodes is a
+//! spring on each of them, by the lever rule, which bears its share of the clamp's holding force.
+
+use super::problem::Stretch;
+use crate::{CableState, DuctedCable, Mesh, Restraint};
+
+/// A holding force is exceeded from this share beyond it on: rounding is not.
+const ROUNDING: f64 = 1e-9;
+/// A clamp nearer to a node than this share of the spacing is on it alone.
+const ON_NODE: f64 = 1e-9;
+
+/// A clamp that slips, or its share on one of two nodes.
+#[derive(Debug, Clone)]
+pub(crate) struct Grip {
+    /// The clamp's place among the cable's restraints, and its side: 0 before it, 1 after it; 2 for both where it is on its node.
+    place: (usize, usize),
+    pub node: usize,
+    /// \[N/m\]
+    pub stiffness: f64,
+    /// Holding force \[N\].
+    holds: f64,
+    /// How far it has slipped before the step \[m\].
+    slip: f64,
+    /// 0 while it sticks, else the sign of the force of the cable on it.
+    slides: f64,
+}
+
+impl Grip {
+    /// Those of `cable` on `mesh`, stuck.
+    pub fn of(cable: &DuctedCable, mesh: &Mesh) -> Vec<Self> {
+        let mut grips = Vec::new();
+        for (restraint, clamp) in cable.restraints().iter().enumerate() {
+            let Restraint {
+                stiffness,
+                holds: Some(holds),
+                ..
+            } = *clamp
+            else {
+                continue;
+            };
+            let shares = clamp.by_node(mesh).map(|(node, part)| (node, part / stiffness));
+            for (side, (node, share)) in shares
+                .into_iter()
+                .enumerate()
+                .filter(|(_, (_, share))| *share > ON_NODE)
+            {
+                grips.push(Self {
+                    place: (restraint, if share < 1.0 - ON_NODE { side } else { 2 }),
+                    node,
+                    stiffness: share * stiffness,
+                    holds: share * holds,
+                    slip: 0.0,
+                    slides: 0.0,
+                });
+            }
+        }
+        grips
+    }
+
+    pub fn is_stuck(&self) -> bool {
+        self.slides == 0.0
+    }
+
+    /// Whether the step on `stretch` moves it.
+    pub fn is_within(&self, stretch: Stretch) -> bool {
+        stretch.nodes().contains(&self.node)
+    }
+
+    /// Goes on from `state`, stuck.
+    pub fn start(&mut self, state: &CableState) {
+        (self.slip, self.slides) = (self.slip_in(state), 0.0);
+    }
+
+    fn slip_in(&self, state: &CableState) -> f64 {
+        let (restraint, side) = self.place;
+        let slips = state.clamp_slips.get(restraint).copied().unwrap_or_default();
+        slips[side.min(1)]
+    }
+
+    /// Slides if it has slid since the state `before`; whether it has.
+    pub fn slide(&mut self, before: &CableState) -> bool {
+        let slid = self.slip - self.slip_in(before);
+        self.slides = if slid == 0.0 { 0.0 } else { slid.signum() };
+        slid != 0.0
+    }
+
+    /// Slips in `state` by the `advance` of its node \[m\] if it slides.
+    pub fn follow(&self, advance: f64, state: &mut CableState) {
+        if !self.is_stuck() {
+            self.store_slip(self.slip_in(state) + advance, state);
+        }
+    }
+
+    /// If it slides, slips in `state` until its clamp bears its part of these `forces` on all `clamps` \[N\].
+    pub fn bear_in(&self, state: &mut CableState, forces: &[f64], clamps: &[Restraint]) {
+        if !self.is_stuck() {
+            let (restraint, _) = self.place;
+            let stretch = forces[restraint] / clamps[restraint].stiffness;
+            self.store_slip(state.displacement[self.node] - stretch, state);
+        }
+    }
+
+    /// Load on its node \[N\], beside that of its spring in a frame that moves by `frame` \[m\] there.
+    pub fn load(&self, frame: f64) -> f64 {
+        if self.is_stuck() {
+            self.stiffness * self.slip
+        } else {
+            self.stiffness * frame - self.holds * self.slides
+        }
+    }
+
+    /// Whether it sticks or slides otherwise than was assumed where its node moves to `u` \[m\]; then it does so from now on.
+    pub fn correct(&mut self, u: f64) -> bool {
+        let before = self.slides;
+        if self.is_stuck() {
+            let force = self.stiffness * (u - self.slip);
+            if force.abs() > (1.0 + ROUNDING) * self.holds {
+                self.slides = force.signum();
+            }
+        } else if (self.slipped(u) - self.slip) * self.slides < 0.0 {
+            self.slides = 0.0;
+        }
+        self.slides != before
+    }
+
+    /// How far it has slipped where its node is displaced by `u` \[m\].
+    fn slipped(&self, u: f64) -> f64 {
+        if self.is_stuck() {
+            self.slip
+        } else {
+            u - self.slides * self.holds / self.stiffness
+        }
+    }
+
+    /// Ends a step that moved its node to `u` \[m\]. Returned: the heat of the slip \[J\].
+    pub fn settle(&mut self, u: f64) -> f64 {
+        let slipped = self.slipped(u);
+        let heat = self.holds * (slipped - self.slip).abs();
+        self.slip = slipped;
+        heat
+    }
+
+    /// Bears what it can where its node is displaced by `u` \[m\], and slips if that is not enough. Returned: the force of the cable on
+    /// it \[N\], and the heat of the slip \[J\].
+    pub fn bear(&mut self, u: f64) -> (f64, f64) {
+        let force = self.stiffness * (u - self.slip);
+        if force.abs() <= self.holds {
+            return (force, 0.0);
+        }
+        self.slides = force.signum();
+        let heat = self.settle(u);
+        (self.holds * std::mem::take(&mut self.slides), heat)
+    }
+
+    /// Its elastic energy \[J\] where its node is displaced by `u` \[m\].
+    pub fn energy(&self, u: f64) -> f64 {
+        0.5 * self.stiffness * (u - self.slip).powi(2)
+    }
+
+    /// Writes how far it has slipped to `state`.
+    pub fn store(&self, state: &mut CableState) {
+        self.store_slip(self.slip, state);
+    }
+
+    fn store_slip(&self, slip: f64, state: &mut CableState) {
+        let (restraint, side) = self.place;
+        let count = state.clamp_slips.len().max(restraint + 1);
+        state.clamp_slips.resize(count, [0.0; 2]);
+        match side {
+            2 => state.clamp_slips[restraint] = [slip; 2],
+            side => state.clamp_slips[restraint][side] = slip,
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The state that a run leaves behind, with which another run goes on: other traffic, more clamps,
+//! other ends.
+
+use cable_dem::{CableError, CableState, DuctedCable, End, Mesh, RestingCable, Restraint};
+use serde::{Deserialize, Serialize};
+
+use crate::Error;
+use crate::cable::cable;
+use crate::scene::Scene;
+
+/// Version of what is written.
+const VERSION: u32 = 1;
+/// Values nearer than this are the same, as a share of them.
+const SAME: f64 = 1e-9;
+/// What a clamp holds that never slips and did not begin where the cable was laid \[N\]: more than
+/// any force.
+const FIRM: f64 = 1e300;
+
+/// The cable as a run has left it, and the duct that it lies in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedState {
+    version: u32,
+    /// Passes so far, of all runs.
+    passes: u64,
+    duct: Vec<Value>,
+    /// Of [`Self::duct`].
+    hash: u64,
+    ends: [SavedEnd; 2],
+    clamps: Vec<SavedClamp>,
+    cable: CableState,
+}
+
+/// What must agree.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Value {
+    key: String,
+    value: f64,
+}
+
+/// How an end is held: a spring \[N/m\], none if it is fixed; and where it stands, or its spring
+/// bears nothing \[m\].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct SavedEnd {
+    stiffness_n_per_m: Option<f64>,
+    position_m: f64,
+}
+
+/// A clamp, and how far it has slipped; one that was put on later, how far the cable had moved
+/// there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "units stand in the names")]
+struct SavedClamp {
+    position_m: f64,
+    stiffness_n_per_m: f64,
+    slipped_m: f64,
+}
+
+/// What of a scene must agree.
+fn duct(scene: &Scene) -> Vec<Value> {
+    let value = |key: &str, value: f64| Value {
+        key: key.to_owned(),
+        value,
+    };
+    let mut duct = vec![
+        value("duct.length", scene.duct.length),
+        value("cable.axial_stiffness", scene.cable.axial_stiffness),
+        value("cable.weight", scene.cable.weight),
+    ];
+    for (index, section) in scene.sections().into_iter().enumerate() {
+        let of = [
+            ("length", section.length),
+            ("friction", section.limit),
+            ("weight along it", section.body_force),
+            ("bend", section.bend),
+        ];
+        duct.extend(of.map(|(key, of)| value(&format!("{key} of section {}", index + 1), of)));
+    }
+    duct
+}
+
+/// FNV-1a over the values and their names.
+fn hash(duct: &[Value]) -> u64 {
+    let bytes = duct
+        .iter()
+        .flat_map(|value| value.key.bytes().chain(value.value.to_bits().to_le_bytes()));
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+fn same(a: f64, b: f64) -> bool {
+    a == b || (a - b).abs() <= SAME * a.abs().max(b.abs())
+}
+
+impl SavedState {
+    /// The cable of `scene` as `state`, after so many passes in all.
+    pub(crate) fn new(scene: &Scene, cable: &DuctedCable, state: &CableState, passes: u64) -> Self {
+        let duct = duct(scene);
+        let ends = [cable.upstream(), cable.downstream()]
+            .into_iter()
+            .zip(cable.end_positions());
+        let ends: Vec<SavedEnd> = ends
+            .map(|(end, position_m)| SavedEnd {
+                stiffness_n_per_m: end.stiffness(),
+                position_m,
+            })
+            .collect();
+        let clamps = cable.restraints().iter().zip(state.clamp_slips(cable));
+        Self {
+            version: VERSION,
+            passes,
+            hash: hash(&duct),
+            duct,
+            ends: [ends[0], ends[1]],
+            clamps: clamps
+                .map(|(clamp, slipped_m)| SavedClamp {
+                    position_m: clamp.position,
+                    stiffness_n_per_m: clamp.stiffness,
+                    slipped_m,
+                })
+                .collect(),
+            cable: state.clone(),
+        }
+    }
+
+    /// Passes so far, of all runs.
+    pub fn passes(&self) -> u64 {
+        self.passes
+    }
+
+    /// Refuses a state of another duct, or one that was changed.
+    pub(crate) fn check(&self, scene: &Scene) -> Result<(), Error> {
+        let refused = |reason: String| Error::State { reason };
+        if self.version != VERSION {
+            return Err(refused(format!(
+                "its version is {}, and this program knows {VERSION}",
+                self.version
+            )));
+        }
+        if self.hash != hash(&self.duct) {
+            return Err(refused("it was changed after it was written".to_owned()));
+        }
+        let here = duct(scene);
+        if here.len() != self.duct.len() {
+            return Err(refused("its duct has another number of sections".to_owned()));
+        }
+        let differs = self
+            .duct
+            .iter()
+            .zip(&here)
+            .find(|(one, other)| !same(one.value, other.value));
+        if let Some((one, other)) = differs {
+            let Value { key, value } = one;
+            return Err(refused(format!(
+                "its {key} is {value}, and that of the scene {}",
+                other.value
+            )));
+        }
+        let _ = self.cable.element_forces(&cable(scene)?)?;
+        Ok(())
+    }
+
+    /// Displacement of the cable at `position` \[m\].
+    fn displacement(&self, position: f64) -> f64 {
+        let u = self.cable.displacement();
+        let place = (position / self.cable.node_spacing()).clamp(0.0, (u.len() - 1) as f64);
+        let left = (place.floor() as usize).min(u.len() - 2);
+        u[left] + (place - left as f64) * (u[left + 1] - u[left])
+    }
+
+    /// The clamp that was there, or a new one, which bears nothing as yet: how far it has slipped
+    /// \[m\].
+    fn slipped(&self, clamp: &Restraint) -> f64 {
+        let is_it = |saved: &&SavedClamp| {
+            (saved.position_m - clamp.position).abs() < SAME * (1.0 + clamp.position)
+                && same(saved.stiffness_n_per_m, clamp.stiffness)
+        };
+        let known = self.clamps.iter().find(is_it).map(|saved| saved.slipped_m);
+        known.unwrap_or_else(|| self.displacement(clamp.position))
+    }
+
+    /// The cable of `scene`, held where this state has it.
+    pub(crate) fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
+        let mut restraints = scene.restraints.clone();
+        for clamp in &mut restraints {
+            if self.slipped(clamp) != 0.0 {
+                clamp.holds = clamp.holds.or(Some(FIRM));
+            }
+        }
+        let ends: [(End, f64); 2] = [
+            (scene.ends.upstream, 0.0),
+            (scene.ends.downstream, scene.duct.length),
+        ];
+        let positions = [0, 1].map(|k| {
+            let (end, place) = ends[k];
+            let saved = self.ends[k];
+            let is_it = match (end.stiffness(), saved.stiffness_n_per_m) {
+                (Some(spring), Some(saved)) => same(spring, saved),
+                (None, None) => true,
+                _ => false,
+            };
+            if is_it {
+                saved.position_m
+            } else {
+                self.displacement(place)
+            }
+        });
+        cable(scene)?
+            .with_restraints(restraints)?
+            .with_end_positions(positions)
+    }
+
+    /// The cable of `scene` on `mesh` at rest in this state, with what it finds there.
+    pub(crate) fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
+        let cable = self.cable(scene)?;
+        let mut state = self.cable.on(mesh)?;
+        if *state.displacement() != *self.cable.displacement() || self.clamps.len() != scene.restraints.len()
+        {
+            let slips: Vec<f64> = scene.restraints.iter().map(|clamp| self.slipped(clamp)).collect();
+            if slips.iter().any(|slip| *slip != 0.0) {
+                state = state.with_slipped_clamps(&slips)?;
+            }
+        }
+        if !cable.friction().law().has_memory() {
+            return Ok(state);
+        }
+        let mut resting = RestingCable::new(&cable, mesh)?;
+        if scene.warming().is_none() && state.thermal_force() != 0.0 {
+            resting.warm(&mut state, 0.0)?;
+        }
+        resting.settle(&mut state)?;
+        Ok(state)
+    }
+}
