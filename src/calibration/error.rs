@@ -3,13 +3,12 @@
 use calibrate::CalibrationError;
 
 use crate::Error;
-use crate::readings::{DataError, analysis_error};
+use crate::readings::DataError;
 
 /// Error of a fit, by where it comes from.
 #[derive(Debug)]
 pub(super) enum FitError {
     Analysis(Error),
-    Data(DataError),
     Calibration(CalibrationError),
 }
 
@@ -21,7 +20,7 @@ impl From<Error> for FitError {
 
 impl From<DataError> for FitError {
     fn from(error: DataError) -> Self {
-        Self::Data(error)
+        Self::Analysis(error.into())
     }
 }
 
@@ -35,7 +34,6 @@ impl From<FitError> for Error {
     fn from(error: FitError) -> Self {
         match error {
             FitError::Analysis(error) => error,
-            FitError::Data(error) => analysis_error(error),
             FitError::Calibration(error) => Self::Study {
                 is_bad_input: error.is_bad_input(),
                 error: error.into(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
 use crate::Error;
-use crate::readings::{ReadOptions, Readings, analysis_error};
+use crate::readings::{ReadOptions, Readings};
 
 const HEADING: &str = "Reading the table, where it is not recognised";
 
@@ -45,7 +45,7 @@ pub type TableArguments = ReadArguments<false>;
 impl ReadArguments {
     /// The readings in `file`.
     pub fn read(&self, file: &Path) -> Result<Readings, Error> {
-        Readings::from_file(file, &self.0).map_err(analysis_error)
+        Ok(Readings::from_file(file, &self.0)?)
     }
 }
 

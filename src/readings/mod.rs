@@ -22,11 +22,3 @@ pub use creepage_tables::{Options as TableOptions, TableError as DataError};
 pub use list::Readings;
 pub use options::{ReadOptions, RunStart};
 pub use reading::{Measured, Place, Reading};
-
-/// The error of an analysis whose readings are wrong.
-pub(crate) fn analysis_error(error: DataError) -> crate::Error {
-    crate::Error::Study {
-        error: error.into(),
-        is_bad_input: true,
-    }
-}

@@ -7,7 +7,8 @@ use crate::scene::Scene;
 /// Standard acceleration of gravity \[m/s²\], which makes a weight of a mass.
 const GRAVITY: f64 = 9.80665;
 
-/// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps, and the sections of the duct.
+/// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps, and the
+/// sections of the duct.
 pub fn cable(scene: &Scene) -> Result<DuctedCable, CableError> {
     let friction = Friction::new(scene.friction.law(), scene.friction_limit())?;
     DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?

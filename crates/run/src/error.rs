@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
+use creepage_tables::TableError;
 use cycle_jump::JumpError;
 use ground_field::GroundError;
 
@@ -35,6 +36,9 @@ pub enum Error {
         "too many passes would have to be simulated; solver.method = \"quasi-static\" simulates every one, at most 1 000 000"
     )]
     Jumps(#[source] JumpError),
+    /// A table, such as one of readings, is wrong.
+    #[error(transparent)]
+    Data(#[from] TableError),
     /// What is computed from many runs, such as a fit to readings, has failed.
     #[error("{error}")]
     Study {
@@ -129,7 +133,8 @@ impl From<JumpError> for Error {
     }
 }
 
-/// The error's message with those of its causes. Some errors repeat their cause: it is not added again.
+/// The error's message with those of its causes. Some errors repeat their cause: it is not added
+/// again.
 pub fn with_causes(error: &dyn std::error::Error) -> String {
     let mut message = error.to_string();
     let mut cause = error.source();
@@ -144,7 +149,8 @@ pub fn with_causes(error: &dyn std::error::Error) -> String {
 }
 
 impl Error {
-    /// This error with the line of the key at fault, where one is at fault and the scene came from `file`.
+    /// This error with the line of the key at fault, where one is at fault and the scene came from
+    /// `file`.
     #[must_use]
     pub fn located(self, file: &SceneFile) -> Self {
         let location = match &self {
@@ -192,6 +198,7 @@ impl Error {
             Self::Located { error, .. } => error.is_bad_input(),
             Self::Study { is_bad_input, .. } => *is_bad_input,
             Self::Scene(_)
+            | Self::Data(_)
             | Self::State { .. }
             | Self::Unfit { .. }
             | Self::TooManyNodes { .. }

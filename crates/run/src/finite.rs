@@ -1,7 +1,8 @@
-//! Every number of an answer is finite: checked where the answer is made, so that what comes later need not
-//! look.
+//! Every number of an answer is finite: checked where the answer is made, so that what comes later
+//! need not look.
 //!
-//! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value; a table would hold the text `inf`.
+//! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value;
+//! a table would hold the text `inf`.
 
 use crate::Error;
 

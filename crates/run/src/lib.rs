@@ -25,6 +25,7 @@ pub mod run;
 mod saved_state;
 #[doc(hidden)]
 pub mod shown;
+mod tuning;
 pub use creepage_scene as scene;
 
 pub use answer::{

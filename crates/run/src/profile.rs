@@ -46,7 +46,8 @@ pub fn profile(scene: &Scene) -> Result<Profile, Error> {
 ///
 /// # Errors
 ///
-/// As for [`profile`]; also for a position that is farther than 1000 km from the vehicle, or not a number.
+/// As for [`profile`]; also for a position that is farther than 1000 km from the vehicle, or not a
+/// number.
 pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
     scene.validate()?;
     let far = positions.iter().find(|xi| !(-FARTHEST..=FARTHEST).contains(*xi));

@@ -10,8 +10,9 @@ type Callback<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 
 /// A callback that learns how far a computation is and may stop it; by default there is none.
 ///
-/// It is called often, also from several threads at once, so it should return quickly. It never falls; where
-/// finer meshes prove necessary it grows slowly at the end. [`ControlFlow::Break`] stops the computation, which then ends with [`Error::Stopped`].
+/// It is called often, also from several threads at once, so it should return quickly. It never
+/// falls; where finer meshes prove necessary it grows slowly at the end. [`ControlFlow::Break`]
+/// stops the computation, which then ends with [`Error::Stopped`].
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -51,7 +52,8 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Parts of it one after the other, each half of what is left: where nobody knows how many there will be.
+    /// Parts of it one after the other, each half of what is left: where nobody knows how many
+    /// there will be.
     pub fn halving(self) -> impl FnMut() -> Self {
         self.taking(0.5)
     }

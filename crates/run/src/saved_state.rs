@@ -1,4 +1,5 @@
-//! The state that a run leaves behind, with which another run goes on: other traffic, more clamps, other ends.
+//! The state that a run leaves behind, with which another run goes on: other traffic, more clamps,
+//! other ends.
 
 use cable_dem::{CableError, CableState, DuctedCable, End, Mesh, RestingCable, Restraint};
 use serde::{Deserialize, Serialize};
@@ -11,7 +12,8 @@ use crate::scene::Scene;
 const VERSION: u32 = 1;
 /// Values nearer than this are the same, as a share of them.
 const SAME: f64 = 1e-9;
-/// What a clamp holds that never slips and did not begin where the cable was laid \[N\]: more than any force.
+/// What a clamp holds that never slips and did not begin where the cable was laid \[N\]: more than
+/// any force.
 const FIRM: f64 = 1e300;
 
 /// The cable as a run has left it, and the duct that it lies in.
@@ -36,15 +38,18 @@ struct Value {
     value: f64,
 }
 
-/// How an end is held: a spring \[N/m\], none if it is fixed; and where it stands, or its spring bears nothing \[m\].
+/// How an end is held: a spring \[N/m\], none if it is fixed; and where it stands, or its spring
+/// bears nothing \[m\].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct SavedEnd {
     stiffness_n_per_m: Option<f64>,
     position_m: f64,
 }
 
-/// A clamp, and how far it has slipped; one that was put on later, how far the cable had moved there.
+/// A clamp, and how far it has slipped; one that was put on later, how far the cable had moved
+/// there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "units stand in the names")]
 struct SavedClamp {
     position_m: f64,
     stiffness_n_per_m: f64,
@@ -164,7 +169,8 @@ impl SavedState {
         u[left] + (place - left as f64) * (u[left + 1] - u[left])
     }
 
-    /// The clamp that was there, or a new one, which bears nothing as yet: how far it has slipped \[m\].
+    /// The clamp that was there, or a new one, which bears nothing as yet: how far it has slipped
+    /// \[m\].
     fn slipped(&self, clamp: &Restraint) -> f64 {
         let is_it = |saved: &&SavedClamp| {
             (saved.position_m - clamp.position).abs() < SAME * (1.0 + clamp.position)

@@ -1,8 +1,9 @@
 //! Whether an answer can be true: the balance of forces.
 //!
-//! In equilibrium friction carries at most q = μ_d N′ per metre, beside the cable's own weight along the duct, p. So the force differs
-//! between any two points of the cable by at most q + |p| times their distance and what clamps between them carry; at an end that is free
-//! it is at most (q + |p|) L and the clamps. No solver, law or mesh may break that.
+//! In equilibrium friction carries at most q = μ_d N′ per metre, beside the cable's own weight
+//! along the duct, p. So the force differs between any two points of the cable by at most q + |p|
+//! times their distance and what clamps between them carry; at an end that is free it is at most
+//! (q + |p|) L and the clamps. No solver, law or mesh may break that.
 
 use cable_dem::{CableState, DuctedCable};
 
@@ -25,8 +26,9 @@ pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<()
     }
 }
 
-/// The most \[N\] by which the forces on both ends differ where nothing else than friction and the cable's own weight acts between them,
-/// with forces of up to `largest` \[N\] in the cable, which press it on bends.
+/// The most \[N\] by which the forces on both ends differ where nothing else than friction and the
+/// cable's own weight acts between them, with forces of up to `largest` \[N\] in the cable, which
+/// press it on bends.
 pub fn carried(scene: &Scene, largest: f64) -> f64 {
     let sections = scene.sections().into_iter();
     let on = |section: Section| (section.limit_under(largest) + section.body_force.abs()) * section.length;

@@ -20,7 +20,8 @@ fn times() -> impl Iterator<Item = (f64, String)> {
     short.into_iter().chain(years)
 }
 
-/// The passes with which the first day, month and year and round numbers of years end, ascending; none where nothing is known of time.
+/// The passes with which the first day, month and year and round numbers of years end, ascending;
+/// none where nothing is known of time.
 pub fn calendar(traffic: &Traffic) -> Vec<(u64, String)> {
     let Some(per_day) = traffic.per_day else {
         return Vec::new();

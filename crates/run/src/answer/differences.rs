@@ -1,11 +1,12 @@
 //! How far two computations of the same passes are apart.
 //!
-//! All forces count by which limits, designs and reports judge, place by place: in the cable those on its ends and the largest
-//! compression and tension after a pass, on each end the largest and the least during it, on each clamp that after it. A force in
-//! the cable or on an end is relative to the largest at its place in that pass, a force on a clamp to the largest on that clamp in
-//! the run; if a tenth of the largest of all in the run is more, or what friction holds on a centimetre of cable, they are relative
-//! to that. A movement of an end is relative to the largest of the run, or to a tenth of the duct's own. A clamp moves in
-//! proportion to its force.
+//! All forces count by which limits, designs and reports judge, place by place: in the cable those
+//! on its ends and the largest compression and tension after a pass, on each end the largest and
+//! the least during it, on each clamp that after it. A force in the cable or on an end is relative
+//! to the largest at its place in that pass, a force on a clamp to the largest on that clamp in the
+//! run; if a tenth of the largest of all in the run is more, or what friction holds on a centimetre
+//! of cable, they are relative to that. A movement of an end is relative to the largest of the run,
+//! or to a tenth of the duct's own. A clamp moves in proportion to its force.
 
 use cable_dem::PassOutcome;
 use cycle_jump::Record;
@@ -13,12 +14,7 @@ use ground_field::DuctMotion;
 
 use crate::ground::peak;
 use crate::scene::Scene;
-
-/// Forces below this share of the largest one of the run are compared with that share of it, and movements of an end below this
-/// share of the duct's largest.
-pub const SMALL: f64 = 0.1;
-/// The length of cable \[m\] on which friction holds a force that does not count.
-const SHORT: f64 = 0.01;
+use crate::tuning::meshes::{SHORT, SMALL};
 
 /// A share of the forces and one of the movements.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -102,8 +98,9 @@ impl Scale {
         }
     }
 
-    /// Whether nothing slips in any of these passes, or so little that the forces it leaves do not count: on a coarse mesh a
-    /// spring at the end may move where elsewhere a finer one would show slip.
+    /// Whether nothing slips in any of these passes, or so little that the forces it leaves do not
+    /// count: on a coarse mesh a spring at the end may move where elsewhere a finer one would show
+    /// slip.
     pub fn is_still(&self, records: &[Record]) -> bool {
         records.iter().all(|record| {
             let outcome = &record.outcome;
@@ -127,7 +124,8 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     differences(a, b, scale).into_iter().collect()
 }
 
-/// Difference of the largest and least forces and movements in two sets of passes, each relative to the largest at its place.
+/// Difference of the largest and least forces and movements in two sets of passes, each relative to
+/// the largest at its place.
 pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     let whole = Whole::of(a, scale);
     let bounds = |records: &[Record]| {
@@ -277,4 +275,69 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 /// part/whole; nothing of nothing is nothing.
 fn share(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCALE: Scale = Scale {
+        force: 1.0,
+        movement: 1e-6,
+    };
+
+    /// One pass that leaves 100 N on both ends and in the cable, and some forces on clamps.
+    fn pass(restraints: &[f64], change: impl Fn(&mut PassOutcome)) -> [Record; 1] {
+        let mut outcome = PassOutcome::default();
+        for ends in [&mut outcome.force, &mut outcome.peak, &mut outcome.lowest] {
+            (ends.upstream, ends.downstream) = (100.0, 100.0);
+        }
+        outcome.max_compression = 100.0;
+        outcome.restraints = restraints.to_vec();
+        change(&mut outcome);
+        [Record {
+            pass: 1,
+            outcome,
+            interpolated: false,
+        }]
+    }
+
+    #[test]
+    fn forces_during_a_pass_count_relative_to_the_largest_on_their_end() {
+        let coarse = pass(&[], |outcome| outcome.peak.downstream = 400.0);
+        let fine = pass(&[], |outcome| outcome.peak.downstream = 420.0);
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 20.0 / 400.0);
+        let fine = pass(&[], |outcome| {
+            outcome.peak.downstream = 400.0;
+            outcome.lowest.upstream = 99.0;
+        });
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 1.0 / 100.0);
+    }
+
+    #[test]
+    fn a_force_on_a_clamp_counts_relative_to_the_largest_on_that_clamp() {
+        let coarse = pass(&[500.0, 60.0], |_| {});
+        let of = |first, second| {
+            let difference = difference(&coarse, &pass(&[first, second], |_| {}), SCALE);
+            assert_eq!(
+                difference.force, difference.movement,
+                "a clamp moves with its force"
+            );
+            difference.force
+        };
+        assert_eq!(of(505.0, 60.0), 5.0 / 500.0);
+        assert_eq!(of(500.0, 63.0), 3.0 / 60.0);
+        // Relative to a tenth of the largest of all, if that is more.
+        let coarse = pass(&[500.0, 6.0], |_| {});
+        let fine = pass(&[500.0, 7.0], |_| {});
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 1.0 / 50.0);
+    }
+
+    #[test]
+    fn extremes_count_at_their_place() {
+        let coarse = pass(&[500.0], |outcome| outcome.lowest.upstream = -20.0);
+        let fine = pass(&[500.0], |outcome| outcome.lowest.upstream = -30.0);
+        assert_eq!(extremes_difference(&coarse, &fine, SCALE).force, 10.0 / 100.0);
+        assert_eq!(extremes_difference(&coarse, &coarse, SCALE), Shares::default());
+    }
 }

@@ -1,28 +1,17 @@
 //! How wrong the forces and the movements of a run are.
 //!
-//! The passes are computed on meshes each twice as fine as the one before. Their differences give the error of the last:
-//! a scheme of second order leaves a third of the last difference and a twelfth of the one before. Friction that turns
-//! at a node or between two makes the sequence uneven, and two meshes may agree by chance. So more is counted: the largest of
-//! a share of each difference seen so far, and never less than what is typical of the level.
+//! The passes are computed on meshes each twice as fine as the one before. Their differences give
+//! the error of the last: a scheme of second order leaves a third of the last difference and a
+//! twelfth of the one before. Friction that turns at a node or between two makes the sequence
+//! uneven, and two meshes may agree by chance. So more is counted: the largest of a share of each
+//! difference seen so far, and never less than what is typical of the level.
 
 use super::ErrorShares;
 use super::differences::Shares;
 use crate::Error;
 use crate::error_source::ErrorSource;
 use crate::shown::percent;
-
-/// What counts of the differences between meshes as error: of the last one, the one before, and so on. Fitted to 200 random
-/// scenes (`tests/planner/honest.rs`), so that the true error is larger in one or two of a hundred.
-const WEIGHTS: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
-/// The same from 40 passes on, where chance agreement is unlikely.
-const WEIGHTS_OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
-const MANY: usize = 40;
-/// Weight of the only difference.
-const WEIGHT_ALONE: f64 = 3.0;
-/// What the error is beside the difference to a mesh twice as fine, at second order.
-pub const VERIFIED: f64 = 4.0 / 3.0;
-/// A larger error than this, or the tolerance if that is larger still, is no answer.
-const DOUBTFUL: f64 = 0.1;
+use crate::tuning::meshes::{DOUBTFUL, MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 
 /// The error of a run by its parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,7 +78,8 @@ impl ErrorParts {
         }
     }
 
-    /// What keeps the forces from being an answer: passes or days that could be simulated, if that would do, else the largest part.
+    /// What keeps the forces from being an answer: passes or days that could be simulated, if that
+    /// would do, else the largest part.
     fn cause(&self, tolerance: f64) -> ErrorSource {
         let simulated = self.total().less(self.passes).less(self.temperature);
         let is_skipped = |source: &ErrorSource| matches!(source, ErrorSource::Passes | ErrorSource::Days);
@@ -124,7 +114,8 @@ impl std::fmt::Display for ErrorParts {
     }
 }
 
-/// Error of the passes on a mesh from the `differences` between it and the coarser ones, its own first; at least `typical`.
+/// Error of the passes on a mesh from the `differences` between it and the coarser ones, its own
+/// first; at least `typical`.
 pub fn mesh_error(differences: &[Shares], passes: usize, typical: f64) -> Shares {
     let weights = match differences.len() {
         1 => &[WEIGHT_ALONE][..],

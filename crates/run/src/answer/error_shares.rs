@@ -4,11 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::error_source::ErrorSource;
 
-/// How wrong the forces may be: how well the equations are solved, not how well they describe a duct.
+/// How wrong the forces may be: how well the equations are solved, not how well they describe a
+/// duct.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
-    /// Largest error of a force, after a pass and during it, on an end, inside the cable or on a clamp: as a share of the largest at
-    /// its place, or of a tenth of the largest force of the run if that is more.
+    /// Largest error of a force, after a pass and during it, on an end, inside the cable or on a
+    /// clamp: as a share of the largest at its place, or of a tenth of the largest force of the run
+    /// if that is more.
     pub relative: f64,
     /// How that was found.
     pub method: String,
@@ -39,7 +41,8 @@ pub struct ErrorShares {
 }
 
 impl ErrorShares {
-    /// The part that comes from `source`: those of all sources sum to the whole error of the forces.
+    /// The part that comes from `source`: those of all sources sum to the whole error of the
+    /// forces.
     pub fn of(&self, source: ErrorSource) -> f64 {
         match source {
             ErrorSource::Mesh => self.mesh,

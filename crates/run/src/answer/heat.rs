@@ -1,4 +1,5 @@
-//! What heat and traffic do to the cable, day by day. The names of the fields are those of the JSON document, units included.
+//! What heat and traffic do to the cable, day by day. The names of the fields are those of the JSON
+//! document, units included.
 
 use cycle_jump::days::Extremes;
 use serde::{Deserialize, Serialize};
@@ -6,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::force_profile::ForceProfile;
 use crate::scene::CableEnd;
 
-/// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
+/// Largest and least forces and movements over a day, with the cable at rest: after every pass and
+/// every change of temperature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayExtremes {
     /// Number of the day, from 1.
@@ -84,7 +86,8 @@ pub struct HeatRecord {
 }
 
 impl HeatRecord {
-    /// The last of `days` that all of its passes were computed of, if `passes` end within one; else the last.
+    /// The last of `days` that all of its passes were computed of, if `passes` end within one; else
+    /// the last.
     pub fn last_whole<'d>(&self, days: &'d [DayExtremes], passes: u64) -> Option<&'d DayExtremes> {
         let whole = days.iter().rfind(|day| day.day * self.passes_per_day <= passes);
         whole.or(days.last())
@@ -92,7 +95,8 @@ impl HeatRecord {
 }
 
 impl DayExtremes {
-    /// By how much the force on an end changes at most over the day \[N\], and how far an end moves \[m\]: the cyclic load of joints.
+    /// By how much the force on an end changes at most over the day \[N\], and how far an end moves
+    /// \[m\]: the cyclic load of joints.
     pub fn largest_range(&self) -> (f64, f64) {
         let ends = CableEnd::ALL.map(|end| self.of(end));
         let largest = |kind: usize| {

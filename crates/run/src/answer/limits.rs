@@ -63,7 +63,8 @@ pub struct Verdict {
     pub during_a_pass: bool,
     /// The first pass that exceeds the limit; `None` where none does.
     pub reached_after: Option<Reached>,
-    /// Where no pass exceeds the limit: the force after a pass \[N\] at which more passes level off, if that is above the limit.
+    /// Where no pass exceeds the limit: the force after a pass \[N\] at which more passes level
+    /// off, if that is above the limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levels_off_above: Option<f64>,
     /// Whether limit and largest are nearer to each other than the estimated error.
@@ -83,8 +84,9 @@ impl PassRecord {
         end.of([self.upstream_force_n, self.downstream_force_n]).abs()
     }
 
-    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]: a spring moves in proportion to its force.
-    /// How far a free end moves to and fro during a pass, some micrometres, is left out.
+    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]:
+    /// a spring moves in proportion to its force. How far a free end moves to and fro during a
+    /// pass, some micrometres, is left out.
     pub fn largest_movement(&self, end: CableEnd) -> f64 {
         let (after, during) = (self.force_after(end), self.largest_force(end));
         let movement = self.movement(end);

@@ -7,9 +7,11 @@ use crate::scene::Traffic;
 const GROWTH: f64 = 1.03;
 /// A run lists all passes up to this number.
 const ALL_LISTED: u64 = 10_000;
-/// Of longer traffic the last passes are listed too: at least so many, and a period, of which each vehicle leaves another force.
+/// Of longer traffic the last passes are listed too: at least so many, and a period, of which each
+/// vehicle leaves another force.
 const LAST: u64 = 12;
-/// How far it is followed where forces lead: this number of passes, and this many times those of the traffic.
+/// How far it is followed where forces lead: this number of passes, and this many times those of
+/// the traffic.
 const FAR: u64 = 1_000_000_000;
 const TIMES: u64 = 100;
 /// Leading digits of round numbers, which a reader looks for.
@@ -37,7 +39,8 @@ pub fn beyond(count: u64) -> Vec<u64> {
     listed(far).into_iter().filter(|&pass| pass > count).collect()
 }
 
-/// The passes that a run of this traffic lists, which repeats itself after a `period` of so many passes.
+/// The passes that a run of this traffic lists, which repeats itself after a `period` of so many
+/// passes.
 pub fn simulated(traffic: &Traffic, period: usize) -> Vec<u64> {
     if traffic.passes <= ALL_LISTED {
         return (1..=traffic.passes).collect();

@@ -55,8 +55,8 @@ mod tests {
         }
     }
 
-    /// Runs with everything that a run may have: what JSON shows is checked, and one number that is none is
-    /// an error.
+    /// Runs with everything that a run may have: what JSON shows is checked, and one number that is
+    /// none is an error.
     #[test]
     fn every_number_of_a_run_is_checked() {
         let heated =

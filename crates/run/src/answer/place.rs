@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::differences::SMALL;
 use super::heat::DayExtremes;
 use super::record::{ExtremePass, PassRecord, Run};
 use super::units::Units;
 use crate::scene::CableEnd;
 use crate::shown::exact;
+use crate::tuning::meshes::SMALL;
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
@@ -85,9 +85,10 @@ pub(super) enum Moment<'r> {
 }
 
 impl Run {
-    /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all days: of an end also the force during
-    /// passes and the movement of its spring, of a clamp those after them; in random order, where passes between jumps are means, with the scatter of single ones. Zero
-    /// where there is no such clamp.
+    /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all
+    /// days: of an end also the force during passes and the movement of its spring, of a clamp
+    /// those after them; in random order, where passes between jumps are means, with the scatter of
+    /// single ones. Zero where there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         let place = place.into();
         let values = self.moments().map(|moment| self.at(place, quantity, moment));
@@ -102,8 +103,9 @@ impl Run {
         values.fold(0.0, f64::max)
     }
 
-    /// The estimated error of [`Run::largest`] \[N or m\]. It is a share of the largest force at `place`, or of a tenth of the largest
-    /// at any place if that is more; and of the largest movement of an end.
+    /// The estimated error of [`Run::largest`] \[N or m\]. It is a share of the largest force at
+    /// `place`, or of a tenth of the largest at any place if that is more; and of the largest
+    /// movement of an end.
     pub(super) fn error_of_largest(&self, place: Place, quantity: Limited) -> f64 {
         let largest = |place: Place| self.largest(place, quantity);
         let ends = CableEnd::ALL.map(|end| largest(end.into()));
@@ -126,7 +128,8 @@ impl Run {
         share * of.max(largest(place))
     }
 
-    /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size \[N\].
+    /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size
+    /// \[N\].
     fn largest_force(&self) -> f64 {
         let clamps = self.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
         let places = CableEnd::ALL.map(Place::from).into_iter().chain(clamps);
@@ -194,5 +197,37 @@ impl Run {
             }
         });
         values.fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{CableEnd, Limited, Limits, Place, Scene, run};
+
+    /// The error of the force on an end that bears little is a share of a tenth of the largest
+    /// force of all: limits that are nearer than that are doubtful.
+    #[test]
+    fn a_verdict_on_an_end_that_bears_little_is_doubtful_within_the_error_of_all_forces() {
+        let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml").unwrap();
+        scene.traffic.passes = 5;
+        let mut run = run(&scene).unwrap();
+        run.error_estimate.relative = 0.01;
+        let largest = run.largest(CableEnd::Downstream, Limited::Force);
+        assert_eq!(run.largest(CableEnd::Upstream, Limited::Force), 0.0);
+        let doubtful = |limit: f64| {
+            let verdicts = Limits::both(Some(limit), None).verdicts(&run);
+            let of = |end: Place| {
+                verdicts
+                    .iter()
+                    .find(|verdict| verdict.end == end)
+                    .unwrap()
+                    .doubtful
+            };
+            [of(Place::Upstream), of(Place::Downstream)]
+        };
+        assert_eq!(doubtful(0.000_5 * largest), [true, false]);
+        assert_eq!(doubtful(0.002 * largest), [false, false]);
+        assert_eq!(doubtful(0.995 * largest), [false, true]);
+        assert_eq!(doubtful(1.02 * largest), [false, false]);
     }
 }

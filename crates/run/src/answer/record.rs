@@ -22,21 +22,25 @@ pub struct Run {
     pub plan: PlanSummary,
     /// Motion of the duct under the first vehicle.
     pub duct_motion: DuctMotionSummary,
-    /// Force and movement after the passes, ascending; of very long traffic some, the first and the last among them.
+    /// Force and movement after the passes, ascending; of very long traffic some, the first and the
+    /// last among them.
     pub passes: Vec<PassRecord>,
     /// Where the force levels off, if it does.
     pub saturation: Option<Saturation>,
-    /// Forces on the ends over a period of the traffic once nothing changes any more, where that is known.
+    /// Forces on the ends over a period of the traffic once nothing changes any more, where that is
+    /// known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<ForceRange>,
     /// How far forces scatter where vehicles come in random order and not every pass is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<RandomSpread>,
-    /// Where a period of other vehicles stands in for the traffic, its passes that show a larger force or movement than those before them; and one
-    /// pass of each vehicle that comes too seldom to have a place in it, as it would follow the last pass.
+    /// Where a period of other vehicles stands in for the traffic, its passes that show a larger
+    /// force or movement than those before them; and one pass of each vehicle that comes too seldom
+    /// to have a place in it, as it would follow the last pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub extremes: Vec<ExtremePass>,
-    /// Where the cable is heated every day, the extremes of days: the first ones, then evenly growing numbers, the last among them.
+    /// Where the cable is heated every day, the extremes of days: the first ones, then evenly
+    /// growing numbers, the last among them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub days: Vec<DayExtremes>,
     /// What heat does over all days.
@@ -46,11 +50,12 @@ pub struct Run {
     pub force_profile: ForceProfile,
     /// What each clamp carries.
     pub restraints: Vec<RestraintRecord>,
-    /// The cable after the passes that [`RunOptions::stages`](crate::RunOptions::stages) names; not in the JSON document
-    /// where none are.
+    /// The cable after the passes that [`RunOptions::stages`](crate::RunOptions::stages) names; not
+    /// in the JSON document where none are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<Stage>,
-    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7).
+    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure
+    /// 7).
     pub slip_lengths: Option<SlipRecord>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
@@ -200,8 +205,8 @@ pub struct SlipRecord {
 /// Where the force levels off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Saturation {
-    /// The force that is largest in size of those that an end shows after any pass of a period, once nothing changes any more \[N\]; inside
-    /// the cable where no end is held.
+    /// The force that is largest in size of those that an end shows after any pass of a period,
+    /// once nothing changes any more \[N\]; inside the cable where no end is held.
     pub force_n: f64,
     /// Passes to 95 % of it; of the mean where vehicles come in random order.
     pub passes_to_95_percent: u64,
@@ -226,8 +231,9 @@ pub struct ForceRange {
 }
 
 impl Run {
-    /// The ends on which vehicles that differ leave noticeably different forces once nothing else changes: the least and the largest \[N\].
-    /// In random order, where their scatter is known, what one pass in twenty leaves less and more than.
+    /// The ends on which vehicles that differ leave noticeably different forces once nothing else
+    /// changes: the least and the largest \[N\]. In random order, where their scatter is known,
+    /// what one pass in twenty leaves less and more than.
     pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
         let extremes = |end: CableEnd| {
             let of_random = self
@@ -245,7 +251,8 @@ impl Run {
         CableEnd::ALL.into_iter().filter_map(extremes).collect()
     }
 
-    /// How much larger single passes may be than the mean of many that `record` shows, on one end \[N\]: zero but in random order.
+    /// How much larger single passes may be than the mean of many that `record` shows, on one end
+    /// \[N\]: zero but in random order.
     pub fn scatter(&self, end: CableEnd, record: &PassRecord) -> f64 {
         let random = self.random.as_ref().filter(|_| record.interpolated);
         random.map_or(0.0, |random| random.of(end).scatter())

@@ -1,10 +1,11 @@
 //! Where the force levels off.
 //!
-//! With jumps the cable is followed until nothing changes from period to period any more. Where every pass is simulated, the
-//! force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size counts. Where the
-//! second is much smaller than the first, the gains shrink geometrically, and what is still to come is their remaining sum
-//! (Aitken's Δ²; A. C. Aitken, Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n: the gains' ratio is
-//! above 0.7 and nothing can be said yet.
+//! With jumps the cable is followed until nothing changes from period to period any more. Where
+//! every pass is simulated, the force at a third, two thirds and all of the passes gives two gains;
+//! of vehicles that alternate, the largest in size counts. Where the second is much smaller than
+//! the first, the gains shrink geometrically, and what is still to come is their remaining sum
+//! (Aitken's Δ²; A. C. Aitken, Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows
+//! like √n: the gains' ratio is above 0.7 and nothing can be said yet.
 
 use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Beyond, Record};
@@ -13,167 +14,152 @@ use super::balance;
 use super::record::{ForceRange, Saturation};
 use crate::Scene;
 use crate::scene::End;
+use crate::tuning::saturation::{
+    FEWEST_PASSES, LARGEST_RATIO, LARGEST_REMAINDER, NEARLY, NOTHING, TELLS, WINDOW,
+};
 
-/// Gains whose ratio is above this do not level off yet.
-const LARGEST_RATIO: f64 = 0.5;
-/// Largest part of the saturated force that may be extrapolated.
-const LARGEST_REMAINDER: f64 = 0.03;
-/// Fewest passes from which anything can be said.
-const FEWEST_PASSES: usize = 12;
-/// One in so many of the passes, the last of them, shows the largest force now, and what vehicles in random order do.
-const WINDOW: usize = 12;
 /// Share of the saturated force whose pass is stated.
 pub const LEVEL: f64 = 0.95;
-/// A force already reached may exceed the saturation by this share of it, which is no more than an extrapolation's error.
-const NEARLY: f64 = 0.02;
-/// Of a period's passes, those that leave this share of the largest force at least show how it grows.
-const TELLS: f64 = 0.5;
-/// A force below this share of the largest in any pass is none.
-const NOTHING: f64 = 1e-3;
 
 /// Least and largest value of a force over a period \[N\].
 type Range = (f64, f64);
 
-/// Where the forces of a run lead: over `records`, all passes or listed ones, and `beyond` them; and the forces on the ends once nothing
-/// changes any more, over the vehicles of a `period`.
+/// Where the forces of a run lead: over `records`, all passes or listed ones, and `beyond` them;
+/// and the forces on the ends once nothing changes any more, over the vehicles of a `period`.
 pub fn saturation(
     scene: &Scene,
     period: usize,
     records: &[Record],
     beyond: Option<&Beyond>,
 ) -> (Option<Saturation>, Option<ForceRange>) {
-    let scale = records
-        .iter()
-        .map(|record| peak(&record.outcome))
-        .fold(0.0, f64::max);
     // Vehicles in random order show what they do in many passes only.
     let period = match scene.order() {
         Order::Random { .. } => period.max(records.len() / WINDOW),
         _ => period,
     };
-    let level = |force: fn(&PassOutcome) -> f64| {
-        if let Some(beyond) = beyond {
-            range(beyond.period.iter().map(force))
-        } else {
-            // Listed passes grow ever farther apart: their gains say nothing.
-            if records
-                .last()
-                .is_none_or(|last| last.pass != records.len() as u64)
-            {
-                return None;
-            }
-            let forces: Vec<f64> = records.iter().map(|record| force(&record.outcome)).collect();
-            extrapolate(&forces, period, scale)
-        }
+    let peaks = records.iter().map(|record| peak(&record.outcome));
+    let course = Course {
+        scene,
+        period,
+        records,
+        beyond,
+        scale: peaks.fold(0.0, f64::max),
     };
-    let at = |end, force| {
-        if end == End::Free {
-            Some((0.0, 0.0))
-        } else {
-            level(force)
-        }
+    let ends = [scene.ends.upstream, scene.ends.downstream];
+    let at_ends: [fn(&PassOutcome) -> f64; 2] = [|o| o.force.upstream, |o| o.force.downstream];
+    let at = |end: usize| match ends[end] {
+        End::Free => Some((0.0, 0.0)),
+        _ => course.leads_to(at_ends[end]),
     };
-    let upstream = at(scene.ends.upstream, |o| o.force.upstream);
-    let downstream = at(scene.ends.downstream, |o| o.force.downstream);
-    let (Some(upstream), Some(downstream)) = (upstream, downstream) else {
+    let (Some(upstream), Some(downstream)) = (at(0), at(1)) else {
         return (None, None);
     };
-    let downstream = at_least_reached(downstream, records, |o| o.force.downstream);
-    let upstream = at_least_reached(upstream, records, |o| o.force.upstream);
     let range = ForceRange {
         downstream_min_n: downstream.0,
         downstream_max_n: downstream.1,
         upstream_min_n: upstream.0,
         upstream_max_n: upstream.1,
     };
-    let inside = match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Free, End::Free) => {
-            level(|o| o.max_compression).map(|range| at_least_reached(range, records, |o| o.max_compression))
-        }
+    let inside = match ends {
+        [End::Free, End::Free] => course.leads_to(|o| o.max_compression),
         _ => Some((0.0, 0.0)),
     };
     let largest =
         inside.map(|inside| [downstream, upstream, inside].map(|(least, most)| larger(least, most)));
-    let saturation = largest.and_then(|largest| levels_off(scene, records, beyond, largest, scale));
-    (saturation, Some(range))
+    (
+        largest.and_then(|largest| course.levels_off(largest)),
+        Some(range),
+    )
 }
 
-/// The range with the largest force that was reached, if that is hardly larger than all in it.
-fn at_least_reached((least, most): Range, records: &[Record], force: fn(&PassOutcome) -> f64) -> Range {
-    let reached = records
-        .iter()
-        .map(|record| force(&record.outcome))
-        .fold(0.0, larger);
-    let largest = larger(least, most).abs();
-    if (largest..=(1.0 + NEARLY) * largest).contains(&reached.abs()) {
-        (least.min(reached), most.max(reached))
-    } else {
-        (least, most)
-    }
-}
-
-/// The saturation at the forces `largest` on the downstream end, the upstream end and inside the cable: no more than friction can carry to
-/// an end whose other end is free. `None` where there is none worth the name beside the force `scale`, or the force falls.
-fn levels_off<'a>(
-    scene: &Scene,
+/// The course of the forces of a run.
+struct Course<'a> {
+    scene: &'a Scene,
+    /// Passes over which they are looked at.
+    period: usize,
     records: &'a [Record],
     beyond: Option<&'a Beyond>,
-    largest: [f64; 3],
+    /// A force that counts as large \[N\].
     scale: f64,
-) -> Option<Saturation> {
-    let force_n = largest.into_iter().fold(0.0, larger);
-    let free = [scene.ends.upstream, scene.ends.downstream].map(|end| end == End::Free);
-    let limit = balance::carried(scene, force_n.abs());
-    let one_free = free.contains(&true) && scene.restraints.is_empty();
-    let shown = |outcome: &PassOutcome| {
-        let PassOutcome {
-            force,
-            max_compression,
-            ..
-        } = *outcome;
-        if free == [true; 2] {
-            max_compression
-        } else {
-            larger(force.upstream, force.downstream)
-        }
-    };
-    let reached = records
-        .iter()
-        .map(|record| shown(&record.outcome))
-        .fold(0.0, larger);
-    let nothing = force_n.abs() < NOTHING * scale;
-    let impossible = one_free && force_n.abs() > (1.0 + balance::MARGIN) * limit;
-    let falls = reached.abs() > (1.0 + NEARLY) * force_n.abs();
-    if nothing || impossible || falls {
-        return None;
-    }
-    // Of vehicles in random order, a row between jumps is the mean of a period: it leads to the mean.
-    let leads_to = match (beyond, scene.order()) {
-        (Some(Beyond { period, .. }), Order::Random { .. }) => {
-            period.iter().map(shown).sum::<f64>() / period.len() as f64
-        }
-        _ => force_n,
-    };
-    let is_there = |record: &&Record, end: f64| shown(&record.outcome) / (LEVEL * end) >= 1.0;
-    let within = records.iter().find(|record| is_there(record, leads_to));
-    // Beyond them a pass leads to what the same pass of the last period leaves; where that is little, it says nothing.
-    let later = |beyond: &'a Beyond| {
-        let end = |record: &Record| {
-            let phase = (record.pass - 1) % beyond.period.len() as u64;
-            shown(&beyond.period[phase as usize])
+}
+
+impl Course<'_> {
+    /// Range of a force over a period once nothing changes any more; with the largest that was
+    /// reached, if that is hardly larger.
+    fn leads_to(&self, force: fn(&PassOutcome) -> f64) -> Option<Range> {
+        let forces = self.records.iter().map(|record| force(&record.outcome));
+        let (least, most) = match self.beyond {
+            Some(beyond) => range(beyond.period.iter().map(force))?,
+            // Listed passes grow ever farther apart: their gains say nothing.
+            None if self.records.last()?.pass != self.records.len() as u64 => return None,
+            None => extrapolate(&forces.clone().collect::<Vec<_>>(), self.period, self.scale)?,
         };
-        let tells = |end: f64| end.abs() >= TELLS * force_n.abs();
-        beyond
-            .records
-            .iter()
-            .find(|record| tells(end(record)) && is_there(record, end(record)))
-    };
-    Some(Saturation {
-        force_n,
-        passes_to_95_percent: within.or_else(|| beyond.and_then(later))?.pass,
-        downstream_force_n: largest[0],
-        upstream_force_n: largest[1],
-    })
+        let reached = forces.fold(0.0, larger);
+        let largest = larger(least, most).abs();
+        let is_near = (largest..=(1.0 + NEARLY) * largest).contains(&reached.abs());
+        Some(if is_near {
+            (least.min(reached), most.max(reached))
+        } else {
+            (least, most)
+        })
+    }
+
+    /// The force of a pass by which the saturation is told: the largest on an end, or inside a
+    /// cable that nothing holds.
+    fn shown(&self, outcome: &PassOutcome) -> f64 {
+        match (self.scene.ends.upstream, self.scene.ends.downstream) {
+            (End::Free, End::Free) => outcome.max_compression,
+            _ => larger(outcome.force.upstream, outcome.force.downstream),
+        }
+    }
+
+    /// The saturation at the forces `largest` on the downstream end, the upstream end and inside
+    /// the cable: no more than friction can carry to an end whose other end is free. `None` if it
+    /// is negligible compared with the largest force, or if the force falls.
+    fn levels_off(&self, largest: [f64; 3]) -> Option<Saturation> {
+        let force_n = largest.into_iter().fold(0.0, larger);
+        let ends = [self.scene.ends.upstream, self.scene.ends.downstream];
+        let one_free = ends.contains(&End::Free) && self.scene.restraints.is_empty();
+        let reached = self.records.iter().map(|record| self.shown(&record.outcome));
+        let negligible = force_n.abs() < NOTHING * self.scale;
+        let impossible =
+            one_free && force_n.abs() > (1.0 + balance::MARGIN) * balance::carried(self.scene, force_n.abs());
+        let falls = reached.fold(0.0, larger).abs() > (1.0 + NEARLY) * force_n.abs();
+        if negligible || impossible || falls {
+            return None;
+        }
+        Some(Saturation {
+            force_n,
+            passes_to_95_percent: self.reaches(force_n)?.pass,
+            downstream_force_n: largest[0],
+            upstream_force_n: largest[1],
+        })
+    }
+
+    /// The first pass that leaves 95 % of the saturated `force` \[N\].
+    fn reaches(&self, force: f64) -> Option<&Record> {
+        let is_there = |record: &Record, end: f64| self.shown(&record.outcome) / (LEVEL * end) >= 1.0;
+        // Of vehicles in random order, a row between jumps is the mean of a period: it leads to the
+        // mean.
+        let leads_to = match (self.beyond, self.scene.order()) {
+            (Some(Beyond { period, .. }), Order::Random { .. }) => {
+                period.iter().map(|outcome| self.shown(outcome)).sum::<f64>() / period.len() as f64
+            }
+            _ => force,
+        };
+        let within = self.records.iter().find(|record| is_there(record, leads_to));
+        // Beyond them a pass leads to what the same pass of the last period leaves; if that is
+        // little, it says nothing.
+        let later = |beyond: &'_ Beyond, record: &Record| {
+            let phase = (record.pass - 1) % beyond.period.len() as u64;
+            let end = self.shown(&beyond.period[phase as usize]);
+            end.abs() >= TELLS * force.abs() && is_there(record, end)
+        };
+        within.or_else(|| {
+            let beyond = self.beyond?;
+            beyond.records.iter().find(|record| later(beyond, record))
+        })
+    }
 }
 
 /// Largest force on an end in a pass, in size.
@@ -202,8 +188,8 @@ fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
     })
 }
 
-/// Range over the last `period` of `forces` \[N\], one entry a pass, with what is still to come; `scale` \[N\] is a force that counts
-/// as large here.
+/// Range over the last `period` of `forces` \[N\], one entry a pass, with what is still to come;
+/// `scale` \[N\] is a force that counts as large here.
 fn extrapolate(forces: &[f64], period: usize, scale: f64) -> Option<Range> {
     let count = forces.len();
     if count < FEWEST_PASSES.max(3 * period) {

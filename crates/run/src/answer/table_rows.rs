@@ -9,8 +9,8 @@ use crate::plan::Period;
 use crate::scene::{Scene, Traffic};
 use crate::shown::ROWS;
 
-/// Few enough of `passes` for a short table: all, or round numbers and the last. Where the vehicles a day are known, those from the first
-/// day on are round times.
+/// Few enough of `passes` for a short table: all, or round numbers and the last. Where the vehicles
+/// a day are known, those from the first day on are round times.
 pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r PassRecord> {
     if passes.len() <= ROWS {
         return passes.iter().collect();
@@ -25,8 +25,9 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
     shown.map(|(_, record)| record).collect()
 }
 
-/// In what `rows` differ beside the number of the pass, and what that is in each: the hour of the day where the cable is heated and there are
-/// `a_day` passes, else the vehicle. `None` where they do not, and where rows are means over many vehicles.
+/// In what `rows` differ beside the number of the pass, and what that is in each: the hour of the
+/// day where the cable is heated and there are `a_day` passes, else the vehicle. `None` where they
+/// do not, and where rows are means over many vehicles.
 pub fn in_rows(
     rows: &[&PassRecord],
     scene: &Scene,
@@ -63,7 +64,8 @@ pub fn in_rows(
     Some(("vehicle", rows.iter().map(name).collect()))
 }
 
-/// Few enough of `days` for a short table: round numbers and the last, which stands for all from the day `periodic_from` on.
+/// Few enough of `days` for a short table: round numbers and the last, which stands for all from
+/// the day `periodic_from` on.
 pub fn table_days(days: &[DayExtremes], periodic_from: Option<u64>) -> Vec<&DayExtremes> {
     let last = days.last().map_or(0, |day| day.day);
     let is_shown = |day: u64| is_round(day) && periodic_from.is_none_or(|from| day <= from);

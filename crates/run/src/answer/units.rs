@@ -8,16 +8,19 @@ const FORCE_DIGIT: f64 = 0.1;
 const MOVEMENT_DIGIT: f64 = 1e-7;
 /// Digits that are shown behind the first one of a large value.
 const DIGITS: f64 = 4.0;
-/// Units of stiffness whose force suits the ends of a cable. Springs are stiff: the MN of "3 MN/m" does not.
+/// Units of stiffness whose force suits the ends of a cable. Springs are stiff: the MN of "3 MN/m"
+/// does not.
 const SUITABLE: [&str; 5] = ["kN", "kgf", "tf", "lbf", "kip"];
 /// Units of moduli that do not suit: those of the ground have too many digits in them.
 const TOO_SMALL: [&str; 2] = ["Pa", "N/m2"];
 
-/// The units in which a reader gets forces, movements, lengths and the like: those that were typed, where they suit.
+/// The units in which a reader gets forces, movements, lengths and the like: those that were typed,
+/// where they suit.
 ///
-/// - Forces: the unit of a limit of force; else that in the first unit of an end spring, a clamp or the cable's weight, if that is kN, kgf,
-///   tf, lbf or kip; else N.
-/// - Movements: the unit of a limit of movement; else inches where the duct's length is typed in ft, in, yd or mi; else mm.
+/// - Forces: the unit of a limit of force; else that in the first unit of an end spring, a clamp or
+///   the cable's weight, if that is kN, kgf, tf, lbf or kip; else N.
+/// - Movements: the unit of a limit of movement; else inches where the duct's length is typed in
+///   ft, in, yd or mi; else mm.
 /// - Stiffnesses: the unit of an end spring or a clamp; else the one that goes with the force.
 /// - Lengths along the duct: ft where the duct's length is typed in ft, in, yd or mi; else m.
 /// - Weight and friction per length: the unit of the cable's weight; else N/m.
@@ -107,8 +110,9 @@ impl Units {
         in_unit(metres, self.movement, MOVEMENT_DIGIT)
     }
 
-    /// The name of a field of an answer without the unit at its end, and the unit in which it is shown: `downstream_force_n` is
-    /// `downstream_force` in N or kip. None where the name has no unit.
+    /// The name of a field of an answer without the unit at its end, and the unit in which it is
+    /// shown: `downstream_force_n` is `downstream_force` in N or kip. None where the name has no
+    /// unit.
     pub fn of_field<'f>(&self, field: &'f str) -> Option<(&'f str, Unit)> {
         let (name, si) = si_of_field(field)?;
         let moves = ["displacement", "drift"].iter().any(|word| name.contains(word));
@@ -125,7 +129,8 @@ impl Units {
     }
 }
 
-/// The name of a field of an answer without the unit at its end, and that unit: `downstream_force_n` and N.
+/// The name of a field of an answer without the unit at its end, and that unit:
+/// `downstream_force_n` and N.
 pub fn si_of_field(field: &str) -> Option<(&str, &'static str)> {
     let ends = [
         ("_n_per_m", "N/m"),
@@ -138,7 +143,8 @@ pub fn si_of_field(field: &str) -> Option<(&str, &'static str)> {
         .find_map(|(end, unit)| Some((field.strip_suffix(end)?, unit)))
 }
 
-/// A value in SI in a unit, rounded to the decimal that is nearest to `digit`, in SI; of large values to fewer decimals.
+/// A value in SI in a unit, rounded to the decimal that is nearest to `digit`, in SI; of large
+/// values to fewer decimals.
 pub fn in_unit(si: f64, unit: Unit, digit: f64) -> String {
     let value = unit.of_si(si);
     let decimals = -unit.of_si(digit).log10().round();

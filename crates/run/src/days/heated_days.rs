@@ -12,17 +12,9 @@ use crate::passes::{Passes, Simulation, Task, force_profile, listed_passes, seld
 use crate::plan::{Period, Plan};
 use crate::scene::{DAYS_PER_YEAR, Heat, Scene};
 use crate::shown::words_if;
+use crate::tuning::days::{FEW, FIRST_DAYS, JUMPS_SHARE, MOST, MOST_DAYS};
 use crate::{Error, Progress};
 
-/// Share of the tolerance that jumps over days may take, and the most that they take: slow two-way creep adds up what larger ones miss.
-const JUMPS_SHARE: f64 = 0.5;
-const MOST: f64 = 5e-3;
-/// Up to so many passes a day all are simulated on a day with real ones; and where a day has no whole sequence.
-const FEW: u64 = 100;
-/// Days simulated after the first one, before any is jumped over.
-const FIRST_DAYS: u64 = 3;
-/// Days simulated after which no more are jumped over, and after which the run gives up.
-const MOST_DAYS: (u64, u64) = (150, 1000);
 const SECONDS_A_DAY: f64 = 86_400.0;
 
 /// Passes and days on one mesh.
@@ -37,7 +29,8 @@ pub struct DaysOnMesh {
 pub struct DayJumps<'a> {
     /// Simulated periods a day.
     pub periods: u64,
-    /// With a quarter of the error and a first jump half as long, which shows the error of the others.
+    /// With a quarter of the error and a first jump half as long, which shows the error of the
+    /// others.
     pub finer: bool,
     /// As another run did, if its jumps are no longer than their errors allow.
     pub guide: Guide<'a>,
@@ -119,12 +112,14 @@ impl<'a> DaySimulator<'a> {
         }
     }
 
-    /// Vehicles of the sequence that a day leaves over: where the next day goes on in it, and every day here begins anew.
+    /// Vehicles of the sequence that a day leaves over: where the next day goes on in it, and every
+    /// day here begins anew.
     fn leftover_vehicles(&self) -> usize {
         (a_day(self.plan.scene) % self.period.len() as u64) as usize
     }
 
-    /// Whether days that follow from each other all begin with the same vehicle, and the traffic's sequence does not.
+    /// Whether days that follow from each other all begin with the same vehicle, and the traffic's
+    /// sequence does not.
     pub fn breaks_sequence(&self) -> bool {
         let traffic = &self.plan.scene.traffic;
         let several = traffic.passes > a_day(self.plan.scene);
@@ -241,9 +236,10 @@ impl<'a> DaySimulator<'a> {
         Ok(DaysOnMesh { passes, days })
     }
 
-    /// Largest difference on any listed day or pass: of a force after a pass or on a day as a share of the largest that day, of one
-    /// during a simulated pass as a share of the largest in any pass, of a movement as a share of the day's range or, where that is
-    /// larger, of the movement since laying.
+    /// Largest difference on any listed day or pass: of a force after a pass or on a day as a share
+    /// of the largest that day, of one during a simulated pass as a share of the largest in any
+    /// pass, of a movement as a share of the day's range or, where that is larger, of the movement
+    /// since laying.
     pub fn difference(&self, one: &DaysOnMesh, other: &DaysOnMesh) -> Shares {
         let scale = self.scale();
         let largest = one.days.extremes.largest_force().max(scale.force);

@@ -1,4 +1,5 @@
-//! How far a period of the traffic advances the cable against friction that is locked in, measured on a short piece of it.
+//! How far a period of the traffic advances the cable against friction that is locked in, measured
+//! on a short piece of it.
 
 use cable_dem::{CableState, DuctedCable, Mesh, QuasiStatic, Statistics};
 use cycle_jump::days::LockedLaw;
@@ -9,14 +10,11 @@ use crate::cable::cable;
 use crate::ground::{length_scale, road};
 use crate::passes::Task;
 use crate::plan::Period;
+use crate::tuning::days::{FINEST, PERIODS};
+use crate::tuning::ground::LAW_LENGTH;
 
-/// Nodes per length scale of the motion at most: real passes measure what the law misses. Of sixteen random scenes none states another error
-/// than with as fine a law as 24 nodes make, and forces differ by less than 0.1 %; a short duct, with a mesh far finer, would be minutes in it.
-const FINEST: f64 = 6.0;
-/// Periods that it takes: the first one brings the cable into the state that lasts.
-const PERIODS: usize = 2;
-
-/// The law for `passes` of `traffic` on the mesh of `task`, or a coarser one: both ends free, a body force that balances the locked friction. And what it costs.
+/// The law for `passes` of `traffic` on the mesh of `task`, or a coarser one: both ends free, a
+/// body force that balances the locked friction. And what it costs.
 pub fn locked_law(
     task: &Task<'_>,
     traffic: &Period,
@@ -35,7 +33,7 @@ pub fn locked_law(
         .iter()
         .map(DuctMotion::reach)
         .fold(f64::INFINITY, f64::min);
-    let length = (road::LAW_LENGTH * scale).min(reach - approach);
+    let length = (LAW_LENGTH * scale).min(reach - approach);
     let elements = (length / spacing).floor();
     let length = elements * spacing;
     let mesh = Mesh::new(length, spacing, coarser * mesh.vehicle_step())?;

@@ -1,8 +1,10 @@
-//! Traffic and daily heat: how many simulated periods a day, on which mesh, and what both leave wrong.
+//! Traffic and daily heat: how many simulated periods a day, on which mesh, and what both leave
+//! wrong.
 //!
-//! Every pass finds the cable at the temperature of its hour, so that the cable never comes to rest as it does without heat: days
-//! are jumped over, not passes ([`cycle_jump::days`]). The number of simulated periods a day is doubled on a coarse mesh until twice
-//! as many change little; then meshes are refined as for every run.
+//! Every pass finds the cable at the temperature of its hour, so that the cable never comes to rest
+//! as it does without heat: days are jumped over, not passes ([`cycle_jump::days`]). The number of
+//! simulated periods a day is doubled on a coarse mesh until twice as many change little; then
+//! meshes are refined as for every run.
 
 use cable_dem::{CableError, Statistics};
 
@@ -12,30 +14,13 @@ use crate::answer::error_estimate::{self, ErrorParts};
 use crate::ground::road;
 use crate::passes::{RunOptions, Solved};
 use crate::plan::{PassMethod, Period, Plan};
-use crate::refine::{
-    FINDING, MAX_NODE_UPDATES, MeshLoop, OnMeshes, REFINEMENT_COST, Refined, judge, mesh_reason,
-};
+use crate::refine::{MeshLoop, OnMeshes, Refined, judge, mesh_reason};
 use crate::scene::{Heat, Scene};
+use crate::tuning::days::{
+    CAUTION, COARSER, COARSEST, FIRST_PERIODS, QUARTERS, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED,
+};
+use crate::tuning::meshes::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST};
 use crate::{Error, Progress};
-
-/// Simulated periods a day to begin with.
-const FIRST_PERIODS: u64 = 16;
-/// They are looked for so many levels below the first, where a pass costs a sixteenth.
-const COARSER: usize = 2;
-/// What half as many simulated periods a day change, times this, is the error of as many: of fifteen scenes with 24 and 48 or more
-/// it covers all, but a movement that was off by 0.18 %.
-const CAUTION: f64 = 2.0;
-/// Share of the tolerance that days with few simulated periods may take.
-const SHARE: f64 = 0.5;
-/// Typical errors of the forces with 3, 6, 12, … nodes a depth, below which none is stated, and the share of the difference to a
-/// mesh half as fine that is the error: measured on nine scenes up to 24 nodes. From 12 on differences fall by a factor of 4 to 14.
-const TYPICAL: [f64; 4] = [5e-2, 1.2e-2, 1.5e-3, 4e-4];
-const COARSEST: f64 = 3.0;
-const RESOLVED: usize = 2;
-const WEIGHT: f64 = 0.4;
-const WEIGHT_UNRESOLVED: f64 = 2.0;
-/// Parts of a period with which days begin that are compared.
-const QUARTERS: usize = 4;
 
 /// The days of a plan, on whatever level.
 struct DaysOnMeshes<'a> {
@@ -169,8 +154,9 @@ impl<'a> DaysOnMeshes<'a> {
         !self.days.every_pass && !self.days.period.others.is_empty()
     }
 
-    /// What jumps over days leave wrong in those of `finest`, another beginning of the sequence, and a period that stands in for
-    /// the traffic: what they change in days on a mesh that is coarse relative to `level`.
+    /// What jumps over days leave wrong in those of `finest`, another beginning of the sequence,
+    /// and a period that stands in for the traffic: what they change in days on a mesh that is
+    /// coarse relative to `level`.
     fn error_of_days(
         &self,
         level: usize,
@@ -228,7 +214,8 @@ impl<'a> DaysOnMeshes<'a> {
         Ok(error + hours)
     }
 
-    /// What an approach that the scene names leaves out, on `level`: the days once more with vehicles followed far enough.
+    /// What an approach that the scene names leaves out, on `level`: the days once more with
+    /// vehicles followed far enough.
     fn road_error(&self, level: usize, statistics: &mut Statistics) -> Result<Shares, Error> {
         let Plan { scene, ground, .. } = self.days.plan;
         if road::is_followed_enough(scene, &ground.motions)? {

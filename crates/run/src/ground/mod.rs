@@ -1,4 +1,5 @@
-//! From a scene to the motion of its duct: which model of the ground, how far along the road, under which vehicle.
+//! From a scene to the motion of its duct: which model of the ground, how far along the road, under
+//! which vehicle.
 
 mod model;
 mod motion;

@@ -1,8 +1,9 @@
 //! Which model of the ground a scene needs: the exact one, which is also the cheapest.
 //!
-//! One soil has a closed form, uniform layers a Hankel transform. A layer whose modulus varies is cut into uniform
-//! sublayers, twice as many until the duct's motion is steady. The cable feels the ground through that motion alone, and a
-//! motion costs the same whatever model it came from, so an approximate ground would save nothing.
+//! One soil has a closed form, uniform layers a Hankel transform. A layer whose modulus varies is
+//! cut into uniform sublayers, twice as many until the duct's motion is steady. The cable feels the
+//! ground through that motion alone, and a motion costs the same whatever model it came from, so an
+//! approximate ground would save nothing.
 
 use boussinesq::HalfSpace;
 use burmister::LayeredHalfSpace;
@@ -12,8 +13,9 @@ use super::motion::{difference, motions};
 use crate::Error;
 use crate::scene::{GroundModel, Scene};
 
-/// Accuracy of the duct's motion as a share of its peak where the ground has a closed form. The cable feels the motion's
-/// second derivative, and the closed forms give it away for a few hundred evaluations.
+/// Accuracy of the duct's motion as a share of its peak where the ground has a closed form. The
+/// cable feels the motion's second derivative, and the closed forms give it away for a few hundred
+/// evaluations.
 const CLOSED_FORM_ACCURACY: f64 = 1e-9;
 /// The same for layers by Hankel transform; asked of the transform itself is a tenth of it.
 const TRANSFORM_ACCURACY: f64 = 1e-7;
@@ -24,7 +26,8 @@ const FEWEST_SUBLAYERS: usize = 16;
 const MOST_LAYERS: usize = 1000;
 /// Share of the tolerance that cutting a layer into sublayers may take.
 const SUBLAYERS_SHARE: f64 = 0.05;
-/// Midpoint moduli are of second order: the finer of two motions is off by a third of their difference.
+/// Midpoint moduli are of second order: the finer of two motions is off by a third of their
+/// difference.
 const SECOND_ORDER: f64 = 3.0;
 
 /// The motion of the duct under every vehicle, and the model of the ground that gave it.

@@ -4,17 +4,16 @@ use ground_field::{DuctLine, DuctMotion, GroundField};
 
 use crate::Error;
 use crate::scene::{PeakScaling, Scene, TrafficVehicle, Wheel};
+use crate::tuning::ground::SMOOTHER;
 
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);
 
-/// A motion that is less wider than this than its duct is deep counts as so wide: a coarser mesh would save little.
-const SMOOTHER: f64 = 1.25;
 /// Loads in the same ratio to this share are so but for rounding.
 const SAME: f64 = 1e-12;
 
-/// The motion under every vehicle for |ξ| up to `reach` \[m\], to `accuracy` as a share of its peak; scaled to a measured peak
-/// where the scene has one.
+/// The motion under every vehicle for |ξ| up to `reach` \[m\], to `accuracy` as a share of its
+/// peak; scaled to a measured peak where the scene has one.
 pub fn motions(
     scene: &Scene,
     field: &dyn GroundField,
@@ -36,7 +35,8 @@ pub fn motions(
     scale(scene, motions)
 }
 
-/// How many times as heavy a vehicle is as one that is like it but for its load; `None` where they differ in more.
+/// How many times as heavy a vehicle is as one that is like it but for its load; `None` where they
+/// differ in more.
 pub fn load_ratio(vehicle: &TrafficVehicle, base: &TrafficVehicle) -> Option<f64> {
     let drives = |vehicle: &TrafficVehicle| (vehicle.lateral_offset, vehicle.speed, vehicle.direction);
     let (wheels, others) = (vehicle.wheels(), base.wheels());
@@ -60,8 +60,8 @@ pub fn peak(motions: &[DuctMotion]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Length over which a duct at `depth` moves differently under the vehicle that moves it most sharply \[m\]: its depth, or more where that is
-/// worth a mesh of its own.
+/// Length over which a duct at `depth` moves differently under the vehicle that moves it most
+/// sharply \[m\]: its depth, or more where that is worth a mesh of its own.
 pub fn length_scale(motions: &[DuctMotion], depth: f64) -> f64 {
     let scales = motions.iter().map(DuctMotion::length_scale);
     let least = scales.fold(f64::INFINITY, f64::min);

@@ -4,12 +4,9 @@ use cable_dem::CableError;
 use ground_field::DuctMotion;
 
 use crate::scene::{Scene, TrafficVehicle};
-
-/// The road is looked at over a hundred times the distance from wheel to duct, and ten times the thickness of the layers.
-const FARTHEST_DISTANCES: f64 = 100.0;
-const FARTHEST_THICKNESSES: f64 = 10.0;
-/// But no farther than this \[m\].
-const FARTHEST: f64 = 3000.0;
+use crate::tuning::ground::{
+    BEYOND_THE_TURN, FARTHEST, FARTHEST_DISTANCES, FARTHEST_THICKNESSES, LAW_LENGTH,
+};
 
 /// How far the road is looked at \[m\], measured from a vehicle's origin.
 pub fn farthest(scene: &Scene) -> f64 {
@@ -26,13 +23,6 @@ pub fn farthest(scene: &Scene) -> f64 {
     ahead + far.min(FARTHEST)
 }
 
-/// Vehicles are followed so many times as far as the farthest place where the motion turns.
-const BEYOND_THE_TURN: f64 = 1.5;
-
-/// Length of the cable on which the advance against locked friction is measured where heat makes that necessary, as a multiple of that over which the
-/// duct's motion changes.
-pub const LAW_LENGTH: f64 = 24.0;
-
 /// How far from a vehicle's origin its motion of the duct has to be known \[m\].
 pub fn reach(scene: &Scene) -> f64 {
     let followed = BEYOND_THE_TURN * farthest(scene);
@@ -44,7 +34,8 @@ pub fn reach(scene: &Scene) -> f64 {
     scene.duct.length.max(measured) + scene.solver.approach.unwrap_or(0.0).max(followed)
 }
 
-/// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or as far as they have to be.
+/// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or as far as they
+/// have to be.
 pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
     match scene.solver.approach {
         Some(approach) => Ok(approach),
@@ -52,7 +43,8 @@ pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError
     }
 }
 
-/// Whether the approach that the scene names, if it names one, is as far as vehicles have to be followed.
+/// Whether the approach that the scene names, if it names one, is as far as vehicles have to be
+/// followed.
 pub fn is_followed_enough(scene: &Scene, motions: &[DuctMotion]) -> Result<bool, CableError> {
     match scene.solver.approach {
         Some(approach) => Ok(approach >= needed(scene, motions)?),

@@ -1,14 +1,15 @@
 //! Vehicles in random order: the mean over several draws.
 //!
-//! An even order leaves other forces than a random one, above all where vehicles drive both ways. What it changes is measured on a coarse mesh,
-//! where draws of the same vehicles are cheap, and added to the even order's passes on the answer's mesh:
+//! An even order leaves other forces than a random one, above all where vehicles drive both ways.
+//! What it changes is measured on a coarse mesh, where draws of the same vehicles are cheap, and
+//! added to the even order's passes on the answer's mesh:
 //!
 //! ```text
 //! E[F] ≈ F_even(fine) + (mean of F_k(coarse) over draws k − F_even(coarse))
 //! ```
 //!
-//! (multilevel Monte Carlo with two levels: M. B. Giles, Oper. Res. 56 (2008) 607). Its error is the draws' standard deviation over the root of their
-//! number.
+//! (multilevel Monte Carlo with two levels: M. B. Giles, Oper. Res. 56 (2008) 607). Its error is
+//! the draws' standard deviation over the root of their number.
 
 use cable_dem::PassOutcome;
 use cycle_jump::{Beyond, Record, peaks};
@@ -16,9 +17,7 @@ use cycle_jump::{Beyond, Record, peaks};
 use super::listing::mean;
 use super::simulation::Passes;
 use crate::answer::differences::{Scale, Shares, differences};
-
-/// Standard errors that are stated as the error.
-const STATED: f64 = 2.0;
+use crate::tuning::jumps::STATED;
 
 /// The passes of a draw of vehicles, by jumps over them as a period.
 pub struct Draw {
@@ -38,8 +37,8 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// From passes of an `even` order and those of two draws or more, on the same mesh. The passes up to `first` are each a
-    /// draw of their own, and stay those of the even order.
+    /// From passes of an `even` order and those of two draws or more, on the same mesh. The passes
+    /// up to `first` are each a draw of their own, and stay those of the even order.
     pub fn new(even: &Passes, draws: &[Draw], first: u64, scale: Scale) -> Self {
         let of_draws = |record: &Record| {
             let same = |draw: &Draw| at(&draw.passes.records, record.pass).cloned();

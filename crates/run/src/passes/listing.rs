@@ -1,7 +1,8 @@
 //! Which passes of a period's traffic stand for the listed passes of the scene's.
 //!
-//! Where the period is the traffic's own they are the same. Where it only stands in for the traffic, the scene's own vehicles drive at the
-//! beginning and at the end, and between them a pass is shown by one nearby of the same vehicle that follows the same vehicles as far back as
+//! Where the period is the traffic's own they are the same. Where it only stands in for the
+//! traffic, the scene's own vehicles drive at the beginning and at the end, and between them a pass
+//! is shown by one nearby of the same vehicle that follows the same vehicles as far back as
 //! possible; in random order it is shown by the mean over a period.
 
 use cable_dem::{Order, PassOutcome};
@@ -13,20 +14,10 @@ use crate::answer::simulated;
 use crate::cable::{known_order, traffic};
 use crate::plan::Period;
 use crate::scene::Scene;
+use crate::tuning::listing::{ALIKE, FIRST, LAST, LAST_SHOWN, OF_A_MEAN, PERIODS_OF_A_JUMP};
 
-/// Passes at the beginning in which the scene's own vehicles drive, at least; at the end, and the last of them that show those vehicles: the
-/// first ones still follow other vehicles.
-const FIRST: u64 = 100;
-const LAST: u64 = 150;
-const LAST_SHOWN: u64 = 12;
-/// Periods that jumps need at least beside those at the beginning and the end.
-const PERIODS_OF_A_JUMP: u64 = 3;
-/// Passes of a longer period whose mean stands for it, evenly over it.
-const OF_A_MEAN: u64 = 48;
-/// Passes that are nearly alike and are compared with each other.
-const ALIKE: usize = 4;
-
-/// The passes that a run lists whose traffic has this `period`: where it is the traffic's own, all of the last period among them.
+/// The passes that a run lists whose traffic has this `period`: where it is the traffic's own, all
+/// of the last period among them.
 pub fn listed_passes(scene: &Scene, period: &Period) -> Vec<u64> {
     simulated(&scene.traffic, if period.is_own() { period.len() } else { 1 })
 }
@@ -169,8 +160,8 @@ impl<'a> Listing<'a> {
         peaks(rows, others)
     }
 
-    /// The passes of `records` for which other passes of the period, nearly as much alike, show a force or a movement that differs
-    /// by more than `allowed` of the largest in the period.
+    /// The passes of `records` for which other passes of the period, nearly as much alike, show a
+    /// force or a movement that differs by more than `allowed` of the largest in the period.
     pub fn doubtful(&self, evolution: &Evolution, records: &[Record], allowed: f64) -> Vec<u64> {
         let Some(own) = self.own.as_ref().filter(|_| !evolution.period.is_empty()) else {
             return Vec::new();
@@ -216,7 +207,8 @@ fn shown_values(outcome: &PassOutcome) -> [Vec<f64>; 2] {
     ]
 }
 
-/// Passes of a whole period of `length` around `pass`, or as many on either side as there are of `count`.
+/// Passes of a whole period of `length` around `pass`, or as many on either side as there are of
+/// `count`.
 fn mean_around(pass: u64, length: u64, count: u64) -> Vec<u64> {
     let (before, after) = ((length - 1) / 2, length / 2);
     if pass > before && pass + after <= count {

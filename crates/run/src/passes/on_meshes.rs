@@ -1,4 +1,5 @@
-//! The passes of a plan, every one simulated or few with jumps between them, on one mesh after the other.
+//! The passes of a plan, every one simulated or few with jumps between them, on one mesh after the
+//! other.
 
 use cable_dem::{Mesh, Statistics};
 use cycle_jump::Record;
@@ -12,7 +13,8 @@ use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::{self, ErrorParts, mesh_error};
 use crate::ground::road;
 use crate::plan::{Levels, PassMethod, Plan};
-use crate::refine::{FINDING, MAX_NODE_UPDATES, MeshLoop, OnMeshes, Refined, judge, mesh_reason};
+use crate::refine::{MeshLoop, OnMeshes, Refined, judge, mesh_reason};
+use crate::tuning::meshes::{FINDING, MAX_NODE_UPDATES};
 use crate::{Error, Progress, Scene};
 
 /// A plan's passes, on whatever level.
@@ -102,7 +104,8 @@ impl<'a> PassesOnMeshes<'a> {
         }
     }
 
-    /// Looks for jumps that take at most their share of the tolerance, unless they are known; the work that it takes.
+    /// Looks for jumps that take at most their share of the tolerance, unless they are known; the
+    /// work that it takes.
     fn find_jumps(&mut self) -> Result<Statistics, Error> {
         if matches!(self.method, PassMethod::EveryPass(_)) || self.known.is_some() {
             return Ok(Statistics::default());
@@ -136,8 +139,8 @@ impl<'a> PassesOnMeshes<'a> {
         Scale::new(self.plan.scene, &self.plan.ground.motions)
     }
 
-    /// What an approach that the scene names leaves out: the passes once more on the same mesh, with the vehicles followed far
-    /// enough. If it is far enough already, nothing.
+    /// What an approach that the scene names leaves out: the passes once more on the same mesh,
+    /// with the vehicles followed far enough. If it is far enough already, nothing.
     fn road_error(&self, passes: &Passes, mesh: Mesh, statistics: &mut Statistics) -> Result<Shares, Error> {
         if road::is_followed_enough(self.plan.scene, &self.plan.ground.motions)? {
             return Ok(Shares::default());
@@ -149,7 +152,8 @@ impl<'a> PassesOnMeshes<'a> {
         Ok(difference(&passes.records, &farther.records, self.scale()))
     }
 
-    /// One more pass of each vehicle that is too seldom for the period, and single passes of draws that show more.
+    /// One more pass of each vehicle that is too seldom for the period, and single passes of draws
+    /// that show more.
     fn seldom(&self, finest: &Passes, mesh: Mesh) -> Result<Vec<(usize, Record)>, Error> {
         let mut seldom = match self.method {
             PassMethod::Jumps(_) => {
@@ -163,7 +167,8 @@ impl<'a> PassesOnMeshes<'a> {
         Ok(seldom)
     }
 
-    /// All passes on `level`; those that may be the `answer` report their stages and where they lead.
+    /// All passes on `level`; those that may be the `answer` report their stages and where they
+    /// lead.
     fn on_level(
         &self,
         level: usize,

@@ -11,7 +11,8 @@ use crate::{Progress, SavedState};
 pub struct RunOptions<'a> {
     /// Measure the error by a run on a mesh twice as fine instead of estimating it.
     pub verify: bool,
-    /// What another run has shown of the mesh that the scene names: then no coarser ones are computed, and no jumps are looked for.
+    /// What another run has shown of the mesh that the scene names: then no coarser ones are
+    /// computed, and no jumps are looked for.
     pub mesh: Option<FixedMesh>,
     /// Called after each pass; it may stop the run.
     pub progress: Progress<'a>,
@@ -19,7 +20,8 @@ pub struct RunOptions<'a> {
     pub ground: Option<&'a dyn GroundField>,
     /// The state that another run has left, with which this one begins; else the cable as laid.
     pub start: Option<&'a SavedState>,
-    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's are left out.
+    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's
+    /// are left out.
     pub stages: &'a [u64],
 }
 

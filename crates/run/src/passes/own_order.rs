@@ -1,14 +1,7 @@
 //! The scene's own order of vehicles, where a period only stands in for it.
 
 use crate::plan::Period;
-
-/// A pass is shown by one that is at most this share of its number away: forces change on the scale of that number.
-const AWAY: f64 = 0.03;
-/// Or at most so many passes.
-const NEAR: u64 = 12;
-
-/// And follows at least so many vehicles that are the same: what came before them hardly counts any more.
-const DEEP: usize = 60;
+use crate::tuning::listing::{AWAY, DEEP, NEAR};
 
 /// Which vehicle drives in each pass, as far as that is known, beside those of a period.
 pub struct OwnOrder<'a> {
@@ -33,8 +26,8 @@ impl OwnOrder<'_> {
         (0..DEEP.min(own.len())).take_while(same).count()
     }
 
-    /// The pass of the period's traffic near `pass`, among those `within`, that follows the same vehicles as far back as possible, if one
-    /// does far enough.
+    /// The pass of the period's traffic near `pass`, among those `within`, that follows the same
+    /// vehicles as far back as possible, if one does far enough.
     pub fn shown_by(&self, pass: u64, within: std::ops::RangeInclusive<u64>) -> Option<u64> {
         if pass > self.vehicles.len() as u64 {
             return None;
@@ -57,7 +50,8 @@ impl OwnOrder<'_> {
         (back >= DEEP.min(pass as usize)).then_some(shown)
     }
 
-    /// The places of the period that follow the same vehicles as `pass` as far back as possible, so many.
+    /// The places of the period that follow the same vehicles as `pass` as far back as possible, so
+    /// many.
     pub fn most_alike(&self, pass: u64, count: usize) -> Vec<usize> {
         let mut places: Vec<(usize, usize)> = (0..self.period.len())
             .map(|place| (self.alike(pass, place), place))

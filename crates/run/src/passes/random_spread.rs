@@ -1,8 +1,9 @@
 //! Traffic in random order: how far its forces scatter around their mean.
 //!
-//! Many passes later the cable lies as the mean of the traffic has left it, and only the last few tens of vehicles scatter around
-//! that. So a few short random runs from there show the spread, on the mesh that the jumps were found on: it is an estimate. Their own mean
-//! is that of a coarse mesh and of some more passes, so the spread is laid around the mean of the answer.
+//! Many passes later the cable lies as the mean of the traffic has left it, and only the last few
+//! tens of vehicles scatter around that. So a few short random runs from there show the spread, on
+//! the mesh that the jumps were found on: it is an estimate. Their own mean is that of a coarse
+//! mesh and of some more passes, so the spread is laid around the mean of the answer.
 
 use cable_dem::{CableState, Order, Statistics};
 
@@ -10,13 +11,10 @@ use super::simulation::{Passes, Simulation, Task};
 use crate::Error;
 use crate::answer::{Quantiles, RandomSpread, larger};
 use crate::cable::traffic;
+use crate::tuning::jumps::{FORGOTTEN, PASSES, RUNS};
 
-/// Random runs, their passes, and how many of these forget the order before.
-const RUNS: u64 = 8;
-const PASSES: usize = 90;
-const FORGOTTEN: usize = 30;
-
-/// The spread of the forces around the last ones of the `answer`, from runs that begin in `state`, and what it cost.
+/// The spread of the forces around the last ones of the `answer`, from runs that begin in `state`,
+/// and what it cost.
 pub fn spread(
     task: &Task<'_>,
     state: &CableState,

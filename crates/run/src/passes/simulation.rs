@@ -12,15 +12,8 @@ use crate::cable::{cable, traffic};
 use crate::ground::length_scale;
 use crate::plan::{CableMethod, Period, Plan};
 use crate::scene::Scene;
+use crate::tuning::jumps::{DOUBTFUL, FEW, PATIENCE, PATIENCE_WITH_MANY};
 use crate::{Error, Progress, SavedState};
-
-/// Periods after which a run with jumps takes no more of them, of few vehicles and of many.
-const PATIENCE: u64 = 600;
-const FEW: u64 = 12;
-const PATIENCE_WITH_MANY: u64 = 12;
-
-/// Share of the tolerance by which a row may depend on which pass of a period shows it.
-const DOUBTFUL: f64 = 0.5;
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -76,7 +69,8 @@ pub struct Passes {
     pub schedule: Vec<u64>,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
-    /// Passes of the records that are not shown: other vehicles before them than those of the period would leave other forces.
+    /// Passes of the records that are not shown: other vehicles before them than those of the
+    /// period would leave other forces.
     pub doubtful: Vec<u64>,
     /// Passes of the period beside them that show more.
     pub peaks: Vec<Record>,
@@ -94,7 +88,8 @@ pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForcePro
 }
 
 impl Plan<'_> {
-    /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and progress.
+    /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and
+    /// progress.
     pub fn task<'a>(&'a self, scene: &'a Scene, mesh: Mesh) -> Task<'a> {
         Task {
             scene,
@@ -160,7 +155,8 @@ impl Task<'_> {
         Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
     }
 
-    /// Simulates few passes, with jumps between them; the passes `listed` and the stages are recorded.
+    /// Simulates few passes, with jumps between them; the passes `listed` and the stages are
+    /// recorded.
     pub fn with_jumps(&self, jumping: &Jumping<'_>, listed: &[u64]) -> Result<Passes, Error> {
         let Self { scene, mesh, .. } = self;
         let mut simulation = Simulation::new(self)?;
@@ -271,7 +267,8 @@ impl<'a> Simulation<'a> {
         })
     }
 
-    /// Lets `vehicle` pass: the pass `number`, if it has one. The last is looked at, and those that were asked for.
+    /// Lets `vehicle` pass: the pass `number`, if it has one. The last is looked at, and those that
+    /// were asked for.
     pub fn pass(
         &mut self,
         vehicle: usize,

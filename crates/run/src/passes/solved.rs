@@ -18,7 +18,8 @@ pub struct Solved {
     /// Work on all meshes together.
     pub statistics: Statistics,
     pub random: Option<RandomSpread>,
-    /// One more pass of each vehicle that comes too seldom for the period; in random order, passes of draws that show more.
+    /// One more pass of each vehicle that comes too seldom for the period; in random order, passes
+    /// of draws that show more.
     pub seldom: Vec<(usize, Record)>,
     /// What it has shown of its mesh.
     pub shown: Option<FixedMesh>,

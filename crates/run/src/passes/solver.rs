@@ -80,8 +80,8 @@ impl PassSolver {
         }
     }
 
-    /// As [`PassSolver::pass`], and looks at the friction with the vehicle nearest to `position` \[m\], where the solver can be
-    /// looked at.
+    /// As [`PassSolver::pass`], and looks at the friction with the vehicle nearest to `position`
+    /// \[m\], where the solver can be looked at.
     pub fn pass_and_look(
         &mut self,
         vehicle: usize,

@@ -1,9 +1,10 @@
 //! Meshes of a scene, from coarse to fine.
 //!
-//! The length scale is that over which the duct's motion changes: its depth right under the wheels, more beside the lane or under a stiff slab,
-//! where the cable slips far enough to see it.
-//! Level 0 has three nodes per length scale and two steps of the vehicle per node spacing; each further level halves both. Every tolerance takes the same levels and stops at its own, so that a looser one never costs
-//! more, and the coarser levels give the error of the last.
+//! The length scale is that over which the duct's motion changes: its depth right under the wheels,
+//! more beside the lane or under a stiff slab, where the cable slips far enough to see it. Level 0
+//! has three nodes per length scale and two steps of the vehicle per node spacing; each further
+//! level halves both. Every tolerance takes the same levels and stops at its own, so that a looser
+//! one never costs more, and the coarser levels give the error of the last.
 
 use cable_dem::{CableError, Mesh};
 use ground_field::DuctMotion;
@@ -11,6 +12,7 @@ use ground_field::DuctMotion;
 use crate::Error;
 use crate::ground::{length_scale, peak};
 use crate::scene::{Scene, SolverMethod};
+use crate::tuning::meshes::{MOVED, SLIPS, TYPICAL};
 
 /// Nodes per length scale on level 0.
 const COARSEST: f64 = 3.0;
@@ -18,17 +20,11 @@ const COARSEST: f64 = 3.0;
 const FEWEST: f64 = 8.0;
 /// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
-/// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
-/// (`tests/planner/honest.rs`). No error is stated below them.
-const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
-/// A length scale is at most so many slip lengths.
-const SLIPS: f64 = 2.0;
-/// The finest level that is tried where it is affordable: a cable that slips a tenth of a metre on a deep duct needs it.
+/// The finest level that is tried where it is affordable: a cable that slips a tenth of a metre on
+/// a deep duct needs it.
 const FINEST: usize = 10;
 /// The level that a mesh named by the scene counts as: two coarser ones tell its error.
 const NAMED: usize = 2;
-/// Length of cable solved per vehicle step, averaged over repeated solves \[length scales\]; right within a factor of three.
-const MOVED: f64 = 8.0;
 
 /// The meshes that a scene may be computed on.
 #[derive(Debug, Clone, Copy)]
@@ -59,7 +55,8 @@ impl Levels {
         let length = scene.duct.length;
         let steps_follow = scene.friction.law().has_memory();
         let by_time_step = solver.method == SolverMethod::Explicit && solver.time_step.is_some();
-        // The answer of a law without memory depends on its time step: there is no limit to refine towards.
+        // The answer of a law without memory depends on its time step: there is no limit to refine
+        // towards.
         let named =
             solver.node_spacing.is_some() || solver.vehicle_step.is_some() || by_time_step || !steps_follow;
         let length_scale = resolved(scene, motions);
@@ -103,7 +100,8 @@ impl Levels {
         self.first
     }
 
-    /// Length over which the duct's motion changes under the vehicle that moves it most sharply \[m\].
+    /// Length over which the duct's motion changes under the vehicle that moves it most sharply
+    /// \[m\].
     pub fn length_scale(&self) -> f64 {
         self.length_scale
     }
@@ -129,8 +127,8 @@ impl Levels {
         (share * self.spacing, step)
     }
 
-    /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the scene asks for is out of
-    /// range.
+    /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the
+    /// scene asks for is out of range.
     pub fn mesh(&self, level: usize) -> Result<Mesh, Error> {
         let (spacing, step) = self.spacing(level);
         Mesh::new(self.length, spacing, step).map_err(|error| match error {
@@ -149,7 +147,8 @@ impl Levels {
         TYPICAL[level.min(TYPICAL.len() - 1)]
     }
 
-    /// Error to expect on `level` before anything is computed; `None` on a mesh that the scene names.
+    /// Error to expect on `level` before anything is computed; `None` on a mesh that the scene
+    /// names.
     pub fn expected_error(&self, level: usize) -> Option<f64> {
         (!self.named).then(|| Self::typical_error(level))
     }
@@ -171,7 +170,8 @@ impl Levels {
     }
 }
 
-/// Length that meshes resolve \[m\]: a cable slips past a duct that is displaced by D over the slip length √(2 EA D/q), which no mesh may pass over.
+/// Length that meshes resolve \[m\]: a cable slips past a duct that is displaced by D over the slip
+/// length √(2 EA D/q), which no mesh may pass over.
 fn resolved(scene: &Scene, motions: &[DuctMotion]) -> f64 {
     let depth = scene.duct.depth;
     let limits = scene.sections().into_iter().map(|section| section.limit);

@@ -1,8 +1,9 @@
 //! How the passes of a scene are computed.
 //!
-//! The quasi-static cable moves only near the vehicle; the explicit solver moves all of it, with inertia, which changes the force
-//! by at most (v/c)². Long traffic is simulated in part: its passes change the cable ever more slowly, and jumps between
-//! simulated ones follow that (crate `cycle-jump`). Explicit steps are taken where the scene names them, and for the sigmoid law,
+//! The quasi-static cable moves only near the vehicle; the explicit solver moves all of it, with
+//! inertia, which changes the force by at most (v/c)². Long traffic is simulated in part: its
+//! passes change the cable ever more slowly, and jumps between simulated ones follow that (crate
+//! `cycle-jump`). Explicit steps are taken where the scene names them, and for the sigmoid law,
 //! which has no state of rest.
 
 use cable_dem::{Explicit, ExplicitOptions, Order, inertia_ratio};
@@ -13,34 +14,14 @@ use crate::Error;
 use crate::cable;
 use crate::scene::{Scene, SolverMethod};
 use crate::shown;
+use crate::tuning::methods::{
+    DAYS, DRAWN_ERROR, EVERY_PASS_MESHES, EXPLICIT_SECONDS, EXPLICIT_STEPS, JUMP_MESHES, LONGEST_SECONDS,
+    LONGEST_WITHOUT_REST, MANY, MOST_PERIODS, PERIODS_A_DAY, QUASI_STATIC_SECONDS, SPARED,
+    TYPICAL_LONG_PERIODS, TYPICAL_PERIODS,
+};
 
-/// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, and explicit.
-const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
-const EXPLICIT_SECONDS: f64 = 1e-9;
-/// Time steps of the explicit solver per step of a vehicle, as a rule.
-const EXPLICIT_STEPS: f64 = 40.0;
-/// Periods that are simulated at the start, and then for every factor e of periods: half of all scenes need fewer, and nearly all.
-const TYPICAL_PERIODS: (f64, f64) = (12.0, 2.2);
-const MOST_PERIODS: (f64, f64) = (20.0, 8.0);
-/// As a rule where a period has more than so many vehicles: most of what jumps would have to follow happens within the first one.
-const MANY: usize = 48;
-const TYPICAL_LONG_PERIODS: (f64, f64) = (4.5, 0.3);
 /// Most vehicles in a period that jumps go over: what every pass of it leaves is kept.
 const LONGEST_PERIOD: usize = 5000;
-/// Periods of a day that are simulated where the cable is heated every day, and days with them until one is like the one before.
-const PERIODS_A_DAY: f64 = 24.0;
-const DAYS: f64 = 9.0;
-/// A run takes about so many times the passes on its first mesh: those on coarser ones, and jumps that are looked for before.
-const EVERY_PASS_MESHES: f64 = 1.4;
-const JUMP_MESHES: f64 = 2.0;
-/// Jumps are taken where they spare this share of the passes.
-const SPARED: f64 = 0.3;
-/// Where every pass is simulated although jumps are possible, it takes no longer than this \[s\].
-const LONGEST_SECONDS: f64 = 60.0;
-/// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
-const LONGEST_WITHOUT_REST: f64 = 600.0;
-/// What an even order leaves wrong as a rule where vehicles come in random order: 3 to 4 % of early forces.
-const DRAWN_ERROR: f64 = 0.04;
 /// Most passes that are simulated one by one.
 pub const MOST_PASSES: u64 = 1_000_000;
 
@@ -215,7 +196,8 @@ pub struct Estimates {
     explicit: f64,
 }
 
-/// Time steps per step of a vehicle where the explicit method is taken: they follow waves in the cable, stiff ends and slow vehicles.
+/// Time steps per step of a vehicle where the explicit method is taken: they follow waves in the
+/// cable, stiff ends and slow vehicles.
 fn explicit_steps(scene: &Scene, levels: &Levels) -> Option<f64> {
     if scene.solver.method != SolverMethod::Explicit && scene.friction.law().has_memory() {
         return None;
@@ -312,7 +294,8 @@ impl Estimates {
         }
     }
 
-    /// Error of `method` beside those of its mesh and its jumps, as a share of the force; `None` where it does not apply.
+    /// Error of `method` beside those of its mesh and its jumps, as a share of the force; `None`
+    /// where it does not apply.
     pub fn error(&self, scene: &Scene, method: PassMethod) -> Option<f64> {
         let without = scene.friction.law().has_memory().then_some(self.inertia);
         if method.has_inertia() { Some(0.0) } else { without }

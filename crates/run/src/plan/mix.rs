@@ -3,20 +3,10 @@
 use cable_dem::{Order, Traffic};
 
 use crate::Error;
+use crate::tuning::periods::{EXACT, LEAST, LONGER, NEAR, OTHERS, SHORT};
 
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
-/// A mix is near where every vehicle's share is right within this share of itself; of longer ones within the factor the nearest is taken.
-const NEAR: f64 = 0.05;
-const LONGER: f64 = 1.25;
-/// It has at least so many vehicles: in shorter ones too few of those follow each other that do in the traffic, and its largest forces are missed.
-const LEAST: usize = 100;
-/// A mix that has the shares exactly is taken where it is at most so many times as long as a near one, or so short: a near one is compared
-/// with another, and hardly shows which vehicles follow each other in the traffic.
-const EXACT: usize = 2;
-const SHORT: usize = 600;
-/// Another mix is looked for among those that are at most twice as long, or so long.
-const OTHERS: usize = 48;
 
 /// Whole numbers of vehicles of every kind.
 #[derive(Debug, Clone)]
@@ -41,7 +31,8 @@ impl Mix {
         }
     }
 
-    /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has them exactly, or one that is near.
+    /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has
+    /// them exactly, or one that is near.
     pub fn best(shares: &[f64], most: usize) -> Self {
         let all = (1..=most)
             .map(|length| Self::nearest(shares, length))
@@ -60,8 +51,8 @@ impl Mix {
         })
     }
 
-    /// A mix of at most `most` vehicles on the other side of the wanted shares, or at least another one, and the share of the way to it at which
-    /// they lie: all of it where that is not known.
+    /// A mix of at most `most` vehicles on the other side of the wanted shares, or at least another
+    /// one, and the share of the way to it at which they lie: all of it where that is not known.
     pub fn opposite(&self, shares: &[f64], most: usize) -> (Self, f64) {
         let along = |mix: &Self| -> f64 { self.off.iter().zip(&mix.off).map(|(a, b)| a * b).sum() };
         let longest = most.min((2 * self.len()).max(OTHERS));
@@ -81,7 +72,8 @@ impl Mix {
         )
     }
 
-    /// The nearest mix of `length` vehicles, or of a few more: those with the largest remainders are rounded up, and every vehicle comes.
+    /// The nearest mix of `length` vehicles, or of a few more: those with the largest remainders
+    /// are rounded up, and every vehicle comes.
     fn nearest(shares: &[f64], length: usize) -> Self {
         let mut mix = Self::rounded(shares, length);
         if mix.counts.contains(&0) {

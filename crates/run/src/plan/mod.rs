@@ -1,7 +1,9 @@
-//! How a scene is computed: the ground's motion, the method, the meshes. Data only; `run` carries it out.
+//! How a scene is computed: the ground's motion, the method, the meshes. Data only; `run` carries
+//! it out.
 //!
-//! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what the passes will cost.
-//! The run measures what the estimates promise, and refines where they promise too much.
+//! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what
+//! the passes will cost. The run measures what the estimates promise, and refines where they
+//! promise too much.
 
 mod mesh;
 mod method;

@@ -1,18 +1,20 @@
 //! Whether a cable creeps at all, and how much force there can be, without a run.
 //!
-//! *Problem.* Friction can move the cable in its duct only as far as the cable does not follow the duct elastically. *Number.* With q
-//! the largest friction per metre, z the depth and D = max|D_l|,
+//! *Problem.* Friction can move the cable in its duct only as far as the cable does not follow the
+//! duct elastically. *Number.* With q the largest friction per metre, z the depth and D = max|D_l|,
 //!
 //! Q = q z²/(EA D)
 //!
-//! compares the stretch that friction can impose over a depth with what the duct does. Under one concentrated load on
-//! a half-space the shape of D_l is given, so that for one Poisson's ratio and one sheath the friction locked in at
-//! saturation, f*/q, and the advance of the first passes, G(0)/D, depend on Q alone. The force in a duct of length L is then f* L
-//! plus what its ends add; as Q f*/q has a largest value over Q, there is a force that no friction exceeds.
+//! compares the stretch that friction can impose over a depth with what the duct does. Under one
+//! concentrated load on a half-space the shape of D_l is given, so that for one Poisson's ratio and
+//! one sheath the friction locked in at saturation, f*/q, and the advance of the first passes,
+//! G(0)/D, depend on Q alone. The force in a duct of length L is then f* L plus what its ends add;
+//! as Q f*/q has a largest value over Q, there is a force that no friction exceeds.
 //!
-//! *Limits.* One concentrated load, a half-space with ν = 0.4, traffic one way, a level duct, no clamps; the table is for a sheath with
-//! EA/(S z²) = 0.056, S = q b/2, and a stiffer one raises f*/q by up to 0.03. Elsewhere the numbers are rough: a go or no-go, not a
-//! force to design with. *Origin.* Runs of `examples/occurrence.rs`, pass after pass; `tests/occurrence.rs` repeats some.
+//! *Limits.* One concentrated load, a half-space with ν = 0.4, traffic one way, a level duct, no
+//! clamps; the table is for a sheath with EA/(S z²) = 0.056, S = q b/2, and a stiffer one raises
+//! f*/q by up to 0.03. Elsewhere the numbers are rough: a go or no-go, not a force to design with.
+//! *Origin.* Runs of `examples/occurrence.rs`, pass after pass; `tests/occurrence.rs` repeats some.
 
 use ground_field::DuctMotion;
 use serde::Serialize;
@@ -57,15 +59,16 @@ pub const TABLE: [Row; 12] = [
 
 /// Q above which nothing creeps.
 pub const NOTHING_ABOVE: f64 = TABLE[TABLE.len() - 1].number;
-/// Largest Q f*/q of all runs, rounded up: 0.274 with the table's sheath, 0.291 with one ten times as stiff. No friction makes more force
-/// than this times EA D L/z², and what the ends add.
+/// Largest Q f*/q of all runs, rounded up: 0.274 with the table's sheath, 0.291 with one ten times
+/// as stiff. No friction makes more force than this times EA D L/z², and what the ends add.
 const CEILING: f64 = 0.3;
 /// What a fixed end adds at most, in EA D/z. A duct that slopes adds the cable's weight along it.
 const CEILING_OF_END: f64 = 1.2;
 /// Poisson's ratio of the table, and how far another may be from it to count as the same.
 const POISSON_RATIO: (f64, f64) = (0.4, 0.05);
 
-/// The row at any Q: straight lines in ln Q between the rows, the first row below, nothing above the last.
+/// The row at any Q: straight lines in ln Q between the rows, the first row below, nothing above
+/// the last.
 pub fn at(number: f64) -> Row {
     let Some(next) = TABLE.iter().position(|row| number <= row.number) else {
         return row(number, 0.0, 0.0);
@@ -84,19 +87,21 @@ pub fn at(number: f64) -> Row {
     )
 }
 
-/// What to expect of a scene before anything is run. The names of the fields are those of the JSON document, units included.
+/// What to expect of a scene before anything is run. The names of the fields are those of the JSON
+/// document, units included.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Occurrence {
     /// Q = q z²/(EA D), D the largest max|D_l| of all vehicles.
     pub q_number: f64,
-    /// f*/q: the share of the largest friction that stays locked in along the duct once nothing changes any more; 0 where
-    /// nothing creeps.
+    /// f*/q: the share of the largest friction that stays locked in along the duct once nothing
+    /// changes any more; 0 where nothing creeps.
     pub locked_share: f64,
     /// How far one of the first passes moves a cable that nothing holds \[m\].
     pub first_advance_m: f64,
     /// No friction makes more force than about this in the scene's duct \[N\].
     pub ceiling_n: f64,
-    /// Whether the scene is other than one concentrated load on a half-space, one way: then all of this is rough.
+    /// Whether the scene is other than one concentrated load on a half-space, one way: then all of
+    /// this is rough.
     pub rough: bool,
 }
 
@@ -129,7 +134,8 @@ impl Occurrence {
     }
 }
 
-/// One concentrated load right above the duct, one way, on a half-space with the table's Poisson's ratio, no clamps.
+/// One concentrated load right above the duct, one way, on a half-space with the table's Poisson's
+/// ratio, no clamps.
 fn is_of_the_table(scene: &Scene) -> bool {
     let soil = scene
         .ground

@@ -1,9 +1,11 @@
 //! The vehicles after which traffic repeats itself.
 //!
-//! A sequence is its own period, and shares such as 2 : 1 or 100 : 1 have one: 3 and 101 vehicles. Other shares get a mix that is near to
-//! theirs, and a second one on the other side shows what that changes. A vehicle that is too seldom for any period is the only thing in which a second
-//! one differs. Of many kinds that differ by their load alone, as axles of a histogram do, some stand in for all (`representatives`), and half as many
-//! show what that changes; vehicles that come in random order are compared with another order.
+//! A sequence is its own period, and shares such as 2 : 1 or 100 : 1 have one: 3 and 101 vehicles.
+//! Other shares get a mix that is near to theirs, and a second one on the other side shows what
+//! that changes. A vehicle that is too seldom for any period is the only thing in which a second
+//! one differs. Of many kinds that differ by their load alone, as axles of a histogram do, some
+//! stand in for all (`representatives`), and half as many show what that changes; vehicles that
+//! come in random order are compared with another order.
 
 use cable_dem::Order;
 use ground_field::DuctMotion;
@@ -13,24 +15,21 @@ use super::representatives;
 use crate::Error;
 use crate::cable::{known_order, traffic};
 use crate::scene::Scene;
+use crate::tuning::periods::{FEW, KINDS, STAND_INS};
 
 /// Most vehicles in a period that is chosen here.
 const LONGEST: usize = 2000;
-/// More kinds than this that differ by their load alone have others that stand in for them.
-const KINDS: usize = 12;
-/// Stand-ins for them.
-const STAND_INS: usize = 48;
-/// In random order a period of at most so many vehicles is taken as it is, and with heat it may be longer than a day.
-const FEW: usize = 12;
 
 /// A period of traffic.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Period {
     /// Its vehicles, by their place in the scene.
     pub vehicles: Vec<usize>,
-    /// Where they only stand in for the traffic, others to compare them with, each with the share of the difference that is wrong.
+    /// Where they only stand in for the traffic, others to compare them with, each with the share
+    /// of the difference that is wrong.
     pub others: Vec<(Vec<usize>, f64)>,
-    /// Whether the traffic is in another order than that of its period: at random, or in a sequence that is longer than a day of heat.
+    /// Whether the traffic is in another order than that of its period: at random, or in a sequence
+    /// that is longer than a day of heat.
     pub reordered: bool,
     /// Vehicles and their shares of which draws show what a random order changes, if it does.
     pub drawn: Vec<(usize, f64)>,
@@ -81,7 +80,8 @@ impl Period {
         })
     }
 
-    /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it does.
+    /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it
+    /// does.
     pub fn own(scene: &Scene) -> Result<Option<Vec<usize>>, Error> {
         let most = longest(scene);
         match scene.order() {
@@ -103,7 +103,8 @@ impl Period {
         self.vehicles.len()
     }
 
-    /// As many vehicles by their shares, in an order that is drawn with this seed: of each kind the whole number below or above its part.
+    /// As many vehicles by their shares, in an order that is drawn with this seed: of each kind the
+    /// whole number below or above its part.
     pub fn draw(&self, seed: u64) -> Vec<usize> {
         let mut random = fastrand::Rng::with_seed(seed);
         let begin = random.f64();
@@ -143,7 +144,8 @@ struct StandIn {
 }
 
 impl StandIn {
-    /// Some kinds in place of many, which advance the cable by `advances`; half as many show what that changes.
+    /// Some kinds in place of many, which advance the cable by `advances`; half as many show what
+    /// that changes.
     fn of_many_kinds(shares: &[f64], advances: &[f64]) -> Self {
         let of = |length| Mix::new(representatives::counts(shares, advances, length), shares);
         let mix = of(STAND_INS);
@@ -158,7 +160,8 @@ impl StandIn {
     fn near(scene: &Scene, shares: &[f64]) -> Self {
         let most = longest(scene);
         let mut others = Vec::new();
-        // On a day of heat every vehicle comes: its largest forces do not depend on how many days it does.
+        // On a day of heat every vehicle comes: its largest forces do not depend on how many days
+        // it does.
         let daily = scene.warming().is_some();
         let of_held = |share: &f64| daily || 2.0 * share * most as f64 >= 1.0;
         let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();

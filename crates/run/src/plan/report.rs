@@ -55,7 +55,8 @@ pub struct PlanReport {
     pub ground: String,
     /// How the passes are computed.
     pub cable: String,
-    /// Distance between nodes to begin with \[m\]; the run refines it until its error is small enough.
+    /// Distance between nodes to begin with \[m\]; the run refines it until its error is small
+    /// enough.
     pub node_spacing_m: f64,
     /// Advance of the vehicle per step to begin with \[m\].
     pub vehicle_step_m: f64,
@@ -63,10 +64,11 @@ pub struct PlanReport {
     pub reasons: Vec<String>,
     /// Error to expect, as a share of the force; `None` on a mesh that the scene names.
     pub estimated_error: Option<f64>,
-    /// Rough time of the whole run \[s\] on one core of about 3 GHz, from counted work: within a factor of five as a rule, and far more
-    /// where finer meshes prove necessary.
+    /// Rough time of the whole run \[s\] on one core of about 3 GHz, from counted work: within a
+    /// factor of five as a rule, and far more where finer meshes prove necessary.
     pub estimated_seconds: f64,
-    /// Whether the cable creeps, and how much force there can be, by one number; `None` where nothing moves the duct.
+    /// Whether the cable creeps, and how much force there can be, by one number; `None` where
+    /// nothing moves the duct.
     pub occurrence: Option<Occurrence>,
     /// Everything that was considered.
     pub candidates: Vec<Candidate>,

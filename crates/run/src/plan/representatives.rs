@@ -1,9 +1,12 @@
-//! Few vehicles in place of many kinds that differ by their load alone, such as the axles of a histogram.
+//! Few vehicles in place of many kinds that differ by their load alone, such as the axles of a
+//! histogram.
 //!
-//! Sorted by load, the traffic is cut into equal shares, and each gets one of the kinds: that whose advance is nearest to the mean over the
-//! share, with what is left over carried on to the next. So the stand-ins advance the cable as far in the mean as all kinds do, the rare
-//! heavy ones included. The advance is that of one of the first passes, from the table of [`occurrence`](super::occurrence): rough on other
-//! ground than its own, but only its course over the load counts.
+//! Sorted by load, the traffic is cut into equal shares, and each gets one of the kinds: that whose
+//! advance is nearest to the mean over the share, with what is left over carried on to the next. So
+//! the stand-ins advance the cable as far in the mean as all kinds do, the rare heavy ones
+//! included. The advance is that of one of the first passes, from the table of
+//! [`occurrence`](super::occurrence): rough on other ground than its own, but only its course over
+//! the load counts.
 
 use ground_field::DuctMotion;
 
@@ -11,7 +14,8 @@ use super::occurrence;
 use crate::ground::load_ratio;
 use crate::scene::Scene;
 
-/// How far a pass of each kind advances a cable that nothing holds \[m\], where the scene's vehicles differ by their load alone.
+/// How far a pass of each kind advances a cable that nothing holds \[m\], where the scene's
+/// vehicles differ by their load alone.
 pub fn advances(scene: &Scene, motions: &[DuctMotion]) -> Option<Vec<f64>> {
     let (first, others) = scene.vehicles.split_first()?;
     let alike = others.iter().all(|other| load_ratio(other, first).is_some());

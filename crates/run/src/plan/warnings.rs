@@ -8,7 +8,8 @@ use crate::scene::{Scene, unusual};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, ErrorSource};
 
-/// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to 2000.
+/// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to
+/// 2000.
 const SOIL_DENSITY: f64 = 1800.0;
 /// Mach number of a vehicle in the ground above which the ground's own inertia is no longer small.
 const FAST: f64 = 0.3;

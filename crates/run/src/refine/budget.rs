@@ -1,15 +1,7 @@
 //! What a finer mesh may cost, and what error is left to it.
 
 use crate::answer::differences::Shares;
-
-/// Most nodes eliminated in all passes on one mesh: about ten seconds.
-pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
-/// The same on a mesh finer than the first, at this tolerance.
-const FINER: (usize, f64) = (1_000_000_000, 0.01);
-/// A mesh twice as fine takes about this many times the node updates.
-pub const REFINEMENT_COST: usize = 4;
-/// What is left to the mesh at least, as a share of the tolerance, or of the largest other error if that is beyond it.
-const LEAST_SHARE: f64 = 0.5;
+use crate::tuning::meshes::{FINER, LEAST_SHARE, MAX_NODE_UPDATES};
 
 /// Most node updates on a finer mesh: the more the less error is asked for.
 pub fn max_node_updates(tolerance: f64) -> usize {

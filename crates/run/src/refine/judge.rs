@@ -1,4 +1,5 @@
-//! What the error of a run means: an answer that is refused, or warned of with a way to a smaller error.
+//! What the error of a run means: an answer that is refused, or warned of with a way to a smaller
+//! error.
 
 use cable_dem::Mesh;
 

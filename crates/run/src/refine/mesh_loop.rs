@@ -1,25 +1,22 @@
-//! One loop over meshes, whatever is simulated on them: simulate, compare with the coarser mesh, judge, refine.
+//! One loop over meshes, whatever is simulated on them: simulate, compare with the coarser mesh,
+//! judge, refine.
 
 use cable_dem::{CableError, Mesh, Statistics};
 
-use super::budget::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, max_node_updates};
+use super::budget::{allowed, max_node_updates};
 use crate::answer::differences::Shares;
-use crate::answer::error_estimate::{self, ErrorParts, VERIFIED};
+use crate::answer::error_estimate::{self, ErrorParts};
 use crate::plan::Plan;
+use crate::tuning::meshes::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, VERIFIED};
 use crate::{Error, Progress};
-
-/// Share of the work that finding jumps is taken for.
-pub const FINDING: f64 = 0.3;
-/// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
-const SHARP: usize = 3;
 
 /// What is simulated on one mesh after the other.
 pub trait OnMeshes {
     /// What it gives on one mesh.
     type Outcome;
 
-    /// Simulates on `level`, given the outcome on the level below if that is known. An outcome that may be the `answer` holds
-    /// all that an answer shows.
+    /// Simulates on `level`, given the outcome on the level below if that is known. An outcome that
+    /// may be the `answer` holds all that an answer shows.
     fn simulate(
         &self,
         level: usize,
@@ -67,8 +64,8 @@ pub struct MeshLoop<'a> {
 }
 
 impl MeshLoop<'_> {
-    /// Refines from `first` on until the tolerance leaves room for the error of the mesh, or finer meshes cost too much. The
-    /// other parts of `error` are known but for that of the road.
+    /// Refines from `first` on until the tolerance leaves room for the error of the mesh, or finer
+    /// meshes cost too much. The other parts of `error` are known but for that of the road.
     pub fn refine<S: OnMeshes>(
         &self,
         simulation: &S,
@@ -126,7 +123,8 @@ impl MeshLoop<'_> {
         })
     }
 
-    /// The outcomes on the levels below `first` that the duct is long enough for, and that are fine enough for its motion.
+    /// The outcomes on the levels below `first` that the duct is long enough for, and that are fine
+    /// enough for its motion.
     fn coarser<S: OnMeshes>(
         &self,
         simulation: &S,
@@ -153,15 +151,16 @@ impl MeshLoop<'_> {
         Ok(outcomes)
     }
 
-    /// Whether a finer run is to measure the error of the mesh. One mesh alone does not show it; and no mesh that the scene names
-    /// is refused for what coarser ones show.
+    /// Whether a finer run is to measure the error of the mesh. One mesh alone does not show it;
+    /// and no mesh that the scene names is refused for what coarser ones show.
     fn is_to_measure(&self, alone: bool, error: &ErrorParts) -> bool {
         let Plan { scene, levels, .. } = self.plan;
         let refused = error_estimate::is_doubtful(error.total().force, scene.solver.tolerance);
         self.verify || alone || levels.named() && refused
     }
 
-    /// Whether the `outcomes` on all meshes up to `level` leave an `error` of the last that the tolerance allows.
+    /// Whether the `outcomes` on all meshes up to `level` leave an `error` of the last that the
+    /// tolerance allows.
     fn is_good_enough<S: OnMeshes>(
         &self,
         simulation: &S,
@@ -169,7 +168,8 @@ impl MeshLoop<'_> {
         outcomes: &[S::Outcome],
         error: &ErrorParts,
     ) -> bool {
-        // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
+        // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct
+        // bends.
         let still = outcomes
             .last()
             .is_some_and(|outcome| simulation.is_still(outcome));
@@ -198,7 +198,8 @@ impl MeshLoop<'_> {
     }
 }
 
-/// The work on all levels below `coarser` as a share of that on all up to `level`, each of which costs four times the one before.
+/// The work on all levels below `coarser` as a share of that on all up to `level`, each of which
+/// costs four times the one before.
 fn share_below(coarser: usize, level: usize) -> f64 {
     let all_below = |level: usize| (REFINEMENT_COST as f64).powi(level as i32) - 1.0;
     all_below(coarser) / all_below(level + 1)

@@ -109,7 +109,8 @@ impl<'a> RunBuilder<'a> {
         SavedState::new(scene, &passes.cable, &passes.state, before + scene.traffic.passes)
     }
 
-    /// Refuses a friction law that loses too much of the stored force, and warns of one that loses some.
+    /// Refuses a friction law that loses too much of the stored force, and warns of one that loses
+    /// some.
     fn accept_leaks(&mut self, passes: &Passes) -> Result<(), Error> {
         for leak in passes.leaks.iter().filter(|leak| leak.matters()) {
             if leak.loss_per_pass > LARGEST_LEAK {
@@ -151,8 +152,8 @@ impl<'a> RunBuilder<'a> {
         }
     }
 
-    /// The passes of a period that stands in for the traffic which show the largest forces and movements, and one more of each vehicle that is
-    /// too seldom for it.
+    /// The passes of a period that stands in for the traffic which show the largest forces and
+    /// movements, and one more of each vehicle that is too seldom for it.
     fn extremes(plan: &Plan<'_>, solved: &Solved) -> Vec<ExtremePass> {
         let (scene, period) = (plan.scene, &plan.period);
         let a_day = solved
@@ -249,7 +250,8 @@ fn restraints(passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord
         .collect())
 }
 
-/// The passes that are listed; where they are the traffic's own, those beside them that show more too.
+/// The passes that are listed; where they are the traffic's own, those beside them that show more
+/// too.
 fn shown(plan: &Plan<'_>, passes: &Passes) -> Vec<Record> {
     let listed = listed_passes(plan.scene, &plan.period);
     let is_listed = |record: &Record| listed.binary_search(&record.pass).is_ok();
