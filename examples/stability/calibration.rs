@@ -305,8 +305,7 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
         }
     };
     // As `creepage calibrate` fits.
-    let fitted = calibration.fit_emulated(None);
-    Ok(fitted.map_or(Draw::Failed, |(fit, _)| outcome(fit)))
+    Ok(calibration.fit().map_or(Draw::Failed, outcome))
 }
 
 /// `rise` is that of the deviance from the fit to the true values.

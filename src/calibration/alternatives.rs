@@ -4,16 +4,14 @@
 //! explains. These fits run on the coarsest mesh, corrected by what the final one says more at the optimum, where most runs are known. What
 //! they find is looked at on the final mesh.
 
-use calibrate::{Fit, Model, Profiles, probability_of_gain};
+use calibrate::{Fit, Profiles, probability_of_gain};
 
 use super::meshes::Final;
-use super::problem::{Effort, Problem};
+use super::problem::Problem;
 use super::terms::{Cell, Term, term};
 use super::unknown::Quantity;
 use crate::Error;
 
-/// Distance to the minimum, in standard errors, at which these fits are good enough.
-const TOLERANCE: f64 = 0.1;
 /// Probability on the coarsest mesh below which the final one is asked.
 const WORTH_ASKING: f64 = 0.3;
 /// Model runs that each may take.
@@ -39,18 +37,17 @@ pub fn alternatives<'a>(
     rows: &[usize],
 ) -> Result<[Option<Alternative<'a>>; 2], Error> {
     let values = found.fit.values();
-    let Ok(coarse) = problem.model(0, None).predict(problem.of_model(&values)) else {
-        return Ok([None, None]);
-    };
-    let mut correction = coarse;
-    problem.add_terms(&mut correction, &values);
-    for (correction, fitted) in correction.iter_mut().zip(&found.fit.fitted) {
-        *correction = fitted - *correction;
-    }
+    let coarse = problem.predict(0, 1.0, &values)?;
     let fits = Fits {
         problem,
         found,
-        correction,
+        correction: found
+            .fit
+            .fitted
+            .iter()
+            .zip(coarse)
+            .map(|(fine, coarse)| fine - coarse)
+            .collect(),
         values,
         rows,
     };
@@ -131,7 +128,7 @@ impl Fits<'_> {
 
     /// A fit on the final mesh from `start`.
     fn finally(&self, more: Term, start: Vec<f64>) -> Result<Option<Fit>, Error> {
-        self.fit(Some(more), start, self.found.mesh.level)
+        self.fit(Some(more), start, self.found.level)
     }
 
     fn fit(&self, more: Option<Term>, start: Vec<f64>, level: u32) -> Result<Option<Fit>, Error> {
@@ -140,26 +137,21 @@ impl Fits<'_> {
             terms: &terms,
             ..*self.problem
         };
-        let is_final = level == self.found.mesh.level;
+        let is_final = level == self.found.level;
         let correction = if is_final {
-            self.found.mesh.correction()
+            self.found.correction.clone()
         } else {
             Some(self.correction.clone())
         };
         let model = problem.model(level, correction);
-        let effort = Effort {
-            profiles: Profiles::None,
-            tolerance: TOLERANCE,
-            runs: RUNS,
-        };
-        let calibration = problem.calibration(&model, Some(start), &effort)?;
-        let found = if is_final {
-            calibration.fit_emulated(Some(&self.found.emulator))
+        let known = if is_final {
+            &self.found.fit.emulator
         } else {
-            calibration.scanned().fit_emulated(None)
+            &self.found.coarsest
         };
-        match found {
-            Ok((fit, _)) => Ok(Some(fit)),
+        let calibration = problem.calibration(&model, Some(start), Profiles::None, RUNS)?;
+        match calibration.with_coarse(known.clone()).fit() {
+            Ok(fit) => Ok(Some(fit)),
             Err(_) if problem.watch.is_stopped() => Err(Error::Stopped),
             Err(_) => Ok(None),
         }

@@ -59,11 +59,11 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
     let largest = most(&found.fit.fitted);
     ModelErrorEstimate {
         relative: if largest > 0.0 {
-            0.5 * most(&found.mesh.difference) / largest
+            0.5 * most(&found.difference) / largest
         } else {
             0.0
         },
-        standard_errors: found.mesh.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
+        standard_errors: found.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
     }
 }
 
@@ -110,7 +110,7 @@ fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> Fitte
 }
 
 fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
-    let mesh = |model: &SeriesModel| model.mesh(found.mesh.level);
+    let mesh = |model: &SeriesModel| model.mesh(found.level);
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
     let fit = &found.fit;
     Ok(FitMethod {

@@ -1,17 +1,11 @@
-//! A calibration: model, parameters, observations and options.
+//! The front door: a calibration is put together, then fitted.
 
 use std::fmt;
 use std::sync::Arc;
 
-use nalgebra::DVector;
-
-use crate::whitening::Whitening;
-use crate::{CalibrationError, Discrepancy, Loss, Model, Options, Parameter, Part};
-
-/// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
-const SCAN: usize = 8;
-/// Least noise of the model itself, as a share of its largest prediction: rounding.
-const ROUNDING: f64 = 1e-12;
+use crate::learning::Learner;
+use crate::problem::Problem;
+use crate::{CalibrationError, Discrepancy, Emulator, Fit, Model, Options, Parameter};
 
 /// A model to be fitted to observations.
 ///
@@ -27,26 +21,15 @@ const ROUNDING: f64 = 1e-12;
 /// # Ok::<(), calibrate::CalibrationError>(())
 /// ```
 #[derive(Clone)]
-pub struct Calibration<'a> {
-    pub(crate) model: &'a dyn Model,
-    pub(crate) parameters: Vec<Parameter>,
-    pub(crate) observations: Vec<f64>,
-    /// 1 where the noise is to be estimated.
-    pub(crate) sigmas: Vec<f64>,
-    pub(crate) knows_noise: bool,
-    pub(crate) options: Options,
-    pub(crate) discrepancy: Option<Discrepancy>,
-    /// That of the noise that is being tried.
-    pub(crate) whitening: Option<Arc<Whitening>>,
-}
+pub struct Calibration<'a>(Problem<'a>);
 
 impl fmt::Debug for Calibration<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Calibration")
-            .field("parameters", &self.parameters)
-            .field("observations", &self.observations)
-            .field("sigmas", &self.sigmas)
-            .field("options", &self.options)
+            .field("parameters", &self.0.parameters)
+            .field("observations", &self.0.observations)
+            .field("sigmas", &self.0.sigmas)
+            .field("options", &self.0.options)
             .finish_non_exhaustive()
     }
 }
@@ -85,7 +68,7 @@ impl<'a> Calibration<'a> {
             }
         }
         check_each(&observations, "value", "finite", f64::is_finite)?;
-        Ok(Self {
+        Ok(Self(Problem {
             model,
             parameters,
             sigmas: vec![1.0; observations.len()],
@@ -93,8 +76,8 @@ impl<'a> Calibration<'a> {
             knows_noise: false,
             options: Options::default(),
             discrepancy: None,
-            whitening: None,
-        })
+            coarse: None,
+        }))
     }
 
     /// The model may be off by a smooth function of the observations, of given size.
@@ -103,14 +86,14 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::InvalidOption`] for one of another number of observations.
     pub fn with_discrepancy(mut self, discrepancy: Discrepancy) -> Result<Self, CalibrationError> {
-        if discrepancy.count() != self.observations.len() {
+        if discrepancy.count() != self.0.observations.len() {
             return Err(CalibrationError::InvalidOption {
                 name: "observations of the discrepancy",
                 value: discrepancy.count() as f64,
                 allowed: "as many as there are",
             });
         }
-        self.discrepancy = Some(discrepancy);
+        self.0.discrepancy = Some(discrepancy);
         Ok(self)
     }
 
@@ -120,15 +103,15 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::SigmaCount`], and [`CalibrationError::InvalidObservation`] unless every sigma is finite and positive.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        if sigmas.len() != self.observations.len() {
+        if sigmas.len() != self.0.observations.len() {
             return Err(CalibrationError::SigmaCount {
                 sigmas: sigmas.len(),
-                observations: self.observations.len(),
+                observations: self.0.observations.len(),
             });
         }
         let positive = |s: f64| s.is_finite() && s > 0.0;
         check_each(&sigmas, "sigma", "finite and positive", positive)?;
-        (self.sigmas, self.knows_noise) = (sigmas, true);
+        (self.0.sigmas, self.0.knows_noise) = (sigmas, true);
         Ok(self)
     }
 
@@ -138,18 +121,9 @@ impl<'a> Calibration<'a> {
     ///
     /// As for [`with_sigmas`](Self::with_sigmas).
     pub fn with_relative_sigmas(self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        let calibration = self.with_sigmas(sigmas)?;
-        Ok(Self {
-            knows_noise: false,
-            ..calibration
-        })
-    }
-
-    /// The same calibration, scanned all over the range beside its start.
-    #[must_use]
-    pub fn scanned(mut self) -> Self {
-        self.options.scan = None;
-        self
+        let mut calibration = self.with_sigmas(sigmas)?;
+        calibration.0.knows_noise = false;
+        Ok(calibration)
     }
 
     /// How to fit.
@@ -158,109 +132,78 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::InvalidOption`].
     pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
-        options.check(self.parameters.len())?;
-        self.options = options;
+        options.check(self.0.parameters.len())?;
+        self.0.options = options;
         Ok(self)
     }
 
     /// The parameters.
     pub fn parameters(&self) -> &[Parameter] {
-        &self.parameters
+        &self.0.parameters
     }
 
     /// The observations.
     pub fn observations(&self) -> &[f64] {
-        &self.observations
+        &self.0.observations
     }
 
-    /// Noise that the model's predictions have at least, in units of the sigmas.
-    pub(crate) fn least_noise(&self) -> f64 {
-        let share = self.options.relative_noise.max(ROUNDING);
-        let sizes = self.observations.iter().zip(&self.sigmas);
-        let noise = sizes.map(|(value, sigma)| share * value.abs() / sigma);
-        noise.fold(f64::MIN_POSITIVE, f64::max)
+    /// What an earlier fit of the same parameters and observations learned of a coarser model: this one runs
+    /// first where the answer of that fit rests, and learns what the coarser model misses.
+    #[must_use]
+    pub fn with_coarse(mut self, coarse: Emulator) -> Self {
+        self.0.coarse = Some(Arc::new(coarse));
+        self
     }
 
-    /// Number of parameters with prior knowledge.
-    pub(crate) fn priors(&self) -> usize {
-        self.parameters.iter().filter(|p| p.prior().is_some()).count()
-    }
-
-    pub(crate) fn scan(&self) -> usize {
-        self.options.scan.unwrap_or(SCAN * (1 + self.of_model().len()))
-    }
-
-    /// What acts on which predictions: by default every parameter of the model on all.
-    pub(crate) fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
-        let (observations, parameters) = (self.observations.len(), self.of_model().len());
-        let parts = self.model.parts();
-        if parts.is_empty() {
-            return Ok(vec![Part {
-                predictions: observations,
-                parameters: (0..parameters).collect(),
-            }]);
-        }
-        let predictions: usize = parts.iter().map(|part| part.predictions).sum();
-        if predictions != observations {
-            return Err(CalibrationError::InvalidOption {
-                name: "predictions of the model's parts",
-                value: predictions as f64,
-                allowed: "as many as there are observations",
-            });
-        }
-        let indices = || parts.iter().flat_map(|part| &part.parameters);
-        if let Some(&index) = indices().find(|&&index| index >= parameters) {
-            return Err(CalibrationError::InvalidOption {
-                name: "index of a parameter of the model's parts",
-                value: index as f64,
-                allowed: "below the number of the model's parameters",
-            });
-        }
-        Ok(parts)
-    }
-
-    /// Indices of the parameters that the model takes.
-    pub(crate) fn of_model(&self) -> Vec<usize> {
-        let of_model = |&k: &usize| self.parameters[k].column().is_none();
-        (0..self.parameters.len()).filter(of_model).collect()
-    }
-
-    /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.
-    pub(crate) fn check_count(&self) -> Result<(), CalibrationError> {
-        let (observations, parameters) = (self.observations.len(), self.parameters.len());
-        let unknown = parameters - self.priors();
-        let needed = if self.knows_noise {
-            unknown.max(1)
-        } else {
-            (unknown + 1).max(2)
+    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it.
+    ///
+    /// ```
+    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
+    ///
+    /// let passes = [5.0, 10.0, 20.0, 40.0, 80.0];
+    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+    ///     Ok(passes.iter().map(|n: &f64| p[0] * (1.0 - (-n / p[1]).exp())).collect())
+    /// };
+    /// let parameters = vec![
+    ///     Parameter::new("saturated_force", 100.0, 2000.0, Scale::Logarithmic)?,
+    ///     Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
+    /// ];
+    /// let calibration = Calibration::new(&model, parameters, vec![124.0, 214.0, 351.0, 472.0, 541.0])?;
+    /// let fit = calibration.fit()?;
+    /// assert!(fit.estimates[0].interval.contains(550.0));
+    /// // What was learned spares runs where the model becomes finer.
+    /// let again = calibration.with_coarse(fit.emulator.clone()).fit()?;
+    /// assert!(again.evaluations < fit.evaluations);
+    /// # Ok::<(), calibrate::CalibrationError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit
+    /// does not converge or needs more model runs than allowed.
+    pub fn fit(&self) -> Result<Fit, CalibrationError> {
+        self.0.check()?;
+        let plain = Problem {
+            discrepancy: None,
+            ..self.0.clone()
         };
-        if parameters == 0 || observations < needed {
-            return Err(CalibrationError::TooFewObservations {
-                observations,
-                parameters,
-                needed,
-            });
+        let mut learner = Learner::new(&plain)?;
+        let (mut solution, mut whitening) = learner.converge()?;
+        if self.0.discrepancy.is_some() {
+            // A model that may be wrong knows no more than one that may not.
+            let least: Vec<_> = solution
+                .estimates
+                .iter()
+                .map(|estimate| estimate.interval)
+                .collect();
+            learner.problem = &self.0;
+            (solution, whitening) = learner.converge()?;
+            for (estimate, least) in solution.estimates.iter_mut().zip(least) {
+                estimate.interval = estimate.interval.with(&least);
+                estimate.identifiable = estimate.interval.is_closed();
+            }
         }
-        if self.discrepancy.is_some() && self.options.loss != Loss::Squares {
-            return Err(CalibrationError::InvalidOption {
-                name: "threshold of the loss",
-                value: self.options.loss.threshold().unwrap_or(f64::NAN),
-                allowed: "least squares beside a discrepancy",
-            });
-        }
-        Ok(())
-    }
-
-    /// Free variables of the values to try first.
-    pub(crate) fn start(&self) -> Option<DVector<f64>> {
-        let free = |(parameter, &value): (&Parameter, &f64)| {
-            let inside = value.clamp(parameter.lower(), parameter.upper());
-            parameter.free(parameter.coordinate(inside))
-        };
-        let start = self.options.start.as_ref()?;
-        Some(DVector::from_vec(
-            self.parameters.iter().zip(start).map(free).collect(),
-        ))
+        Ok(Fit::new(learner, solution, whitening))
     }
 }
 

@@ -1,10 +1,9 @@
 //! Where the model is not the truth: a smooth error of it, as a part of the residuals' covariance.
 //!
-//! Observations are the model, noise of covariance σ² S², and δ f, where f is a Gaussian process of mean 0 and known covariance K (M. C. Kennedy,
-//! A. O'Hagan, "Bayesian calibration of computer models", Journal of the Royal Statistical Society B 63, 2001; J. Brynjarsdóttir, A. O'Hagan,
-//! "Learning about physical parameters: the importance of model discrepancy", Inverse Problems 30, 2014). With Cholesky's factor K = F Fᵀ and
-//! the singular vectors U and values s of S⁻¹ F, the standardised residuals have the covariance σ² (I + λ² U s² Uᵀ), λ = δ/σ. Its root
-//! whitens them, and a fit of least squares goes on as without.
+//! Observations are the model, noise of covariance σ² S², and δ f, where f is a Gaussian process of mean 0
+//! and known covariance K (M. C. Kennedy, A. O'Hagan, "Bayesian calibration of computer models", Journal of
+//! the Royal Statistical Society B 63, 2001; J. Brynjarsdóttir, A. O'Hagan, "Learning about physical
+//! parameters: the importance of model discrepancy", Inverse Problems 30, 2014).
 
 use std::sync::Arc;
 

@@ -75,35 +75,17 @@ pub enum CalibrationError {
         /// Number of predictions.
         found: usize,
     },
-    /// The model failed at every start.
-    #[error("the model has no answer at any of {starts} starts")]
-    NoFeasibleStart {
-        /// Number of starts.
-        starts: usize,
+    /// The model failed wherever it ran first.
+    #[error("the model has no answer at any of {places} places all over the range")]
+    NoAnswer {
+        /// Number of places.
+        places: usize,
         /// Why the last one failed.
         source: ModelError,
     },
-    /// The model failed on both sides of a point, so that it has no derivative there.
-    #[error("the model has no answer on either side of {name} = {value}, where a derivative is needed")]
-    NoDerivative {
-        /// The parameter.
-        name: String,
-        /// Its value.
-        value: f64,
-        /// Why the model failed.
-        source: ModelError,
-    },
     /// The fit did not converge.
-    #[error(
-        "the fit did not converge in {iterations} iterations: the next step would still go {offset:.2e} standard errors far; a model \
-         that is noisier than stated (relative_noise) does this"
-    )]
-    NotConverged {
-        /// Iterations done.
-        iterations: u64,
-        /// Length of the next step in standard errors.
-        offset: f64,
-    },
+    #[error("the fit did not converge: the model jumps, or is noisier than stated (relative_noise)")]
+    NotConverged,
     /// The model runs that were allowed are spent.
     #[error("{limit} model runs are not enough")]
     EvaluationLimit {
@@ -119,11 +101,6 @@ pub enum CalibrationError {
 }
 
 impl CalibrationError {
-    /// Whether no other start can help.
-    pub(crate) fn is_final(&self) -> bool {
-        matches!(self, Self::EvaluationLimit { .. })
-    }
-
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
         matches!(

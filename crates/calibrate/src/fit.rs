@@ -1,19 +1,21 @@
 //! What a calibration answers.
 
-use std::sync::Arc;
-
 use nalgebra::{DMatrix, DVector};
 
+use crate::learning::Learner;
+use crate::solution::{Solution, freedom};
+use crate::warning::warnings;
 use crate::whitening::Whitening;
-use crate::{Estimate, Warning};
+use crate::{Emulator, Estimate, Warning};
 
 /// A calibrated model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Fit {
     /// The parameters, in the order in which they were given.
     pub estimates: Vec<Estimate>,
-    /// Correlation of the parameters by the curvature at the optimum; `None` where one of them has no standard error.
+    /// Correlation of the parameters by the curvature at the optimum; `None` where one of them has no
+    /// standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
     /// Predictions of the calibrated model.
     pub fitted: Vec<f64>,
@@ -25,48 +27,109 @@ pub struct Fit {
     pub residual_rms: f64,
     /// Share of the observations' variance that the model explains; `None` where they do not vary.
     pub r_squared: Option<f64>,
-    /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the given sigmas.
+    /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the
+    /// given sigmas.
     pub noise: f64,
     /// Observations less the parameters that they determine (a prior determines its share).
     pub degrees_of_freedom: f64,
     /// Whether the noise was estimated, so that intervals rest on Student's t.
     pub noise_estimated: bool,
-    /// Deviance at the optimum.
-    pub deviance: f64,
     /// Model runs.
     pub evaluations: usize,
-    /// Iterations of the descent that led to the optimum.
-    pub iterations: u64,
     /// Size of the discrepancy as it was given, where the calibration has one.
     pub discrepancy: Option<f64>,
     /// What of each residual is most likely the discrepancy; 0 without one.
     pub smooth: Vec<f64>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
-    /// The optimum in free variables and the derivatives of the standardised residuals by them.
-    pub(crate) free: DVector<f64>,
+    /// What was learned of the model.
+    pub emulator: Emulator,
+    /// Derivatives of the standardised residuals by the free variables at the optimum.
     pub(crate) jacobian: DMatrix<f64>,
     /// Half the second derivative of the deviance by each of them.
     pub(crate) curvatures: Vec<f64>,
-    pub(crate) whitening: Option<Arc<Whitening>>,
-    pub(crate) sigmas: Vec<f64>,
+    sigmas: Vec<f64>,
+    whitening: Option<Whitening>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,
 }
 
 impl Fit {
+    /// The answer of a solution at whose optimum the model ran.
+    pub(crate) fn new(learner: Learner<'_>, solution: Solution, whitening: Option<Whitening>) -> Self {
+        let (problem, optimum) = (learner.problem, &solution.optimum);
+        let (observed, deviance) = (&problem.observations, optimum.deviance);
+        let standardised = optimum.point.residuals.rows(0, observed.len()).into_owned();
+        let mut plain = standardised.clone();
+        let mut smooth = DVector::zeros(observed.len());
+        if let Some(whitening) = &whitening {
+            whitening.undo(&mut plain);
+            smooth = whitening.smooth(&plain);
+        }
+        let in_units = |values: &DVector<f64>| -> Vec<f64> {
+            values
+                .iter()
+                .zip(&problem.sigmas)
+                .map(|(r, sigma)| -r * sigma)
+                .collect()
+        };
+        let residuals = in_units(&plain);
+        let count = observed.len() as f64;
+        let square: f64 = residuals.iter().map(|r| r * r).sum();
+        let mean = observed.iter().sum::<f64>() / count;
+        let variation: f64 = observed.iter().map(|y| (y - mean).powi(2)).sum();
+        let weight = |r: &f64| deviance.loss.weight(r / deviance.spread);
+        let weights: Vec<f64> = standardised.iter().map(weight).collect();
+        let curvatures = deviance.curvatures(&optimum.point.residuals);
+        let degrees_of_freedom = freedom(problem, optimum);
+        let all = 0..problem.parameters.len();
+        let correlations = |i| {
+            all.clone()
+                .map(|j| solution.covariance.correlation(i, j))
+                .collect()
+        };
+        Self {
+            warnings: warnings(problem, &solution, &weights, degrees_of_freedom),
+            correlation: all.clone().map(correlations).collect(),
+            fitted: observed.iter().zip(&residuals).map(|(y, r)| y - r).collect(),
+            residual_rms: (square / count).sqrt(),
+            r_squared: (variation > 0.0).then(|| 1.0 - square / variation),
+            residuals,
+            weights,
+            noise: if solution.noise_estimated {
+                deviance.noise()
+            } else {
+                1.0
+            },
+            degrees_of_freedom,
+            noise_estimated: solution.noise_estimated,
+            evaluations: learner.evaluations,
+            discrepancy: problem.discrepancy.as_ref().map(|discrepancy| discrepancy.size),
+            smooth: in_units(&smooth),
+            whitening,
+            curvatures: curvatures.iter().take(observed.len()).copied().collect(),
+            sigmas: problem.sigmas.clone(),
+            estimates: solution.estimates,
+            jacobian: solution.optimum.jacobian,
+            covariance: solution.covariance.matrix,
+            emulator: learner.emulator,
+        }
+    }
+
     /// The best values, in the order of the parameters.
     pub fn values(&self) -> Vec<f64> {
         self.estimates.iter().map(|estimate| estimate.value).collect()
     }
 
+    /// The estimate of the parameter called `name`.
+    pub fn estimate(&self, name: &str) -> Option<&Estimate> {
+        self.estimates.iter().find(|estimate| estimate.name == name)
+    }
+
     /// Residuals in units of their sigmas.
     pub fn standardised_residuals(&self) -> Vec<f64> {
-        self.residuals
-            .iter()
-            .zip(&self.sigmas)
-            .map(|(residual, sigma)| residual / sigma)
-            .collect()
+        let pairs = self.residuals.iter().zip(&self.sigmas);
+        pairs.map(|(residual, sigma)| residual / sigma).collect()
     }
 
     /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
@@ -88,27 +151,18 @@ impl Fit {
         change
     }
 
-    /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the
-    /// observations' unit: what an error of the model does to the parameters. 0 for what has no standard error.
+    /// By how many standard errors each estimate would move, to first order, if the model predicted `change`
+    /// more, in the observations' unit: what an error of the model does to the parameters. 0 for what has no
+    /// standard error.
     pub fn shift(&self, change: &[f64]) -> Vec<f64> {
-        let count = self.free.len();
-        let mut gradient = DVector::zeros(count);
-        for (row, (change, curvature)) in self.standardised(change).iter().zip(&self.curvatures).enumerate() {
-            for k in 0..count {
-                gradient[k] -= self.jacobian[(row, k)] * curvature * change;
-            }
-        }
-        let moved = &self.covariance * gradient;
-        (0..count)
-            .map(|k| {
-                let error = self.covariance[(k, k)].sqrt();
-                if error > 0.0 { moved[k] / error } else { 0.0 }
-            })
+        let curvatures = DVector::from_column_slice(&self.curvatures);
+        let weighted = self.standardised(change).component_mul(&curvatures);
+        let gradient = self.jacobian.rows(0, weighted.len()).tr_mul(&weighted);
+        let moved = -(&self.covariance * gradient);
+        let errors = self.covariance.diagonal().map(f64::sqrt);
+        let shift = moved.iter().zip(errors.iter());
+        shift
+            .map(|(moved, &error)| if error > 0.0 { moved / error } else { 0.0 })
             .collect()
-    }
-
-    /// The estimate of the parameter called `name`.
-    pub fn estimate(&self, name: &str) -> Option<&Estimate> {
-        self.estimates.iter().find(|estimate| estimate.name == name)
     }
 }

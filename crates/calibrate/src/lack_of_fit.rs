@@ -29,47 +29,47 @@ pub struct TermTest {
     pub probability: f64,
 }
 
-impl Fit {
+impl TermTest {
     /// Tests terms with these columns, an entry for each observation, all at once. `None` where the parameters can do what the terms do, or
     /// nothing is left to judge by.
     ///
     /// ```
-    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
+    /// use calibrate::{Calibration, ModelError, Parameter, Scale, TermTest};
     ///
     /// // A line through the origin, measured by an instrument whose zero is off by 2.
     /// let places = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
     /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.map(|x| p[0] * x).to_vec()) };
     /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
     /// let fit = Calibration::new(&model, vec![slope], vec![3.01, 3.98, 5.02, 5.99, 7.01, 7.99])?.fit()?;
-    /// let offset = fit.test_terms(&[&[1.0; 6]]).expect("a constant is no line through the origin");
+    /// let offset = TermTest::of(&fit, &[&[1.0; 6]]).expect("a constant is no line through the origin");
     /// assert!((offset.sizes[0] - 2.0).abs() < 0.1 && offset.probability < 1e-3);
     /// # Ok::<(), calibrate::CalibrationError>(())
     /// ```
-    pub fn test_terms(&self, columns: &[&[f64]]) -> Option<TermTest> {
-        let (rows, count) = (self.residuals.len(), columns.len());
+    pub fn of(fit: &Fit, columns: &[&[f64]]) -> Option<Self> {
+        let (rows, count) = (fit.residuals.len(), columns.len());
         if columns.iter().any(|column| column.len() != rows) {
             return None;
         }
-        let columns: Vec<DVector<f64>> = columns.iter().map(|column| self.standardised(column)).collect();
+        let columns: Vec<DVector<f64>> = columns.iter().map(|column| fit.standardised(column)).collect();
         // Half the second derivatives of the deviance; outliers of a robust fit hardly count.
-        let weight = |row: usize| self.curvatures[row] * self.weights[row];
+        let weight = |row: usize| fit.curvatures[row] * fit.weights[row];
         let weighted = DMatrix::from_fn(rows, count, |row, k| columns[k][row] * weight(row));
         let plain = DMatrix::from_fn(rows, count, |row, k| columns[k][row]);
-        let across = self.jacobian.rows(0, rows).tr_mul(&weighted);
+        let across = fit.jacobian.rows(0, rows).tr_mul(&weighted);
         let full = plain.tr_mul(&weighted);
-        let left = &full - across.tr_mul(&(&self.covariance * &across));
+        let left = &full - across.tr_mul(&(&fit.covariance * &across));
         if (0..count).any(|k| left[(k, k)].is_nan() || left[(k, k)] <= LEFT * full[(k, k)]) {
             return None;
         }
-        let slope = weighted.tr_mul(&self.standardised(&self.residuals));
+        let slope = weighted.tr_mul(&fit.standardised(&fit.residuals));
         let solved = left.cholesky()?;
         let sizes = solved.solve(&slope);
         let gain = slope.dot(&sizes);
         let terms = count as f64;
-        let freedom = self.degrees_of_freedom - terms;
-        let probability = if self.noise_estimated {
+        let freedom = fit.degrees_of_freedom - terms;
+        let probability = if fit.noise_estimated {
             // The noise without what the terms explain.
-            let rest = (self.degrees_of_freedom - gain).max(f64::MIN_POSITIVE);
+            let rest = (fit.degrees_of_freedom - gain).max(f64::MIN_POSITIVE);
             1.0 - FisherSnedecor::new(terms, freedom)
                 .ok()
                 .filter(|_| freedom >= 1.0)?
@@ -78,7 +78,7 @@ impl Fit {
             1.0 - ChiSquared::new(terms).ok()?.cdf(gain)
         };
         let inverse = solved.inverse();
-        Some(TermTest {
+        Some(Self {
             sizes: sizes.iter().copied().collect(),
             standard_errors: (0..count).map(|k| inverse[(k, k)].sqrt()).collect(),
             probability,

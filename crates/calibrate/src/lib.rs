@@ -1,31 +1,27 @@
 #![doc = include_str!("../README.md")]
 
-mod answer;
 mod calibration;
+mod covariance;
 mod descent;
 mod deviance;
 mod discrepancy;
-mod elsewhere;
-mod emulated;
 mod emulator;
 mod error;
 mod estimate;
-mod evaluator;
 mod fit;
-mod interval;
 mod kriging;
 mod lack_of_fit;
+mod learning;
+mod likelihood;
 mod loss;
 mod model;
-mod noise_rounds;
 mod options;
 mod parameter;
-mod point;
+mod problem;
+mod profile;
 mod search;
 mod solution;
-mod station;
-mod step;
-mod uncertainty;
+mod tuning;
 mod warning;
 mod whitening;
 

@@ -27,16 +27,14 @@ pub enum Profiles {
 pub struct Options {
     /// How much residuals count.
     pub loss: Loss,
-    /// Values to try first.
+    /// Values to try first, one a parameter.
     pub start: Option<Vec<f64>>,
-    /// Points all over the range that are tried beside the start; `None` takes eight a parameter and eight more.
-    pub scan: Option<usize>,
+    /// First runs all over the range; `None` takes eight a parameter and eight more.
+    pub first_runs: Option<usize>,
     /// Largest number of model runs.
     pub max_evaluations: usize,
-    /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh. It sets the step of derivatives.
+    /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh.
     pub relative_noise: f64,
-    /// Distance to the minimum, in standard errors, at which a fit has converged.
-    pub tolerance: f64,
     /// Probability that an interval holds the true value.
     pub confidence: f64,
     /// What the intervals are.
@@ -48,10 +46,9 @@ impl Default for Options {
         Self {
             loss: Loss::Squares,
             start: None,
-            scan: None,
+            first_runs: None,
             max_evaluations: 2000,
             relative_noise: 1e-9,
-            tolerance: 0.02,
             confidence: 0.95,
             profiles: Profiles::All,
         }
@@ -64,21 +61,21 @@ impl Options {
         if !(0.5..=0.9999).contains(&self.confidence) {
             return invalid("confidence", self.confidence, "between 0.5 and 0.9999");
         }
-        if !(self.tolerance > 0.0 && self.tolerance <= 0.5) {
-            return invalid("tolerance", self.tolerance, "above 0, at most 0.5");
-        }
         if !(0.0..=0.1).contains(&self.relative_noise) {
             return invalid("relative_noise", self.relative_noise, "between 0 and 0.1");
         }
-        if let Some(threshold) = self.loss.threshold()
+        if let Loss::Tukey { threshold } = self.loss
             && !(threshold.is_finite() && threshold >= 0.5)
         {
             return invalid("threshold of the loss", threshold, "finite and at least 0.5");
         }
         if let Some(start) = &self.start {
             if start.len() != parameters {
-                let found = start.len() as f64;
-                return invalid("number of start values", found, "one value a parameter");
+                return invalid(
+                    "number of start values",
+                    start.len() as f64,
+                    "one value a parameter",
+                );
             }
             if let Some(&value) = start.iter().find(|value| !value.is_finite()) {
                 return invalid("start value", value, "finite");

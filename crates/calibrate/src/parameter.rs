@@ -1,13 +1,11 @@
 //! Parameters, their bounds, and what is known of them before the data.
 //!
-//! A parameter is fitted in a *coordinate* s, its value or the logarithm of it. Bounds hold by a transformation: the fit
-//! moves a free variable z without bounds,
+//! A parameter is fitted in a *coordinate* s, its value or the logarithm of it. Bounds hold by a
+//! transformation: the fit moves a free variable z without bounds, whose *share* of the range is
 //!
-//! s = s_lower + (s_upper − s_lower)/(1 + e^(−z)).
+//! u = 1/(1 + e^(−z)), s = s_lower + (s_upper − s_lower) u.
 
 use std::sync::Arc;
-
-use nalgebra::DVector;
 
 use crate::CalibrationError;
 
@@ -151,6 +149,12 @@ impl Parameter {
         self.term.as_deref()
     }
 
+    /// Lowest s and the range of s.
+    fn range(&self) -> (f64, f64) {
+        let lower = self.coordinate(self.lower);
+        (lower, self.coordinate(self.upper) - lower)
+    }
+
     /// s of a value.
     pub(crate) fn coordinate(&self, value: f64) -> f64 {
         match self.scale {
@@ -159,63 +163,50 @@ impl Parameter {
         }
     }
 
-    /// Value at s.
-    pub(crate) fn value(&self, coordinate: f64) -> f64 {
-        match self.scale {
+    /// Value at a share of the range.
+    pub(crate) fn value(&self, share: f64) -> f64 {
+        let (lower, range) = self.range();
+        let coordinate = lower + range * share;
+        let value = match self.scale {
             Scale::Linear => coordinate,
             Scale::Logarithmic => coordinate.exp(),
-        }
-        .clamp(self.lower, self.upper)
+        };
+        value.clamp(self.lower, self.upper)
     }
 
-    /// d value/ds.
-    pub(crate) fn value_slope(&self, coordinate: f64) -> f64 {
-        match self.scale {
+    /// Share of a value, which is brought within the bounds.
+    pub(crate) fn share_of(&self, value: f64) -> f64 {
+        let (lower, range) = self.range();
+        (self.coordinate(value.clamp(self.lower, self.upper)) - lower) / range
+    }
+
+    /// Derivative of the value by the free variable at a share.
+    pub(crate) fn slope(&self, share: f64) -> f64 {
+        let by_coordinate = match self.scale {
             Scale::Linear => 1.0,
-            Scale::Logarithmic => coordinate.exp(),
-        }
+            Scale::Logarithmic => self.value(share),
+        };
+        by_coordinate * self.range().1 * share * (1.0 - share)
     }
 
-    /// Lowest s and the range of s.
-    fn range(&self) -> (f64, f64) {
-        let lower = self.coordinate(self.lower);
-        (lower, self.coordinate(self.upper) - lower)
-    }
-
-    /// Share of the range of s that lies below s.
-    pub(crate) fn share(&self, coordinate: f64) -> f64 {
+    /// Distance from the prior at a share, in its sigmas, and its derivative by the free variable.
+    pub(crate) fn prior_residual(&self, share: f64) -> Option<[f64; 2]> {
+        let prior = self.prior?;
         let (lower, range) = self.range();
-        (coordinate - lower) / range
+        let off = lower + range * share - self.coordinate(prior.value);
+        Some([off, range * share * (1.0 - share)].map(|length| length / prior.sigma))
     }
+}
 
-    /// s at z.
-    pub(crate) fn bounded(&self, free: f64) -> f64 {
-        let (lower, range) = self.range();
-        lower + range / (1.0 + (-free).exp())
-    }
+/// Share of the range at a free variable; beyond the farthest nothing changes.
+pub(crate) fn share(free: f64) -> f64 {
+    1.0 / (1.0 + (-free.clamp(-FARTHEST, FARTHEST)).exp())
+}
 
-    /// z at s; at most [`FARTHEST`] from 0.
-    pub(crate) fn free(&self, coordinate: f64) -> f64 {
-        let share = self.share(coordinate).clamp(0.0, 1.0);
-        (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
-    }
-
-    /// Value at z.
-    pub(crate) fn physical(&self, free: f64) -> f64 {
-        self.value(self.bounded(free))
-    }
-
-    /// ds/dz at z.
-    pub(crate) fn bounded_slope(&self, free: f64) -> f64 {
-        let share = 1.0 / (1.0 + (-free).exp());
-        self.range().1 * share * (1.0 - share)
-    }
-
-    /// Distance of s at z from the prior, in its sigmas.
-    pub(crate) fn prior_residual(&self, free: f64) -> Option<f64> {
-        self.prior
-            .map(|prior| (self.bounded(free) - self.coordinate(prior.value)) / prior.sigma)
-    }
+/// Free variable at a share.
+pub(crate) fn free(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
 }
 
 fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str) -> CalibrationError {
@@ -227,24 +218,11 @@ fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str
     }
 }
 
-/// Values of those parameters at free variables that the model takes.
-pub(crate) fn of_model(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
-    let pairs = parameters.iter().zip(free.iter());
-    let pairs = pairs.filter(|(parameter, _)| parameter.term.is_none());
-    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
-}
-
-/// Values of `parameters` at free variables.
-pub(crate) fn physical(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
-    let pairs = parameters.iter().zip(free.iter());
-    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
-    use super::{FARTHEST, Parameter, Scale};
+    use super::{Parameter, Scale, free, share};
 
     proptest! {
         /// There and back, within the bounds, with the slope that differences give.
@@ -252,20 +230,13 @@ mod tests {
         fn transformation(lower in 1e-3..10.0_f64, ratio in 1.5..1e6_f64, z in -6.5..6.5_f64, logarithmic: bool) {
             let scale = if logarithmic { Scale::Logarithmic } else { Scale::Linear };
             let parameter = Parameter::new("p", lower, lower * ratio, scale).unwrap();
-            let s = parameter.bounded(z);
-            prop_assert!((parameter.free(s) - z).abs() < 1e-6);
-            let value = parameter.value(s);
+            let value = parameter.value(share(z));
             prop_assert!((lower..=lower * ratio).contains(&value));
-            prop_assert!((parameter.coordinate(value) - s).abs() < 1e-9 * s.abs().max(1.0));
+            prop_assert!((free(share(z)) - z).abs() < 1e-6);
+            prop_assert!((parameter.share_of(value) - share(z)).abs() < 1e-9);
             let h = 1e-4;
-            let slope = (parameter.bounded(z + h) - parameter.bounded(z - h)) / (2.0 * h);
-            prop_assert!((slope / parameter.bounded_slope(z) - 1.0).abs() < 1e-5);
-            let slope = (parameter.value(s + 1e-5) - parameter.value(s - 1e-5)) / 2e-5;
-            // Clamped at the bounds, where differences see only one side.
-            if z.abs() < 5.0 && ratio < 1e3 {
-                prop_assert!((slope / parameter.value_slope(s) - 1.0).abs() < 1e-3);
-            }
-            prop_assert!(parameter.free(parameter.coordinate(lower)) == -FARTHEST);
+            let slope = (parameter.value(share(z + h)) - parameter.value(share(z - h))) / (2.0 * h);
+            prop_assert!((slope / parameter.slope(share(z)) - 1.0).abs() < 1e-4);
         }
     }
 }

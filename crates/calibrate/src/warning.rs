@@ -3,6 +3,16 @@
 use std::fmt;
 
 use crate::Interval;
+use crate::parameter::{FARTHEST, share};
+use crate::problem::Problem;
+use crate::solution::Solution;
+
+/// Correlation from which two parameters count as hardly distinguishable.
+const CORRELATED: f64 = 0.99;
+/// Weight below which an observation counts as an outlier: of Tukey's loss at three sigmas.
+const OUTLIER: f64 = 0.35;
+/// Degrees of freedom below which the noise is hardly known: its own standard error is a third.
+const FEW: f64 = 5.0;
 
 /// What the user should know before trusting a fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,11 +52,6 @@ pub enum Warning {
     Outliers {
         /// Their indices, from 0.
         indices: Vec<usize>,
-    },
-    /// The model is too noisy to find the minimum exactly.
-    Rough {
-        /// How far the next step would still go, in standard errors.
-        offset: f64,
     },
     /// Other values, far from the best ones, fit about as well. The intervals hold both as long as they are as likely as that.
     Ambiguous {
@@ -93,10 +98,6 @@ impl fmt::Display for Warning {
                 write!(f, "{} observations look like outliers, index", indices.len())?;
                 indices.iter().try_for_each(|index| write!(f, " {index}"))
             }
-            Self::Rough { offset } => write!(
-                f,
-                "noise of the model hides the last {offset:.2} standard errors on the way to the best fit"
-            ),
             Self::Ambiguous { values } => {
                 write!(f, "other values, far from the best ones, fit about as well:")?;
                 values.iter().try_for_each(|value| write!(f, " {value:.4e}"))
@@ -107,4 +108,55 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+/// What is to be said of a solution with these weights of the observations.
+pub(crate) fn warnings(
+    problem: &Problem<'_>,
+    solution: &Solution,
+    weights: &[f64],
+    degrees_of_freedom: f64,
+) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
+    // An interval that is open says more than another minimum does.
+    let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
+    let rival = solution.rival.as_ref().filter(|_| closed);
+    warnings.extend(rival.map(|rival| {
+        let pairs = problem.parameters.iter().zip(rival.free.iter());
+        Warning::Ambiguous {
+            values: pairs.map(|(parameter, &z)| parameter.value(share(z))).collect(),
+        }
+    }));
+    for (k, estimate) in solution.estimates.iter().enumerate() {
+        let name = || estimate.name.clone();
+        if !estimate.identifiable {
+            let interval = estimate.interval;
+            warnings.push(Warning::NotIdentifiable {
+                name: name(),
+                interval,
+            });
+        } else if solution.optimum.point.free[k].abs() >= FARTHEST {
+            let value = estimate.value;
+            warnings.push(Warning::AtBound { name: name(), value });
+        }
+        for (index, other) in solution.estimates.iter().take(k).enumerate() {
+            let correlation = solution.covariance.correlation(k, index);
+            if let Some(correlation) = correlation.filter(|c| c.abs() > CORRELATED) {
+                let first = other.name.clone();
+                warnings.push(Warning::Correlated {
+                    first,
+                    second: name(),
+                    correlation,
+                });
+            }
+        }
+    }
+    let indices: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] < OUTLIER).collect();
+    if !indices.is_empty() {
+        warnings.push(Warning::Outliers { indices });
+    }
+    if solution.noise_estimated && degrees_of_freedom < FEW {
+        warnings.push(Warning::FewObservations { degrees_of_freedom });
+    }
+    warnings
 }

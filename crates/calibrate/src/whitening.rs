@@ -1,22 +1,31 @@
 //! Residuals whose covariance is that of independent noise and of a discrepancy, made independent.
+//!
+//! With a factor K = F Fᵀ of the discrepancy's covariance and the singular vectors U and values s of S⁻¹ F,
+//! the standardised residuals have the covariance σ² (I + λ² U s² Uᵀ), λ = δ/σ. Its root whitens them, and
+//! a fit of least squares goes on as without.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::discrepancy::{Discrepancy, NOTHING};
 
+/// Largest λ s: above there is no noise.
+const LARGEST: f64 = 1e5;
+
 /// The root of the standardised residuals' covariance, (I + λ² U s² Uᵀ)^(−1/2) and its inverse.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Whitening {
     /// U.
-    pub vectors: DMatrix<f64>,
+    vectors: DMatrix<f64>,
     /// s².
-    pub variances: DVector<f64>,
-    /// λ.
-    pub ratio: f64,
+    variances: DVector<f64>,
+    /// δ, in units of the sigmas.
+    size: f64,
+    /// Share of the variance along each singular vector that is the discrepancy's, λ²s²/(1 + λ²s²).
+    shares: DVector<f64>,
 }
 
 impl Whitening {
-    /// Of observations with these sigmas; nothing is whitened yet.
+    /// Of observations with these sigmas, beside a noise of one sigma.
     pub fn new(discrepancy: &Discrepancy, sigmas: &[f64]) -> Self {
         let mut factor = (*discrepancy.factor).clone();
         for (mut row, sigma) in factor.row_iter_mut().zip(sigmas) {
@@ -32,19 +41,29 @@ impl Whitening {
         for (mut column, variance) in vectors.column_iter_mut().zip(variances.iter()) {
             column /= variance.sqrt();
         }
-        Self {
+        let mut whitening = Self {
             vectors,
+            shares: variances.clone(),
             variances,
-            ratio: 0.0,
-        }
+            size: discrepancy.size,
+        };
+        whitening.set_noise(1.0);
+        whitening
     }
 
-    /// Share of the variance along each singular vector that is the discrepancy's.
-    pub fn shares(&self, ratio: f64) -> DVector<f64> {
-        self.variances.map(|variance| {
+    /// Sets λ by a noise in units of the sigmas.
+    pub fn set_noise(&mut self, noise: f64) {
+        let largest = LARGEST / self.variances.max().sqrt();
+        let ratio = (self.size / noise).min(largest);
+        self.shares = self.variances.map(|variance| {
             let part = ratio * ratio * variance;
             part / (1.0 + part)
-        })
+        });
+    }
+
+    /// Degrees of freedom that the discrepancy takes from the residuals.
+    pub fn freedom(&self) -> f64 {
+        self.shares.sum()
     }
 
     /// Whitens what belongs to the observations, the first rows.
@@ -59,26 +78,13 @@ impl Whitening {
 
     /// The discrepancy's part of residuals that are not whitened, as it is most likely.
     pub fn smooth(&self, residuals: &DVector<f64>) -> DVector<f64> {
-        &self.vectors
-            * self
-                .vectors
-                .tr_mul(residuals)
-                .component_mul(&self.shares(self.ratio))
-    }
-
-    /// Whitens each column of a matrix with a row for each observation, as [`apply`](Self::apply) does.
-    pub fn apply_to_columns(&self, columns: &mut DMatrix<f64>) {
-        for k in 0..columns.ncols() {
-            let mut column = columns.column(k).into_owned();
-            self.apply(&mut column);
-            columns.set_column(k, &column);
-        }
+        &self.vectors * self.vectors.tr_mul(residuals).component_mul(&self.shares)
     }
 
     fn scale(&self, values: &mut DVector<f64>, factor: impl Fn(f64) -> f64) {
         let mut data = values.rows_mut(0, self.vectors.nrows());
         let along = self.vectors.tr_mul(&data);
-        let change = along.component_mul(&self.shares(self.ratio).map(|share| factor(share) - 1.0));
+        let change = along.component_mul(&self.shares.map(|share| factor(share) - 1.0));
         data += &self.vectors * change;
     }
 }

@@ -350,7 +350,7 @@ fn many_minima_do_not_trap_the_fit() {
     ];
     let fit = Calibration::new(&model, parameters, data)
         .unwrap()
-        .with_options(options(|options| options.scan = Some(200)))
+        .with_options(options(|options| options.first_runs = Some(200)))
         .unwrap()
         .fit()
         .unwrap();
@@ -426,7 +426,7 @@ fn a_model_that_always_fails_is_an_error_with_its_reason() {
         .fit()
         .unwrap_err();
     assert!(
-        matches!(&error, CalibrationError::NoFeasibleStart { starts: 24, .. }),
+        matches!(&error, CalibrationError::NoAnswer { places: 24, .. }),
         "{error}"
     );
     let reason = error.source().map(ToString::to_string);

@@ -69,7 +69,7 @@ proptest! {
         observations in prop::collection::vec(prop_oneof![4 => -100.0..100.0_f64, 1 => any_number()], 0..7),
         sigmas in prop::option::of(any_number()),
         (answer, scan, profiles, robust) in (answers(), prop::option::of(0_usize..20), any::<bool>(), any::<bool>()),
-        (confidence, tolerance, noise, threshold) in (any_number(), any_number(), any_number(), any_number()),
+        (confidence, noise, threshold) in (any_number(), any_number(), any_number()),
         start in prop::option::of(prop::collection::vec(any_number(), 0..3)),
         evaluations in 0_usize..150,
     ) {
@@ -93,10 +93,9 @@ proptest! {
         let mut hostile = Options::default();
         hostile.loss = if robust { Loss::Tukey { threshold } } else { Loss::Squares };
         hostile.start = start;
-        hostile.scan = scan;
+        hostile.first_runs = scan;
         hostile.max_evaluations = evaluations;
         hostile.confidence = among(confidence, !ordinary, default.confidence);
-        hostile.tolerance = among(tolerance, !ordinary, default.tolerance);
         hostile.relative_noise = among(noise, !ordinary, default.relative_noise);
         hostile.profiles = if profiles { Profiles::All } else { Profiles::None };
         let mut few = default;
@@ -109,10 +108,7 @@ proptest! {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()), "{:?}", fit.values());
             fit.shift(&[f64::NAN; 9]);
             fit.shift(&[]);
-        }
-        if let Ok((fit, emulator)) = calibration.fit_emulated(None) {
-            prop_assert!(fit.values().iter().all(|value| value.is_finite()));
-            let _ = calibration.fit_emulated(Some(&emulator));
+            let _ = calibration.with_coarse(fit.emulator).fit();
         }
     }
 }

@@ -1,16 +1,17 @@
 //! Covariance of the free variables from the Jacobian at the optimum.
 //!
-//! The inverse covariance is half the second derivative of the deviance, Jᵀ diag(c) J. Directions of which neither data nor
-//! priors know anything have no covariance: parameters along them are marked as unknown, not given a large number.
+//! The inverse covariance is half the second derivative of the deviance, Jᵀ diag(c) J. Directions of which
+//! neither data nor priors know anything have no covariance: parameters along them are marked as unknown,
+//! not given a large number.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, SymmetricEigen};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::descent::Optimum;
 use crate::deviance::information;
 
-/// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown: rounding makes no larger ones. A
-/// parameter with more than its fourth root in such a direction is unknown.
+/// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown:
+/// rounding makes no larger ones. A parameter with more than its fourth root in such a direction is unknown.
 const UNKNOWN: f64 = 1e-12;
 
 /// Covariance of the free variables.
@@ -70,16 +71,6 @@ impl Covariance {
         self.known[k].then(|| self.matrix[(k, k)].max(0.0).sqrt())
     }
 
-    /// How the other free variables follow that of `k`, to first order.
-    pub fn drift(&self, k: usize) -> DVector<f64> {
-        let own = self.matrix[(k, k)];
-        if own > 0.0 {
-            self.matrix.column(k) / own
-        } else {
-            DVector::zeros(self.matrix.nrows())
-        }
-    }
-
     /// Correlation of two.
     pub fn correlation(&self, i: usize, j: usize) -> Option<f64> {
         if i == j {
@@ -100,8 +91,8 @@ pub(crate) fn parameters_from_data(optimum: &Optimum) -> f64 {
     jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
 }
 
-/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with these degrees of
-/// freedom, else Gauss's.
+/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was
+/// estimated with these degrees of freedom, else Gauss's.
 pub(crate) fn quantile(tail: f64, degrees_of_freedom: Option<f64>) -> f64 {
     // From a million on both are the same, and statrs's search for a quantile does not end with many more.
     let student =

@@ -1,0 +1,195 @@
+//! Intervals from the profile likelihood.
+//!
+//! A parameter is held at each value of a grid, all others are fitted anew, and the rise of the deviance
+//! above its minimum is compared with the square of Student's t (of Gauss's z where the noise is known),
+//! which is the likelihood-ratio test. Such an interval needs no symmetry and may stay open on a side (D. M.
+//! Bates, D. G. Watts, Nonlinear Regression Analysis and Its Applications, 1988, section 6.1; A. Raue et
+//! al., Bioinformatics 25, 2009).
+//!
+//! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance
+//! that makes an interval: by four standard errors. For a true value at the bound itself, one such distance
+//! would close one of forty intervals by chance.
+
+use nalgebra::DVector;
+
+use crate::CalibrationError;
+use crate::descent::{Optimum, descend};
+use crate::likelihood::{Likelihood, Point};
+use crate::parameter;
+use crate::tuning::{ACCURACY, GRID};
+
+/// Distance at which the bound is excluded, in those that make an interval.
+pub(crate) const EXCLUSION: f64 = 2.0;
+/// Halvings of a step of the grid after which an end is as exact as numbers are.
+const HALVINGS: usize = 40;
+
+/// A point of a profile: one parameter held, all others fitted.
+#[derive(Debug, Clone)]
+pub(crate) struct ProfilePoint {
+    pub point: Point,
+    /// The deviance there above that of the optimum; negative where the optimum is none.
+    pub rise: f64,
+}
+
+impl ProfilePoint {
+    /// Root of the rise.
+    pub fn root(&self) -> f64 {
+        self.rise.max(0.0).sqrt()
+    }
+}
+
+/// The profile of one parameter.
+pub(crate) struct Profile {
+    parameter: usize,
+    /// Index of the optimum.
+    middle: usize,
+    /// In the order of the parameter.
+    pub points: Vec<ProfilePoint>,
+    /// Free variables at the lower and the upper end; `None` where the likelihood does not close.
+    pub ends: [Option<f64>; 2],
+    /// The points next to those ends.
+    pub at_ends: Vec<ProfilePoint>,
+}
+
+impl Profile {
+    /// Free variables and the rise at them, ascending, as far as the model has an answer.
+    pub fn curve(&self) -> impl Iterator<Item = (f64, f64)> {
+        let k = self.parameter;
+        let mut points: Vec<&ProfilePoint> = self.points.iter().chain(&self.at_ends).collect();
+        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
+        let finite = points.into_iter().filter(|point| point.rise.is_finite());
+        finite.map(move |point| (point.point.free[k], point.rise))
+    }
+
+    /// Points within reach of the optimum, beyond some that are not.
+    pub fn beyond_barrier(&self, wanted: f64) -> impl Iterator<Item = &ProfilePoint> {
+        let inside = move |point: &&ProfilePoint| point.root() < wanted;
+        let (below, above) = self.points.split_at(self.middle);
+        let below = below.iter().rev().skip_while(inside).filter(inside);
+        below.chain(above.iter().skip_while(inside).filter(inside))
+    }
+}
+
+/// Profiles parameters around an optimum.
+pub(crate) struct Profiler<'a> {
+    pub likelihood: &'a Likelihood<'a>,
+    pub optimum: &'a Optimum,
+    /// Root of the rise at which an interval ends.
+    pub wanted: f64,
+}
+
+impl Profiler<'_> {
+    /// The profile of parameter `k`, from the optimum to both bounds and back from there.
+    pub fn profile(&self, k: usize) -> Result<Profile, CalibrationError> {
+        let here = self.optimum.point.free[k];
+        let grid = (0..GRID).map(|index| parameter::free(index as f64 / (GRID - 1) as f64));
+        let (below, above): (Vec<f64>, Vec<f64>) = grid.filter(|z| *z != here).partition(|z| *z < here);
+        let middle = below.len();
+        let mut points = vec![ProfilePoint {
+            point: self.optimum.point.clone(),
+            rise: 0.0,
+        }];
+        for &z in &above {
+            points.push(self.fit_others(k, z, &points[points.len() - 1])?);
+        }
+        points.reverse();
+        for &z in below.iter().rev() {
+            points.push(self.fit_others(k, z, &points[points.len() - 1])?);
+        }
+        points.reverse();
+        for index in (middle + 1..points.len() - 1).rev() {
+            self.lower(k, &mut points, index, index + 1)?;
+        }
+        for index in 1..middle {
+            self.lower(k, &mut points, index, index - 1)?;
+        }
+        let mut profile = Profile {
+            parameter: k,
+            middle,
+            points,
+            ends: [None; 2],
+            at_ends: Vec::new(),
+        };
+        for upper in [false, true] {
+            if let Some((end, near)) = self.end(k, &profile.points, upper)? {
+                profile.ends[usize::from(upper)] = Some(end);
+                profile.at_ends.push(near);
+            }
+        }
+        Ok(profile)
+    }
+
+    /// Fits all parameters but `k`, held at `z`, from where a neighbour has them.
+    fn fit_others(&self, k: usize, z: f64, from: &ProfilePoint) -> Result<ProfilePoint, CalibrationError> {
+        let mut start: DVector<f64> = from.point.free.clone();
+        start[k] = z;
+        let point = descend(self.likelihood, self.optimum.deviance, start, Some(k))?;
+        let rise = self.optimum.deviance.total(&point.residuals) - self.optimum.value();
+        Ok(ProfilePoint { point, rise })
+    }
+
+    /// Fits the others at a point from its neighbour again, and takes the lower of both.
+    fn lower(
+        &self,
+        k: usize,
+        points: &mut [ProfilePoint],
+        index: usize,
+        neighbour: usize,
+    ) -> Result<(), CalibrationError> {
+        let other = self.fit_others(k, points[index].point.free[k], &points[neighbour])?;
+        if other.rise < points[index].rise {
+            points[index] = other;
+        }
+        Ok(())
+    }
+
+    /// The free variable at an end, and a point next to it: what lies beyond a barrier and is not excluded
+    /// belongs to the interval.
+    fn end(
+        &self,
+        k: usize,
+        points: &[ProfilePoint],
+        upper: bool,
+    ) -> Result<Option<(f64, ProfilePoint)>, CalibrationError> {
+        let inward: Vec<&ProfilePoint> = if upper {
+            points.iter().rev().collect()
+        } else {
+            points.iter().collect()
+        };
+        let inside = inward.iter().position(|point| point.root() < self.wanted);
+        let Some(inside) = inside.filter(|&index| index > 0 && inward[0].root() >= EXCLUSION * self.wanted)
+        else {
+            return Ok(None);
+        };
+        let (mut inner, mut outer) = (inward[inside].clone(), inward[inside - 1].clone());
+        let off = |point: &ProfilePoint| (point.root() - self.wanted).abs();
+        for _ in 0..HALVINGS {
+            if off(&inner).min(off(&outer)) < ACCURACY * self.wanted {
+                break;
+            }
+            let z = 0.5 * (inner.point.free[k] + outer.point.free[k]);
+            let mut middle = self.fit_others(k, z, &inner)?;
+            if outer.rise.is_finite() {
+                let other = self.fit_others(k, z, &outer)?;
+                if other.rise < middle.rise {
+                    middle = other;
+                }
+            }
+            if middle.root() < self.wanted {
+                inner = middle;
+            } else {
+                outer = middle;
+            }
+        }
+        let (a, b) = (inner.point.free[k], outer.point.free[k]);
+        // Beyond an infinite rise the model has no answer.
+        let share = ((self.wanted - inner.root()) / (outer.root() - inner.root())).clamp(0.0, 1.0);
+        let end = if outer.rise.is_finite() {
+            a + share * (b - a)
+        } else {
+            a
+        };
+        let near = if off(&inner) < off(&outer) { inner } else { outer };
+        Ok(Some((end, near)))
+    }
+}

@@ -1,0 +1,35 @@
+//! Numbers found by experiment: how each was found, and what is lost with half or twice of it.
+
+/// First runs for each parameter of the model and one more.
+pub(crate) const FIRST_RUNS: usize = 8;
+/// Length of correlation of an emulator, as a share of a parameter's range.
+pub(crate) const LENGTH: f64 = 0.5;
+/// Nugget beside the variance of the predictions: runs closer than a few ten-thousandths of the ranges
+/// are averaged, because ripple is most of what tells them apart. A larger one, such as the ripple itself
+/// measures, takes what a model really does at short range for noise.
+pub(crate) const NUGGET: f64 = 1e-8;
+/// Places of the emulator that are scanned for each parameter and one more.
+pub(crate) const SCAN: usize = 64;
+/// Descents from the best of them.
+pub(crate) const STARTS: usize = 4;
+/// Values of a parameter at which its profile is computed.
+pub(crate) const GRID: usize = 41;
+/// Standard error of the readings by the emulator, in those of all readings together, up to which an end
+/// is believed without a run.
+pub(crate) const SURE: f64 = 0.15;
+/// The same for a low place elsewhere.
+pub(crate) const HIDDEN: f64 = 0.5;
+/// Root of the rise from which a place counts as high: no doubt makes it as good as the optimum.
+pub(crate) const HIGH: f64 = 5.0;
+/// Accuracy of the root of the rise at an end, as a share of it.
+pub(crate) const ACCURACY: f64 = 0.03;
+/// Distance, in standard errors, by which an optimum may move once the model has run there.
+pub(crate) const SETTLED: f64 = 0.05;
+/// Distance, in standard errors of all readings together, of places at which a finer model runs first.
+pub(crate) const APART: f64 = 1.0;
+/// Change of the noise's scale, as a share, at which the rounds of fit and scale end.
+pub(crate) const SCALE_TOLERANCE: f64 = 0.01;
+/// Fall of the deviance that makes another optimum the better one: a quarter of a standard error.
+pub(crate) const BETTER: f64 = 0.05;
+/// Farthest step of a free variable: a third of the way from the middle of its range to a bound.
+pub(crate) const LONGEST_STEP: f64 = 2.0;
