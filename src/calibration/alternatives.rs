@@ -48,10 +48,9 @@ pub fn alternatives<'a>(
             .zip(coarse)
             .map(|(fine, coarse)| fine - coarse)
             .collect(),
-        values,
         rows,
     };
-    let Some(plain) = fits.coarsely(None)? else {
+    let Some(plain) = fits.fit(0, None)? else {
         return Ok([None, None]);
     };
     // The final fit is one without the error as well; scatter between meshes must not count for the error.
@@ -75,7 +74,7 @@ pub fn alternatives<'a>(
             .collect();
         for cell in &open {
             let error = term(cell, quantity, &name(cell), problem.options)?;
-            let Some(mut fit) = fits.coarsely(Some(error.clone()))? else {
+            let Some(mut fit) = fits.fit(0, Some(error.clone()))? else {
                 continue;
             };
             let probability =
@@ -84,7 +83,7 @@ pub fn alternatives<'a>(
                 continue;
             };
             if (chance < WORTH_ASKING || is_open)
-                && let Some(finer) = fits.finally(error, fit.values())?
+                && let Some(finer) = fits.fit(found.level, Some(error))?
                 && let Some(finer_chance) = probability(last, &finer)
             {
                 (fit, chance) = (finer, finer_chance);
@@ -110,28 +109,13 @@ struct Fits<'a> {
     problem: &'a Problem<'a>,
     found: &'a Final,
     correction: Vec<f64>,
-    values: Vec<f64>,
     rows: &'a [usize],
 }
 
 impl Fits<'_> {
-    /// A fit on the coarsest mesh, with a term more or without; nothing where it does not converge.
-    fn coarsely(&self, more: Option<Term>) -> Result<Option<Fit>, Error> {
-        let start = self
-            .values
-            .iter()
-            .copied()
-            .chain(more.iter().map(|_| 0.0))
-            .collect();
-        self.fit(more, start, 0)
-    }
-
-    /// A fit on the final mesh from `start`.
-    fn finally(&self, more: Term, start: Vec<f64>) -> Result<Option<Fit>, Error> {
-        self.fit(Some(more), start, self.found.level)
-    }
-
-    fn fit(&self, more: Option<Term>, start: Vec<f64>, level: u32) -> Result<Option<Fit>, Error> {
+    /// A fit on a level of meshes, the coarsest or the final one, with a term more or without; nothing where
+    /// it does not converge.
+    fn fit(&self, level: u32, more: Option<Term>) -> Result<Option<Fit>, Error> {
         let terms: Vec<Term> = self.problem.terms.iter().cloned().chain(more).collect();
         let problem = Problem {
             terms: &terms,
@@ -149,7 +133,7 @@ impl Fits<'_> {
         } else {
             &self.found.coarsest
         };
-        let calibration = problem.calibration(&model, Some(start), Profiles::None, RUNS)?;
+        let calibration = problem.calibration(&model, Profiles::None, RUNS)?;
         match calibration.with_coarse(known.clone()).fit() {
             Ok(fit) => Ok(Some(fit)),
             Err(_) if problem.watch.is_stopped() => Err(Error::Stopped),

@@ -84,9 +84,7 @@ impl Fits<'_> {
     fn on(&mut self, level: u32, coarse: Option<&Fit>, correction: Option<Vec<f64>>) -> Result<Fit, Error> {
         let model = self.problem.model(level, correction);
         let left = self.limit.saturating_sub(self.evaluations);
-        let mut calibration =
-            self.problem
-                .calibration(&model, coarse.map(Fit::values), self.profiles, left)?;
+        let mut calibration = self.problem.calibration(&model, self.profiles, left)?;
         if let Some(coarse) = coarse {
             calibration = calibration.with_coarse(coarse.emulator.clone());
         }

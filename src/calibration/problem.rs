@@ -65,11 +65,10 @@ impl Problem<'_> {
         Ok(predicted)
     }
 
-    /// Of at most so many model runs, from what the scenes say unless a `start` is known.
+    /// Of at most so many model runs.
     pub fn calibration<'m>(
         &self,
         model: &'m CableModel<'m>,
-        start: Option<Vec<f64>>,
         profiles: Profiles,
         runs: usize,
     ) -> Result<Calibration<'m>, Error> {
@@ -93,7 +92,6 @@ impl Problem<'_> {
         }
         let mut options = Options::default();
         options.loss = self.options.loss;
-        options.start = Some(start.unwrap_or_else(|| self.scene_values()));
         options.max_evaluations = runs.max(1);
         options.relative_noise = RIPPLE[model.level.min(LAST_LEVEL) as usize];
         options.profiles = profiles;

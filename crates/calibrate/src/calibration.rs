@@ -132,7 +132,7 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::InvalidOption`].
     pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
-        options.check(self.0.parameters.len())?;
+        options.check()?;
         self.0.options = options;
         Ok(self)
     }

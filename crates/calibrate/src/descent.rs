@@ -17,8 +17,8 @@ use crate::likelihood::{Likelihood, Point};
 use crate::parameter::FARTHEST;
 use crate::tuning::LONGEST_STEP;
 
-/// Length of the next step, in standard errors, at which a descent has converged: a thousandth.
-const CONVERGED: f64 = 1e-3;
+/// Length of the next step, in standard errors, at which a descent has converged.
+const CONVERGED: f64 = 1e-2;
 /// Iterations of a descent: far more than one takes that gets anywhere.
 const MAX_ITERATIONS: u64 = 100;
 /// Added to the diagonal of the Hessian: as much as knowing a free variable to ±4, so that one of which the
@@ -61,6 +61,7 @@ pub(crate) fn descend(
         deviance,
         start: &first.free,
         moving: &moving,
+        last: RefCell::default(),
         hessian: RefCell::default(),
     };
     let failed = |source: Error| CalibrationError::Optimiser {
@@ -91,7 +92,8 @@ struct Surface<'a> {
     deviance: Deviance,
     start: &'a DVector<f64>,
     moving: &'a [usize],
-    /// What was found along with the gradient.
+    /// Where the deviance was last asked for, and the Hessian that was found along with the last gradient.
+    last: RefCell<Option<(DVector<f64>, Point)>>,
     hessian: RefCell<DMatrix<f64>>,
 }
 
@@ -116,7 +118,10 @@ impl CostFunction for Surface<'_> {
 
     fn cost(&self, variables: &DVector<f64>) -> Result<f64, Error> {
         let springs: f64 = variables.iter().map(|&z| beyond(z).powi(2)).sum();
-        Ok(self.deviance.total(&self.point(variables).residuals) + springs)
+        let point = self.point(variables);
+        let deviance = self.deviance.total(&point.residuals);
+        *self.last.borrow_mut() = Some((variables.clone(), point));
+        Ok(deviance + springs)
     }
 }
 
@@ -125,7 +130,8 @@ impl Gradient for Surface<'_> {
     type Gradient = DVector<f64>;
 
     fn gradient(&self, variables: &DVector<f64>) -> Result<DVector<f64>, Error> {
-        let point = self.point(variables);
+        let last = self.last.take().filter(|(last, _)| last == variables);
+        let point = last.map_or_else(|| self.point(variables), |(_, point)| point);
         let jacobian = self.likelihood.jacobian(&point.free).select_columns(self.moving);
         let weights = self.deviance.weights(&point.residuals);
         let mut gradient = 2.0 * jacobian.tr_mul(&weights.component_mul(&point.residuals));

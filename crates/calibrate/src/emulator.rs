@@ -30,8 +30,8 @@ pub struct Emulator {
     failures: Vec<DVector<f64>>,
     /// Through what the trend misses of each part.
     krigings: Vec<Kriging>,
-    /// Where the answer of the fit rests: there a finer model runs first.
-    pub(crate) pillars: Vec<DVector<f64>>,
+    /// That of the fit: there a finer model runs first.
+    pub(crate) optimum: Option<DVector<f64>>,
 }
 
 impl Emulator {
@@ -49,7 +49,7 @@ impl Emulator {
             runs: Vec::new(),
             failures: Vec::new(),
             krigings: Vec::new(),
-            pillars: Vec::new(),
+            optimum: None,
         }
     }
 

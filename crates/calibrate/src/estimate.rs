@@ -1,5 +1,7 @@
 //! What is known of a parameter after a fit.
 
+use std::fmt;
+
 /// An interval; an end is `None` where the data do not close it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Interval {
@@ -25,6 +27,18 @@ impl Interval {
         Self {
             lower: self.lower.zip(other.lower).map(|(a, b)| a.min(b)),
             upper: self.upper.zip(other.upper).map(|(a, b)| a.max(b)),
+        }
+    }
+}
+
+impl fmt::Display for Interval {
+    /// What the open end of an interval, or both, leave.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.lower, self.upper) {
+            (Some(lower), Some(upper)) => write!(f, " from {lower:.4e} to {upper:.4e}"),
+            (Some(lower), None) => write!(f, " above {lower:.4e}"),
+            (None, Some(upper)) => write!(f, " below {upper:.4e}"),
+            (None, None) => Ok(()),
         }
     }
 }

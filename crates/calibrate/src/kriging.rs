@@ -19,7 +19,8 @@ use crate::tuning::LENGTH;
 pub(crate) struct Kriging {
     /// Shares of the parameters' ranges.
     places: Vec<DVector<f64>>,
-    mean: DVector<f64>,
+    /// A constant, and where there are runs enough for it a slope by each share, a row each.
+    mean: DMatrix<f64>,
     /// What each run's neighbourhood adds to the mean, a row each.
     weights: DMatrix<f64>,
     /// What `weights` were solved with; nothing if the places are no numbers.
@@ -38,16 +39,17 @@ impl Kriging {
         let factor = [nugget, 1e-8, 1e-4, 1.0].into_iter().find_map(|nugget| {
             Cholesky::new(&correlations + DMatrix::from_diagonal_element(count, count, nugget))
         });
-        let mean = match &factor {
-            Some(factor) => {
-                let ones = factor.solve(&DVector::from_element(count, 1.0));
-                values.tr_mul(&ones) / ones.sum()
-            }
-            None => values.row_mean().transpose(),
+        let slopes = places.first().map_or(0, DVector::len);
+        let terms = if count > 2 * (slopes + 1) { 1 + slopes } else { 1 };
+        let basis = DMatrix::from_fn(count, terms, |run, term| basis(&places[run], term));
+        let known = factor
+            .as_ref()
+            .map_or_else(|| basis.clone(), |factor| factor.solve(&basis));
+        let mean = match basis.tr_mul(&known).cholesky() {
+            Some(solved) => solved.solve(&known.tr_mul(&values)),
+            None => DMatrix::zeros(terms, width),
         };
-        for mut row in values.row_iter_mut() {
-            row -= mean.transpose();
-        }
+        values -= basis * &mean;
         let weights = match &factor {
             Some(factor) => factor.solve(&values),
             None => DMatrix::zeros(count, width),
@@ -64,7 +66,8 @@ impl Kriging {
 
     /// What is predicted at a place.
     pub fn at(&self, place: &DVector<f64>) -> DVector<f64> {
-        &self.mean + self.weights.tr_mul(&correlations(&self.places, place))
+        let basis = DVector::from_fn(self.mean.nrows(), |term, _| basis(place, term));
+        self.mean.tr_mul(&basis) + self.weights.tr_mul(&correlations(&self.places, place))
     }
 
     /// Its derivatives by the shares, a column each: ∂c/∂u = −5/(3 length²) (1 + a) e^(−a) (u − u_run).
@@ -77,7 +80,12 @@ impl Kriging {
                 near[(run, k)] = factor * (place[k] - other[k]);
             }
         }
-        self.weights.tr_mul(&near)
+        let mut slopes = self.weights.tr_mul(&near);
+        for (term, row) in self.mean.row_iter().enumerate().skip(1) {
+            let mut column = slopes.column_mut(term - 1);
+            column += row.transpose();
+        }
+        slopes
     }
 
     /// What it knows of its own error, where the square of that of prediction k counts `weights[k]`;
@@ -125,6 +133,11 @@ impl PredictionVariance {
 /// A variance that rounding may have made negative. NaN propagates; `max` would hide it.
 fn at_least_zero(variance: f64) -> f64 {
     variance.clamp(0.0, f64::INFINITY)
+}
+
+/// A term of the mean at a place.
+fn basis(place: &DVector<f64>, term: usize) -> f64 {
+    if term == 0 { 1.0 } else { place[term - 1] }
 }
 
 fn correlations(places: &[DVector<f64>], place: &DVector<f64>) -> DVector<f64> {

@@ -10,13 +10,13 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::emulator::Doubt;
-use crate::likelihood::Likelihood;
+use crate::likelihood::{Likelihood, Point};
 use crate::problem::Problem;
 use crate::search::{MAX_ROUNDS, all_over};
 use crate::solution::{CheckPoint, Solution, solve};
-use crate::tuning::{ACCURACY, APART, FIRST_RUNS, HIDDEN, HIGH, SETTLED, SURE};
+use crate::tuning::{ACCURACY, APART, FIRST_RUNS, HIDDEN, HIGH, NEAR, SETTLED, SURE};
 use crate::whitening::Whitening;
-use crate::{CalibrationError, Emulator, ModelError};
+use crate::{CalibrationError, Emulator, ModelError, Profiles};
 
 /// Change of the deviance by which a prediction may be off at an optimum: a third of a standard error.
 const TOLD: f64 = 0.1;
@@ -56,14 +56,10 @@ impl<'a> Learner<'a> {
                 allowed: "those of this calibration, and its observations",
             });
         }
-        let mut places: Vec<DVector<f64>> = start(problem).into_iter().collect();
-        if let Some(coarse) = &coarse {
-            places.clone_from(&coarse.pillars);
-        } else {
-            let count = parameters.len();
-            let first = problem.options.first_runs.unwrap_or(FIRST_RUNS * (1 + count));
-            places.extend(all_over(count, first));
-        }
+        let places = match &coarse {
+            Some(coarse) => coarse.optimum.iter().cloned().collect(),
+            None => all_over(parameters.len(), FIRST_RUNS * (1 + parameters.len())),
+        };
         let mut learner = Self {
             problem,
             emulator: Emulator::new(
@@ -94,67 +90,56 @@ impl<'a> Learner<'a> {
     /// [`CalibrationError::PredictionLength`].
     pub fn converge(&mut self) -> Result<(Solution, Option<Whitening>), CalibrationError> {
         let problem = self.problem;
-        let mut last: Option<DVector<f64>> = None;
+        let wanted = problem.options.profiles;
+        // Intervals are worth a look around an optimum that holds, or that a coarser model gave.
+        let mut kind = if problem.coarse.is_some() {
+            wanted
+        } else {
+            Profiles::None
+        };
+        let mut last = None;
         for _ in 0..MAX_ROUNDS {
             let mut likelihood = Likelihood::new(problem, &self.emulator);
-            let first = last.or_else(|| Some(likelihood.free(&start(problem)?)));
-            let mut solution = solve(&mut likelihood, first, problem.options.profiles)?;
+            let mut solution = solve(&mut likelihood, last, kind)?;
             let (mut doubt, asked) = doubtful(&likelihood, &solution);
-            let optimum = likelihood.place(&solution.optimum.point.free);
+            let free = solution.optimum.point.free.clone();
+            let optimum = likelihood.place(&free);
             let mut places = vec![optimum.clone()];
             places.extend(asked.iter().map(|check| likelihood.place(&check.point.free)));
             let mut runs = self.run(places)?;
             let spent = runs.is_empty();
-            if std::env::var_os("DBG").is_some() {
-                eprintln!(
-                    "round: runs {} optimum {:?} value {:.4e} new {} asked {:?}",
-                    self.emulator.runs(),
-                    optimum.as_slice(),
-                    solution.optimum.value(),
-                    runs.len(),
-                    asked
-                        .iter()
-                        .map(|c| (c.root, c.threshold, c.is_end))
-                        .collect::<Vec<_>>()
-                );
-            }
             let seen = |place: &DVector<f64>| -> Option<&[f64]> {
                 let run = runs.iter().find(|(other, _)| other == place);
                 run.map_or_else(|| self.emulator.known(place), |(_, said)| said.as_deref().ok())
             };
-            let residuals =
-                seen(&optimum).map(|said| likelihood.residuals(&solution.optimum.point.free, said));
-            let agreed = residuals.as_ref().is_some_and(|here| {
-                is_settled(&likelihood, &solution, here)
-                    && asked.iter().all(|check| {
-                        let said = seen(&likelihood.place(&check.point.free));
-                        said.is_some_and(|said| agrees(&likelihood, &solution, here, check, said))
-                    })
-            });
-            if std::env::var_os("DBG").is_some() {
-                if let Some(here) = &residuals {
-                    eprintln!(
-                        "   shift {:.3e} deviance {:.4e}",
-                        solution.shift(here),
-                        solution.optimum.deviance.total(here)
-                    );
-                }
-            }
+            let here = seen(&optimum).map(|said| likelihood.residuals(&free, said));
+            let settled = here
+                .as_ref()
+                .is_some_and(|here| is_settled(&likelihood, &solution, here));
+            let agree = |here| {
+                asked.iter().all(|check| {
+                    let said = seen(&likelihood.place(&check.point.free));
+                    said.is_some_and(|said| agrees(&likelihood, &solution, here, check, said))
+                })
+            };
+            let agreed = settled && kind == wanted && here.as_ref().is_some_and(agree);
             let hidden = if agreed {
                 hidden(&likelihood, &solution, doubt.as_mut())
             } else {
                 Vec::new()
             };
-            if (agreed && hidden.is_empty()) || spent {
-                let pillars = pillars(&likelihood, &solution);
-                solution.optimum.point.residuals = residuals.ok_or(CalibrationError::NotConverged)?;
+            if (agreed && hidden.is_empty()) || (spent && kind == wanted) {
+                solution.optimum.point.residuals = here.ok_or(CalibrationError::NotConverged)?;
                 let whitening = likelihood.whitening;
                 self.learn(runs);
-                self.emulator.pillars = pillars;
+                self.emulator.optimum = Some(optimum);
                 return Ok((solution, whitening));
             }
+            if settled || spent || here.is_some_and(|here| solution.shift(&here) < NEAR) {
+                kind = wanted;
+            }
             runs.extend(self.run(hidden)?);
-            last = Some(solution.optimum.point.free);
+            last = Some(free);
             self.learn(runs);
         }
         Err(CalibrationError::NotConverged)
@@ -198,14 +183,6 @@ impl<'a> Learner<'a> {
     }
 }
 
-/// Where the model's parameters have the values that are to be tried first.
-fn start(problem: &Problem<'_>) -> Option<DVector<f64>> {
-    let start = problem.options.start.as_ref()?;
-    let own = problem.of_model();
-    let share = |k: usize, _| problem.parameters[own[k]].share_of(start[own[k]]);
-    Some(DVector::from_fn(own.len(), share))
-}
-
 /// The ends and bounds where the emulator's error could change the answer, once the model has run at the
 /// optimum, and the doubt that runs at them leave.
 fn doubtful<'s>(likelihood: &Likelihood<'_>, solution: &'s Solution) -> (Option<Doubt>, Vec<&'s CheckPoint>) {
@@ -218,7 +195,7 @@ fn doubtful<'s>(likelihood: &Likelihood<'_>, solution: &'s Solution) -> (Option<
         .map(|(c, sigma)| c / (sigma * sigma))
         .collect();
     let Some(mut doubt) = likelihood.emulator.doubt(&weights) else {
-        return (None, solution.checks.iter().collect());
+        return (None, apart(solution));
     };
     doubt.learn(&likelihood.place(&optimum.point.free));
     let candidate = |check: &CheckPoint| {
@@ -265,7 +242,11 @@ fn is_settled(likelihood: &Likelihood<'_>, solution: &Solution, seen: &DVector<f
     let optimum = &solution.optimum;
     let change = (optimum.deviance.total(seen) - optimum.value()).abs();
     let noise = noise(likelihood, solution);
-    solution.shift(seen) <= SETTLED.max(noise) && change <= TOLD.max(noise)
+    // Of the ripple between runs, the parameters follow their share.
+    let share = (seen.len() as f64 / optimum.point.free.len() as f64)
+        .sqrt()
+        .recip();
+    solution.shift(seen) <= SETTLED.max(share * noise) && change <= TOLD.max(noise)
 }
 
 /// Whether what the model said at a place means what the emulator did, where `here` are its residuals at the
@@ -288,21 +269,20 @@ fn agrees(
     (root - check.root).abs() <= margin.max(accuracy)
 }
 
-/// The optimum and the ends of the intervals, each at some distance from those before it.
-fn pillars(likelihood: &Likelihood<'_>, solution: &Solution) -> Vec<DVector<f64>> {
+/// The ends of the intervals, each at some distance from the optimum and from those before it.
+fn apart(solution: &Solution) -> Vec<&CheckPoint> {
     let optimum = &solution.optimum;
-    let mut kept = vec![&optimum.point];
-    for check in &solution.checks {
-        let distance = |other: &&crate::likelihood::Point| {
+    let weights = optimum.deviance.weights(&optimum.point.residuals);
+    let mut kept: Vec<&CheckPoint> = Vec::new();
+    for check in solution.checks.iter().filter(|check| check.is_end) {
+        let others = kept.iter().map(|other| &other.point).chain([&optimum.point]);
+        let distance = |other: &Point| {
             let off = &other.residuals - &check.point.residuals;
-            let weights = optimum.deviance.weights(&optimum.point.residuals);
             off.component_mul(&off).dot(&weights).sqrt()
         };
-        if check.is_end && kept.iter().map(distance).fold(f64::INFINITY, f64::min) >= APART {
-            kept.push(&check.point);
+        if others.map(distance).fold(f64::INFINITY, f64::min) >= APART {
+            kept.push(check);
         }
     }
-    kept.into_iter()
-        .map(|point| likelihood.place(&point.free))
-        .collect()
+    kept
 }

@@ -42,15 +42,6 @@ impl<'a> Likelihood<'a> {
         DVector::from_fn(self.of_model.len(), |k, _| share(free[self.of_model[k]]))
     }
 
-    /// Free variables of all parameters at a place, terms at the middle of their ranges.
-    pub fn free(&self, place: &DVector<f64>) -> DVector<f64> {
-        let mut all = DVector::zeros(self.problem.parameters.len());
-        for (&k, &share) in self.of_model.iter().zip(place.iter()) {
-            all[k] = crate::parameter::free(share);
-        }
-        all
-    }
-
     /// The residuals by the emulator.
     pub fn point(&self, free: DVector<f64>) -> Point {
         let residuals = match self.emulator.at(&self.place(&free)) {

@@ -27,10 +27,6 @@ pub enum Profiles {
 pub struct Options {
     /// How much residuals count.
     pub loss: Loss,
-    /// Values to try first, one a parameter.
-    pub start: Option<Vec<f64>>,
-    /// First runs all over the range; `None` takes eight a parameter and eight more.
-    pub first_runs: Option<usize>,
     /// Largest number of model runs.
     pub max_evaluations: usize,
     /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh.
@@ -45,8 +41,6 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             loss: Loss::Squares,
-            start: None,
-            first_runs: None,
             max_evaluations: 2000,
             relative_noise: 1e-9,
             confidence: 0.95,
@@ -56,7 +50,7 @@ impl Default for Options {
 }
 
 impl Options {
-    pub(crate) fn check(&self, parameters: usize) -> Result<(), CalibrationError> {
+    pub(crate) fn check(&self) -> Result<(), CalibrationError> {
         let invalid = |name, value, allowed| Err(CalibrationError::InvalidOption { name, value, allowed });
         if !(0.5..=0.9999).contains(&self.confidence) {
             return invalid("confidence", self.confidence, "between 0.5 and 0.9999");
@@ -68,18 +62,6 @@ impl Options {
             && !(threshold.is_finite() && threshold >= 0.5)
         {
             return invalid("threshold of the loss", threshold, "finite and at least 0.5");
-        }
-        if let Some(start) = &self.start {
-            if start.len() != parameters {
-                return invalid(
-                    "number of start values",
-                    start.len() as f64,
-                    "one value a parameter",
-                );
-            }
-            if let Some(&value) = start.iter().find(|value| !value.is_finite()) {
-                return invalid("start value", value, "finite");
-            }
         }
         if self.max_evaluations == 0 {
             return invalid("max_evaluations", 0.0, "at least 1");

@@ -59,15 +59,13 @@ impl Parameter {
     ///
     /// [`CalibrationError::InvalidParameter`] unless the bounds are finite, in order, and positive with a logarithmic scale.
     pub fn new(name: &str, lower: f64, upper: f64, scale: Scale) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| invalid(name, quantity, value, allowed);
-        let positive = scale == Scale::Logarithmic;
-        if !lower.is_finite() || (positive && lower <= 0.0) {
-            let allowed = "finite, and positive with a logarithmic scale";
-            return Err(error("lower bound", lower, allowed));
-        }
-        let range = upper - lower;
-        if !(range.is_finite() && range > 0.0) {
-            return Err(error("upper bound", upper, "finite and above the lower bound"));
+        let error = |quantity, value, allowed| Err(invalid(name, quantity, value, allowed));
+        if !lower.is_finite() || (scale == Scale::Logarithmic && lower <= 0.0) {
+            return error(
+                "lower bound",
+                lower,
+                "finite, and positive with a logarithmic scale",
+            );
         }
         let parameter = Self {
             name: name.to_owned(),
@@ -78,8 +76,9 @@ impl Parameter {
             term: None,
         };
         // The logarithms of bounds that nearly touch are the same number.
-        if parameter.range().1 <= 0.0 {
-            return Err(error("upper bound", upper, "finite and above the lower bound"));
+        let width = (upper - lower).min(parameter.range().1);
+        if !(width > 0.0 && (upper - lower).is_finite()) {
+            return error("upper bound", upper, "finite and above the lower bound");
         }
         Ok(parameter)
     }
@@ -108,12 +107,12 @@ impl Parameter {
     /// [`CalibrationError::InvalidParameter`] unless the prior's value lies within the bounds and its sigma is finite and
     /// positive.
     pub fn with_prior(mut self, prior: Prior) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| invalid(&self.name, quantity, value, allowed);
+        let error = |quantity, value, allowed| Err(invalid(&self.name, quantity, value, allowed));
         if !(self.lower..=self.upper).contains(&prior.value) {
-            return Err(error("prior", prior.value, "a value within the bounds"));
+            return error("prior", prior.value, "a value within the bounds");
         }
         if !(prior.sigma.is_finite() && prior.sigma > 0.0) {
-            return Err(error("sigma of the prior", prior.sigma, "finite and positive"));
+            return error("sigma of the prior", prior.sigma, "finite and positive");
         }
         self.prior = Some(prior);
         Ok(self)
@@ -174,12 +173,6 @@ impl Parameter {
         value.clamp(self.lower, self.upper)
     }
 
-    /// Share of a value, which is brought within the bounds.
-    pub(crate) fn share_of(&self, value: f64) -> f64 {
-        let (lower, range) = self.range();
-        (self.coordinate(value.clamp(self.lower, self.upper)) - lower) / range
-    }
-
     /// Derivative of the value by the free variable at a share.
     pub(crate) fn slope(&self, share: f64) -> f64 {
         let by_coordinate = match self.scale {
@@ -233,7 +226,6 @@ mod tests {
             let value = parameter.value(share(z));
             prop_assert!((lower..=lower * ratio).contains(&value));
             prop_assert!((free(share(z)) - z).abs() < 1e-6);
-            prop_assert!((parameter.share_of(value) - share(z)).abs() < 1e-9);
             let h = 1e-4;
             let slope = (parameter.value(share(z + h)) - parameter.value(share(z - h))) / (2.0 * h);
             prop_assert!((slope / parameter.slope(share(z)) - 1.0).abs() < 1e-4);

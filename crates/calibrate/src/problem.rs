@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::{CalibrationError, Discrepancy, Emulator, Loss, Model, Options, Parameter, Part};
 
-/// Least noise of the model itself, as a share of its largest prediction: rounding.
-const ROUNDING: f64 = 1e-12;
+/// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
+const RESOLUTION: f64 = 1e-7;
 
 #[derive(Clone)]
 pub(crate) struct Problem<'a> {
@@ -40,7 +40,7 @@ impl Problem<'_> {
 
     /// Noise that the model's predictions have at least, in units of the sigmas.
     pub fn least_noise(&self) -> f64 {
-        let share = self.options.relative_noise.max(ROUNDING);
+        let share = self.options.relative_noise.max(RESOLUTION);
         let sizes = self.observations.iter().zip(&self.sigmas);
         let noise = sizes.map(|(value, sigma)| share * value.abs() / sigma);
         noise.fold(f64::MIN_POSITIVE, f64::max)

@@ -16,7 +16,7 @@ use crate::CalibrationError;
 use crate::descent::{Optimum, descend};
 use crate::likelihood::{Likelihood, Point};
 use crate::parameter;
-use crate::tuning::{ACCURACY, GRID};
+use crate::tuning::{ACCURACY, GRID, JUMP};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
@@ -98,10 +98,10 @@ impl Profiler<'_> {
         }
         points.reverse();
         for index in (middle + 1..points.len() - 1).rev() {
-            self.lower(k, &mut points, index, index + 1)?;
+            points[index] = self.lower(k, &points[index], &points[index + 1])?;
         }
         for index in 1..middle {
-            self.lower(k, &mut points, index, index - 1)?;
+            points[index] = self.lower(k, &points[index], &points[index - 1])?;
         }
         let mut profile = Profile {
             parameter: k,
@@ -128,19 +128,27 @@ impl Profiler<'_> {
         Ok(ProfilePoint { point, rise })
     }
 
-    /// Fits the others at a point from its neighbour again, and takes the lower of both.
+    /// The lower of a point and what its neighbour leads to there. Where the others move as one from point to
+    /// point, both are the same.
     fn lower(
         &self,
         k: usize,
-        points: &mut [ProfilePoint],
-        index: usize,
-        neighbour: usize,
-    ) -> Result<(), CalibrationError> {
-        let other = self.fit_others(k, points[index].point.free[k], &points[neighbour])?;
-        if other.rise < points[index].rise {
-            points[index] = other;
+        point: &ProfilePoint,
+        neighbour: &ProfilePoint,
+    ) -> Result<ProfilePoint, CalibrationError> {
+        let (here, there) = (&point.point.free, &neighbour.point.free);
+        let moved = (0..here.len())
+            .filter(|&other| other != k)
+            .map(|other| (here[other] - there[other]).abs());
+        if moved.fold(0.0, f64::max) < JUMP || !neighbour.rise.is_finite() {
+            return Ok(point.clone());
         }
-        Ok(())
+        let other = self.fit_others(k, here[k], neighbour)?;
+        Ok(if other.rise < point.rise {
+            other
+        } else {
+            point.clone()
+        })
     }
 
     /// The free variable at an end, and a point next to it: what lies beyond a barrier and is not excluded
@@ -168,13 +176,7 @@ impl Profiler<'_> {
                 break;
             }
             let z = 0.5 * (inner.point.free[k] + outer.point.free[k]);
-            let mut middle = self.fit_others(k, z, &inner)?;
-            if outer.rise.is_finite() {
-                let other = self.fit_others(k, z, &outer)?;
-                if other.rise < middle.rise {
-                    middle = other;
-                }
-            }
+            let middle = self.lower(k, &self.fit_others(k, z, &inner)?, &outer)?;
             if middle.root() < self.wanted {
                 inner = middle;
             } else {

@@ -14,6 +14,9 @@ pub(crate) const SCAN: usize = 64;
 pub(crate) const STARTS: usize = 4;
 /// Values of a parameter at which its profile is computed.
 pub(crate) const GRID: usize = 41;
+/// Distance of the other free variables at neighbouring values from which on they may have jumped to another
+/// valley.
+pub(crate) const JUMP: f64 = 0.5;
 /// Standard error of the readings by the emulator, in those of all readings together, up to which an end
 /// is believed without a run.
 pub(crate) const SURE: f64 = 0.15;
@@ -25,6 +28,8 @@ pub(crate) const HIGH: f64 = 5.0;
 pub(crate) const ACCURACY: f64 = 0.03;
 /// Distance, in standard errors, by which an optimum may move once the model has run there.
 pub(crate) const SETTLED: f64 = 0.05;
+/// The same from which on intervals are looked at.
+pub(crate) const NEAR: f64 = 1.0;
 /// Distance, in standard errors of all readings together, of places at which a finer model runs first.
 pub(crate) const APART: f64 = 1.0;
 /// Change of the noise's scale, as a share, at which the rounds of fit and scale end.

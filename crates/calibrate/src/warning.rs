@@ -1,7 +1,5 @@
 //! What the user should know before trusting a fit.
 
-use std::fmt;
-
 use crate::Interval;
 use crate::parameter::{FARTHEST, share};
 use crate::problem::Problem;
@@ -15,10 +13,11 @@ const OUTLIER: f64 = 0.35;
 const FEW: f64 = 5.0;
 
 /// What the user should know before trusting a fit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Warning {
     /// The interval is open.
+    #[error("{name} is not identifiable from these data: any value{interval} fits")]
     NotIdentifiable {
         /// The parameter.
         name: String,
@@ -26,6 +25,12 @@ pub enum Warning {
         interval: Interval,
     },
     /// The residuals are larger than the given sigmas allow.
+    #[error(
+        "the residuals are {:.2} times the given sigmas, which chance explains with a probability of \
+         {probability:.1e}: the model does not fit or the sigmas are too small; the errors are scaled up to the \
+         residuals",
+        reduced_chi_square.sqrt()
+    )]
     Misfit {
         /// Residual variance over that of the sigmas.
         reduced_chi_square: f64,
@@ -33,6 +38,7 @@ pub enum Warning {
         probability: f64,
     },
     /// The best value lies at a bound.
+    #[error("the best {name}, {value:.4e}, lies at a bound")]
     AtBound {
         /// The parameter.
         name: String,
@@ -40,6 +46,7 @@ pub enum Warning {
         value: f64,
     },
     /// Two parameters are hardly distinguishable.
+    #[error("{first} and {second} are hardly distinguishable: their correlation is {correlation:.4}")]
     Correlated {
         /// One.
         first: String,
@@ -48,66 +55,20 @@ pub enum Warning {
         /// Their correlation.
         correlation: f64,
     },
-    /// Observations that hardly count in a robust fit.
-    Outliers {
-        /// Their indices, from 0.
-        indices: Vec<usize>,
-    },
-    /// Other values, far from the best ones, fit about as well. The intervals hold both as long as they are as likely as that.
-    Ambiguous {
-        /// These values, in the order of the parameters.
-        values: Vec<f64>,
-    },
-    /// Few degrees of freedom: the noise itself is hardly known.
-    FewObservations {
-        /// Degrees of freedom.
-        degrees_of_freedom: f64,
-    },
+    /// Observations that hardly count in a robust fit, by their indices from 0.
+    #[error("{} observations look like outliers, index {}", .0.len(), listed(.0, |index| index.to_string()))]
+    Outliers(Vec<usize>),
+    /// Other values of the parameters, in their order and far from the best ones, fit about as well. The
+    /// intervals hold both.
+    #[error("other values, far from the best ones, fit about as well: {}", listed(.0, |v| format!("{v:.4e}")))]
+    Ambiguous(Vec<f64>),
+    /// So few degrees of freedom are left that the noise itself is hardly known.
+    #[error("only {0:.1} degrees of freedom are left to estimate the noise")]
+    FewObservations(f64),
 }
 
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotIdentifiable { name, interval } => {
-                write!(f, "{name} is not identifiable from these data: ")?;
-                match (interval.lower, interval.upper) {
-                    (Some(lower), _) => write!(f, "any value above {lower:.4e} fits"),
-                    (None, Some(upper)) => write!(f, "any value below {upper:.4e} fits"),
-                    (None, None) => write!(f, "any value fits"),
-                }
-            }
-            Self::Misfit {
-                reduced_chi_square,
-                probability,
-            } => write!(
-                f,
-                "the residuals are {:.2} times the given sigmas, which chance explains with a probability of {probability:.1e}: the \
-                 model does not fit or the sigmas are too small; the errors are scaled up to the residuals",
-                reduced_chi_square.sqrt()
-            ),
-            Self::AtBound { name, value } => write!(f, "the best {name}, {value:.4e}, lies at a bound"),
-            Self::Correlated {
-                first,
-                second,
-                correlation,
-            } => write!(
-                f,
-                "{first} and {second} are hardly distinguishable: their correlation is {correlation:.4}"
-            ),
-            Self::Outliers { indices } => {
-                write!(f, "{} observations look like outliers, index", indices.len())?;
-                indices.iter().try_for_each(|index| write!(f, " {index}"))
-            }
-            Self::Ambiguous { values } => {
-                write!(f, "other values, far from the best ones, fit about as well:")?;
-                values.iter().try_for_each(|value| write!(f, " {value:.4e}"))
-            }
-            Self::FewObservations { degrees_of_freedom } => write!(
-                f,
-                "only {degrees_of_freedom:.1} degrees of freedom are left to estimate the noise"
-            ),
-        }
-    }
+fn listed<T>(values: &[T], word: impl Fn(&T) -> String) -> String {
+    values.iter().map(word).collect::<Vec<_>>().join(" ")
 }
 
 /// What is to be said of a solution with these weights of the observations.
@@ -123,9 +84,7 @@ pub(crate) fn warnings(
     let rival = solution.rival.as_ref().filter(|_| closed);
     warnings.extend(rival.map(|rival| {
         let pairs = problem.parameters.iter().zip(rival.free.iter());
-        Warning::Ambiguous {
-            values: pairs.map(|(parameter, &z)| parameter.value(share(z))).collect(),
-        }
+        Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(share(z))).collect())
     }));
     for (k, estimate) in solution.estimates.iter().enumerate() {
         let name = || estimate.name.clone();
@@ -153,10 +112,10 @@ pub(crate) fn warnings(
     }
     let indices: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] < OUTLIER).collect();
     if !indices.is_empty() {
-        warnings.push(Warning::Outliers { indices });
+        warnings.push(Warning::Outliers(indices));
     }
     if solution.noise_estimated && degrees_of_freedom < FEW {
-        warnings.push(Warning::FewObservations { degrees_of_freedom });
+        warnings.push(Warning::FewObservations(degrees_of_freedom));
     }
     warnings
 }

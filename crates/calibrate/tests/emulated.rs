@@ -211,11 +211,7 @@ fn a_second_minimum_is_told() {
         .unwrap();
     let interval = fit.estimates[0].interval;
     assert!(interval.contains(2.0) && interval.contains(4.0), "{interval:?}");
-    assert!(
-        fit.warnings
-            .iter()
-            .any(|w| matches!(w, Warning::Ambiguous { .. }))
-    );
+    assert!(fit.warnings.iter().any(|w| matches!(w, Warning::Ambiguous(_))));
 }
 
 /// What was learned of other parameters or observations is refused.

@@ -68,9 +68,8 @@ proptest! {
         ordinary in any::<bool>(),
         observations in prop::collection::vec(prop_oneof![4 => -100.0..100.0_f64, 1 => any_number()], 0..7),
         sigmas in prop::option::of(any_number()),
-        (answer, scan, profiles, robust) in (answers(), prop::option::of(0_usize..20), any::<bool>(), any::<bool>()),
+        (answer, profiles, robust) in (answers(), any::<bool>(), any::<bool>()),
         (confidence, noise, threshold) in (any_number(), any_number(), any_number()),
-        start in prop::option::of(prop::collection::vec(any_number(), 0..3)),
         evaluations in 0_usize..150,
     ) {
         let scale = |logarithmic| if logarithmic { Scale::Logarithmic } else { Scale::Linear };
@@ -92,8 +91,6 @@ proptest! {
         let among = |value: f64, good: bool, usual: f64| if good { value } else { usual };
         let mut hostile = Options::default();
         hostile.loss = if robust { Loss::Tukey { threshold } } else { Loss::Squares };
-        hostile.start = start;
-        hostile.first_runs = scan;
         hostile.max_evaluations = evaluations;
         hostile.confidence = among(confidence, !ordinary, default.confidence);
         hostile.relative_noise = among(noise, !ordinary, default.relative_noise);
