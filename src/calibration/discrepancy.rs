@@ -25,8 +25,8 @@ pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
 /// Among all readings, of a `share` of the largest.
 pub fn discrepancy(series: &[Series<'_>], models: &[SeriesModel], share: f64) -> Result<Discrepancy, Error> {
     if !SHARES.contains(&share) {
-        return Err(Error::Calibration(CalibrationError::InvalidOption {
-            name: "discrepancy",
+        return Err(Error::Calibration(CalibrationError::Invalid {
+            what: "option discrepancy".into(),
             value: share,
             allowed: "a share of 0.0001 to 10",
         }));

@@ -8,18 +8,6 @@ use crate::problem::Problem;
 use crate::{CalibrationError, Discrepancy, Emulator, Fit, Model, Options, Parameter};
 
 /// A model to be fitted to observations.
-///
-/// ```
-/// use calibrate::{Calibration, ModelError, Parameter, Scale};
-///
-/// // A line through the origin, measured at 1, 2, 3 and 4 with a standard deviation of 0.1.
-/// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok([1.0, 2.0, 3.0, 4.0].map(|x| p[0] * x).to_vec()) };
-/// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
-/// let calibration = Calibration::new(&model, vec![slope], vec![2.1, 3.9, 6.05, 7.95])?.with_sigmas(vec![0.1; 4])?;
-/// let fit = calibration.fit()?;
-/// assert!((fit.estimates[0].value - 2.0).abs() < 0.02);
-/// # Ok::<(), calibrate::CalibrationError>(())
-/// ```
 #[derive(Clone)]
 pub struct Calibration<'a>(Problem<'a>);
 
@@ -39,32 +27,23 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::DuplicateParameter`], [`CalibrationError::InvalidObservation`], and
-    /// [`CalibrationError::TooFewObservations`] where there are no parameters or more than observations could determine.
+    /// [`CalibrationError::DuplicateParameter`], and [`CalibrationError::Invalid`] for an observation that is
+    /// no number and a column of another length.
     pub fn new(
         model: &'a dyn Model,
         parameters: Vec<Parameter>,
         observations: Vec<f64>,
     ) -> Result<Self, CalibrationError> {
         for (index, parameter) in parameters.iter().enumerate() {
-            let name = parameter.name();
+            let name = parameter.name().to_owned();
             if parameters[..index].iter().any(|other| other.name() == name) {
-                return Err(CalibrationError::DuplicateParameter {
-                    name: name.to_owned(),
-                });
+                return Err(CalibrationError::DuplicateParameter { name });
             }
-        }
-        for parameter in &parameters {
-            if let Some(column) = parameter
-                .column()
-                .filter(|column| column.len() != observations.len())
-            {
-                return Err(CalibrationError::InvalidParameter {
-                    name: parameter.name().to_owned(),
-                    quantity: "length of its column",
-                    value: column.len() as f64,
-                    allowed: "an entry for each observation",
-                });
+            let entries = parameter.column().map_or(observations.len(), <[f64]>::len);
+            if entries != observations.len() {
+                let what = format!("length of its column of parameter {name}");
+                let allowed = "an entry for each observation";
+                return Err(CalibrationError::invalid(what, entries as f64, allowed));
             }
         }
         check_each(&observations, "value", "finite", f64::is_finite)?;
@@ -84,14 +63,15 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`] for one of another number of observations.
+    /// [`CalibrationError::Invalid`] for one of another number of observations.
     pub fn with_discrepancy(mut self, discrepancy: Discrepancy) -> Result<Self, CalibrationError> {
         if discrepancy.count() != self.0.observations.len() {
-            return Err(CalibrationError::InvalidOption {
-                name: "observations of the discrepancy",
-                value: discrepancy.count() as f64,
-                allowed: "as many as there are",
-            });
+            let (what, count) = ("number of observations of the discrepancy", discrepancy.count());
+            return Err(CalibrationError::invalid(
+                what,
+                count as f64,
+                "as many as there are",
+            ));
         }
         self.0.discrepancy = Some(discrepancy);
         Ok(self)
@@ -101,13 +81,15 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::SigmaCount`], and [`CalibrationError::InvalidObservation`] unless every sigma is finite and positive.
+    /// [`CalibrationError::Invalid`] unless there is a finite and positive one for each observation.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
         if sigmas.len() != self.0.observations.len() {
-            return Err(CalibrationError::SigmaCount {
-                sigmas: sigmas.len(),
-                observations: self.0.observations.len(),
-            });
+            let count = sigmas.len() as f64;
+            return Err(CalibrationError::invalid(
+                "number of sigmas",
+                count,
+                "one for each observation",
+            ));
         }
         let positive = |s: f64| s.is_finite() && s > 0.0;
         check_each(&sigmas, "sigma", "finite and positive", positive)?;
@@ -130,7 +112,7 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`].
+    /// [`CalibrationError::Invalid`].
     pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
         options.check()?;
         self.0.options = options;
@@ -209,17 +191,13 @@ impl<'a> Calibration<'a> {
 
 fn check_each(
     values: &[f64],
-    quantity: &'static str,
+    quantity: &str,
     allowed: &'static str,
     holds: impl Fn(f64) -> bool,
 ) -> Result<(), CalibrationError> {
-    match values.iter().position(|&value| !holds(value)) {
-        None => Ok(()),
-        Some(index) => Err(CalibrationError::InvalidObservation {
-            index,
-            quantity,
-            value: values[index],
-            allowed,
-        }),
-    }
+    let Some(index) = values.iter().position(|&value| !holds(value)) else {
+        return Ok(());
+    };
+    let what = format!("{quantity} of observation {index}");
+    Err(CalibrationError::invalid(what, values[index], allowed))
 }

@@ -44,7 +44,7 @@ impl Optimum {
 ///
 /// # Errors
 ///
-/// [`CalibrationError::Optimiser`] where numbers are too large to go on.
+/// [`CalibrationError::NotConverged`] where numbers are too large to go on.
 pub(crate) fn descend(
     likelihood: &Likelihood<'_>,
     deviance: Deviance,
@@ -64,9 +64,7 @@ pub(crate) fn descend(
         last: RefCell::default(),
         hessian: RefCell::default(),
     };
-    let failed = |source: Error| CalibrationError::Optimiser {
-        source: source.into(),
-    };
+    let failed = |_: Error| CalibrationError::NotConverged;
     // Conjugate gradients end after as many steps as there are variables, but for rounding.
     let steps = Steihaug::new().with_max_iters(2 * moving.len() as u64);
     let region = TrustRegion::new(steps)

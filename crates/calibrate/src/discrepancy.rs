@@ -47,14 +47,14 @@ impl Discrepancy {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`] unless `size` is finite and positive and the covariance finite,
+    /// [`CalibrationError::Invalid`] unless `size` is finite and positive and the covariance finite,
     /// with variances of at least 0 and one above it.
     pub fn new(
         count: usize,
         covariance: impl Fn(usize, usize) -> f64,
         size: f64,
     ) -> Result<Self, CalibrationError> {
-        let invalid = |name, value, allowed| CalibrationError::InvalidOption { name, value, allowed };
+        let invalid = |what: &str, value, allowed| CalibrationError::invalid(what, value, allowed);
         if !(size.is_finite() && size > 0.0) {
             return Err(invalid("size of the discrepancy", size, "finite and positive"));
         }

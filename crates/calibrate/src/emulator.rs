@@ -10,11 +10,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::kriging::{Kriging, PredictionVariance};
+use crate::kriging::{Kriging, PredictionVariance, is_same};
 use crate::{Parameter, Part};
-
-/// Distance of places that are one, as a share of the range: far below any standard error.
-const SAME: f64 = 1e-9;
 
 /// What a fit learned of its model: its runs, and smooth functions through them.
 #[derive(Debug, Clone)]
@@ -24,11 +21,11 @@ pub struct Emulator {
     parts: Vec<Part>,
     trend: Option<Arc<Emulator>>,
     nugget: f64,
-    /// Shares of the parameters' ranges, and what the model predicted there.
-    runs: Vec<(DVector<f64>, Vec<f64>)>,
+    /// Shares of the parameters' ranges, and what the model predicted there beyond the trend.
+    runs: Vec<(DVector<f64>, DVector<f64>)>,
     /// Where it had no answer.
     failures: Vec<DVector<f64>>,
-    /// Through what the trend misses of each part.
+    /// Through the runs, of each part.
     krigings: Vec<Kriging>,
     /// That of the fit: there a finer model runs first.
     pub(crate) optimum: Option<DVector<f64>>,
@@ -56,8 +53,7 @@ impl Emulator {
     /// Whether it emulates a model of these parameters with these parts.
     pub(crate) fn is_of(&self, parameters: &[Parameter], parts: &[Part]) -> bool {
         let range = |parameter: &Parameter| (parameter.lower(), parameter.upper(), parameter.scale());
-        let ranges = self.parameters.iter().map(range);
-        ranges.eq(parameters.iter().map(range)) && self.parts == parts
+        self.parameters.iter().map(range).eq(parameters.iter().map(range)) && self.parts == parts
     }
 
     /// Runs of the model that it rests on, without those of a coarser model.
@@ -78,20 +74,22 @@ impl Emulator {
     }
 
     /// What the model predicted there, if it ran and had an answer.
-    pub(crate) fn known(&self, place: &DVector<f64>) -> Option<&[f64]> {
-        let run = self.runs.iter().find(|(run, _)| is_same(run, place))?;
-        Some(&run.1)
+    pub(crate) fn known(&self, place: &DVector<f64>) -> Option<Vec<f64>> {
+        let (_, beyond) = self.runs.iter().find(|(run, _)| is_same(run, place))?;
+        let trend = self.trend.as_ref().map(|trend| trend.predict(place));
+        Some(
+            trend
+                .map_or_else(|| beyond.clone(), |trend| trend + beyond)
+                .data
+                .into(),
+        )
     }
 
     /// Whether the model should have an answer at a place: whether the nearest run has.
     fn has_answer(&self, place: &DVector<f64>) -> bool {
-        let nearest = |places: &mut dyn Iterator<Item = &DVector<f64>>| {
-            places
-                .map(|run| (run - place).norm_squared())
-                .fold(f64::INFINITY, f64::min)
-        };
-        self.failures.is_empty()
-            || nearest(&mut self.runs.iter().map(|(run, _)| run)) < nearest(&mut self.failures.iter())
+        let distance = |run: &DVector<f64>| (run - place).norm_squared();
+        let failed = self.failures.iter().map(distance).fold(f64::INFINITY, f64::min);
+        failed.is_infinite() || self.runs.iter().any(|(run, _)| distance(run) < failed)
     }
 
     /// Adds runs at places, with what the model predicted where it had an answer.
@@ -99,41 +97,23 @@ impl Emulator {
         for (place, predicted) in runs {
             match predicted {
                 _ if self.knows(&place) => {}
-                Some(predicted) => self.runs.push((place, predicted)),
                 None => self.failures.push(place),
-            }
-        }
-        let trends: Vec<Option<DVector<f64>>> = self
-            .runs
-            .iter()
-            .map(|(place, _)| self.trend.as_ref().map(|trend| trend.predict(place)))
-            .collect();
-        let mut first = 0;
-        let mut of_part = |part: &Part| {
-            let mut places: Vec<DVector<f64>> = Vec::new();
-            let mut rows = Vec::new();
-            for (row, (place, _)) in self.runs.iter().enumerate() {
-                let place = chosen(place, &part.parameters);
-                // Runs that differ in other parameters alone say the same.
-                if !places.iter().any(|other| is_same(other, &place)) {
-                    places.push(place);
-                    rows.push(row);
+                Some(predicted) => {
+                    let mut beyond = DVector::from_vec(predicted);
+                    if let Some(trend) = &self.trend {
+                        beyond -= trend.predict(&place);
+                    }
+                    self.runs.push((place, beyond));
                 }
             }
-            let values = DMatrix::from_fn(rows.len(), part.predictions, |row, column| {
-                let trend = trends[rows[row]]
-                    .as_ref()
-                    .map_or(0.0, |trend| trend[first + column]);
-                self.runs[rows[row]].1[first + column] - trend
-            });
-            first += part.predictions;
-            Kriging::through(places, values, self.nugget)
+        }
+        let mut next = 0;
+        let of_part = |part: &Part| {
+            let rows = next..next + part.predictions;
+            next = rows.end;
+            Kriging::through(&self.runs, &part.parameters, rows, self.nugget)
         };
-        self.krigings = if self.runs.is_empty() {
-            Vec::new()
-        } else {
-            self.parts.iter().map(&mut of_part).collect()
-        };
+        self.krigings = self.parts.iter().map(of_part).collect();
     }
 
     /// Predictions at a place; nothing where the model should have no answer.
@@ -144,13 +124,13 @@ impl Emulator {
     fn predict(&self, place: &DVector<f64>) -> DVector<f64> {
         let mut predicted = match &self.trend {
             Some(trend) => trend.predict(place),
-            None => DVector::zeros(self.parts.iter().map(|part| part.predictions).sum()),
+            None => DVector::zeros(self.predictions()),
         };
-        let mut first = 0;
-        for (part, kriging) in self.parts.iter().zip(&self.krigings) {
-            let mut rows = predicted.rows_mut(first, part.predictions);
-            rows += kriging.at(&chosen(place, &part.parameters));
-            first += part.predictions;
+        let mut next = 0;
+        for (kriging, part) in self.krigings.iter().zip(&self.parts) {
+            let mut rows = predicted.rows_mut(next, part.predictions);
+            rows += kriging.at(place);
+            next += part.predictions;
         }
         predicted
     }
@@ -159,45 +139,51 @@ impl Emulator {
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DMatrix<f64> {
         let mut slopes = match &self.trend {
             Some(trend) => trend.slopes(place),
-            None => DMatrix::zeros(self.parts.iter().map(|part| part.predictions).sum(), place.len()),
+            None => DMatrix::zeros(self.predictions(), place.len()),
         };
-        let mut first = 0;
-        for (part, kriging) in self.parts.iter().zip(&self.krigings) {
-            let own = kriging.slopes(&chosen(place, &part.parameters));
-            for (column, &k) in part.parameters.iter().enumerate() {
-                let mut rows = slopes.view_mut((first, k), (part.predictions, 1));
-                rows += own.column(column);
+        let mut next = 0;
+        for (kriging, part) in self.krigings.iter().zip(&self.parts) {
+            for (input, slope) in kriging.slopes(place) {
+                let mut rows = slopes.view_mut((next, input), (part.predictions, 1));
+                rows += slope;
             }
-            first += part.predictions;
+            next += part.predictions;
         }
         slopes
+    }
+
+    fn predictions(&self) -> usize {
+        self.parts.iter().map(|part| part.predictions).sum()
     }
 
     /// What it knows of its own error, where the square of that of prediction k counts `weights[k]`;
     /// nothing with less than two runs.
     pub(crate) fn doubt(&self, weights: &[f64]) -> Option<Doubt> {
-        let mut first = 0;
+        let mut left = weights;
         let of_part = |(kriging, part): (&Kriging, &Part)| {
-            let own = weights.get(first..first + part.predictions)?;
-            first += part.predictions;
-            Some((kriging.variance(own)?, part.parameters.clone()))
+            let (own, others) = left.split_at_checked(part.predictions)?;
+            left = others;
+            kriging.variance(own)
         };
-        let doubts: Option<Vec<_>> = self.krigings.iter().zip(&self.parts).map(of_part).collect();
-        doubts.filter(|doubts| !doubts.is_empty()).map(Doubt)
+        let doubts = self.krigings.iter().zip(&self.parts).map(of_part);
+        Some(Doubt(doubts.collect::<Option<Vec<_>>>()?))
     }
 }
 
-/// Standard error of an emulator's predictions, all of them together: of each part, with the indices of
-/// its parameters.
-pub(crate) struct Doubt(Vec<(PredictionVariance, Vec<usize>)>);
+/// Standard error of an emulator's predictions, all of them together, by the variance of each part.
+pub(crate) struct Doubt(Vec<PredictionVariance>);
 
 impl Doubt {
-    /// At shares of the ranges.
+    /// At a place.
     pub fn at(&self, place: &DVector<f64>) -> f64 {
-        let variance = |(variance, parameters): &(PredictionVariance, Vec<usize>)| {
-            variance.at(&chosen(place, parameters))
-        };
-        self.0.iter().map(variance).sum::<f64>().sqrt()
+        self.0.iter().map(|part| part.at(place)).sum::<f64>().sqrt()
+    }
+
+    /// What is left of it once the model has run there.
+    pub fn learn(&mut self, place: &DVector<f64>) {
+        for part in &mut self.0 {
+            part.learn(place);
+        }
     }
 
     /// Indices of places, each beside a standard error that is allowed there, at which the model should run:
@@ -205,35 +191,18 @@ impl Doubt {
     pub fn asked(&mut self, places: &[(DVector<f64>, f64)]) -> Vec<usize> {
         let mut asked = Vec::new();
         loop {
-            let size = |(place, allowed): &(DVector<f64>, f64)| {
+            let size = |&index: &usize| {
+                let (place, allowed) = &places[index];
                 let size = self.at(place) / allowed;
-                if size.is_nan() { f64::INFINITY } else { size }
+                (if size.is_nan() { f64::INFINITY } else { size }, index)
             };
-            let sizes: Vec<f64> = places.iter().map(size).collect();
-            let left = (0..sizes.len()).filter(|index| !asked.contains(index));
-            let most = left.max_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
-            let Some(most) = most.filter(|&most| sizes[most] > 1.0) else {
+            let left = (0..places.len()).filter(|index| !asked.contains(index));
+            let most = left.map(|index| size(&index)).max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, most)) = most.filter(|(size, _)| *size > 1.0) else {
                 return asked;
             };
             self.learn(&places[most].0);
             asked.push(most);
         }
     }
-
-    /// What is left of it once the model has run there.
-    pub fn learn(&mut self, place: &DVector<f64>) {
-        for (variance, parameters) in &mut self.0 {
-            variance.learn(chosen(place, parameters));
-        }
-    }
-}
-
-/// Whether two places are one.
-pub(crate) fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
-    (a - b).amax() < SAME
-}
-
-/// The entries of a place with these indices.
-fn chosen(place: &DVector<f64>, indices: &[usize]) -> DVector<f64> {
-    DVector::from_fn(indices.len(), |k, _| place[indices[k]])
 }

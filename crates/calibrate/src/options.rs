@@ -51,7 +51,13 @@ impl Default for Options {
 
 impl Options {
     pub(crate) fn check(&self) -> Result<(), CalibrationError> {
-        let invalid = |name, value, allowed| Err(CalibrationError::InvalidOption { name, value, allowed });
+        let invalid = |name: &str, value, allowed| {
+            Err(CalibrationError::invalid(
+                format!("option {name}"),
+                value,
+                allowed,
+            ))
+        };
         if !(0.5..=0.9999).contains(&self.confidence) {
             return invalid("confidence", self.confidence, "between 0.5 and 0.9999");
         }

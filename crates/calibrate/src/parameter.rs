@@ -57,15 +57,12 @@ impl Parameter {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidParameter`] unless the bounds are finite, in order, and positive with a logarithmic scale.
+    /// [`CalibrationError::Invalid`] unless the bounds are finite, in order, and positive with a logarithmic scale.
     pub fn new(name: &str, lower: f64, upper: f64, scale: Scale) -> Result<Self, CalibrationError> {
         let error = |quantity, value, allowed| Err(invalid(name, quantity, value, allowed));
         if !lower.is_finite() || (scale == Scale::Logarithmic && lower <= 0.0) {
-            return error(
-                "lower bound",
-                lower,
-                "finite, and positive with a logarithmic scale",
-            );
+            let allowed = "finite, and positive with a logarithmic scale";
+            return error("lower bound", lower, allowed);
         }
         let parameter = Self {
             name: name.to_owned(),
@@ -88,7 +85,7 @@ impl Parameter {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidParameter`] unless the bounds are finite and in order and the column is finite.
+    /// [`CalibrationError::Invalid`] unless the bounds are finite and in order and the column is finite.
     pub fn term(name: &str, lower: f64, upper: f64, column: &[f64]) -> Result<Self, CalibrationError> {
         let parameter = Self::new(name, lower, upper, Scale::Linear)?;
         if let Some(&value) = column.iter().find(|value| !value.is_finite()) {
@@ -104,7 +101,7 @@ impl Parameter {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidParameter`] unless the prior's value lies within the bounds and its sigma is finite and
+    /// [`CalibrationError::Invalid`] unless the prior's value lies within the bounds and its sigma is finite and
     /// positive.
     pub fn with_prior(mut self, prior: Prior) -> Result<Self, CalibrationError> {
         let error = |quantity, value, allowed| Err(invalid(&self.name, quantity, value, allowed));
@@ -202,13 +199,8 @@ pub(crate) fn free(share: f64) -> f64 {
     (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
 }
 
-fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str) -> CalibrationError {
-    CalibrationError::InvalidParameter {
-        name: name.to_owned(),
-        quantity,
-        value,
-        allowed,
-    }
+fn invalid(name: &str, quantity: &str, value: f64, allowed: &'static str) -> CalibrationError {
+    CalibrationError::invalid(format!("{quantity} of parameter {name}"), value, allowed)
 }
 
 #[cfg(test)]

@@ -38,9 +38,14 @@ impl Problem<'_> {
         self.parameters.iter().filter(|p| p.prior().is_some()).count()
     }
 
+    /// Noise of the predictions as a share of them.
+    pub fn relative_noise(&self) -> f64 {
+        self.options.relative_noise.max(RESOLUTION)
+    }
+
     /// Noise that the model's predictions have at least, in units of the sigmas.
     pub fn least_noise(&self) -> f64 {
-        let share = self.options.relative_noise.max(RESOLUTION);
+        let share = self.relative_noise();
         let sizes = self.observations.iter().zip(&self.sigmas);
         let noise = sizes.map(|(value, sigma)| share * value.abs() / sigma);
         noise.fold(f64::MIN_POSITIVE, f64::max)
@@ -56,22 +61,21 @@ impl Problem<'_> {
                 parameters: (0..parameters).collect(),
             }]);
         }
-        let invalid = |name, value: usize, allowed| CalibrationError::InvalidOption {
-            name,
-            value: value as f64,
-            allowed,
-        };
         let predictions: usize = parts.iter().map(|part| part.predictions).sum();
         if predictions != observations {
             let allowed = "as many as there are observations";
-            return Err(invalid("predictions of the model's parts", predictions, allowed));
+            return Err(CalibrationError::invalid(
+                "predictions of the model's parts",
+                predictions as f64,
+                allowed,
+            ));
         }
         let mut indices = parts.iter().flat_map(|part| &part.parameters);
         if let Some(&index) = indices.find(|&&index| index >= parameters) {
             let allowed = "below the number of the model's parameters";
-            return Err(invalid(
+            return Err(CalibrationError::invalid(
                 "index of a parameter of the model's parts",
-                index,
+                index as f64,
                 allowed,
             ));
         }
@@ -95,11 +99,14 @@ impl Problem<'_> {
             });
         }
         match self.options.loss {
-            Loss::Tukey { threshold } if self.discrepancy.is_some() => Err(CalibrationError::InvalidOption {
-                name: "threshold of the loss",
-                value: threshold,
-                allowed: "least squares beside a discrepancy",
-            }),
+            Loss::Tukey { threshold } if self.discrepancy.is_some() => {
+                let allowed = "least squares beside a discrepancy";
+                Err(CalibrationError::invalid(
+                    "threshold of the loss",
+                    threshold,
+                    allowed,
+                ))
+            }
             _ => Ok(()),
         }
     }

@@ -500,13 +500,13 @@ fn bad_input_is_named() {
     // The logarithms of these bounds are one number.
     assert!(matches!(
         Parameter::new("p", 1e10, 1e10_f64.next_up(), Scale::Logarithmic),
-        Err(CalibrationError::InvalidParameter { .. })
+        Err(CalibrationError::Invalid { .. })
     ));
     let model = saturation(&passes(5));
     let new = |data: Vec<f64>| Calibration::new(&model, saturation_parameters(), data);
     assert!(matches!(
         new(vec![1.0, f64::NAN]),
-        Err(CalibrationError::InvalidObservation { index: 1, .. })
+        Err(CalibrationError::Invalid { what, .. }) if what == "value of observation 1"
     ));
     assert!(matches!(
         new(vec![1.0, 2.0]).unwrap().fit(),
@@ -525,16 +525,13 @@ fn bad_input_is_named() {
     ));
     assert!(matches!(
         new(vec![1.0; 5]).unwrap().with_sigmas(vec![1.0; 4]),
-        Err(CalibrationError::SigmaCount {
-            sigmas: 4,
-            observations: 5
-        })
+        Err(CalibrationError::Invalid { value: 4.0, .. })
     ));
     assert!(matches!(
         new(vec![1.0; 5])
             .unwrap()
             .with_sigmas(vec![1.0, 1.0, 0.0, 1.0, 1.0]),
-        Err(CalibrationError::InvalidObservation { index: 2, .. })
+        Err(CalibrationError::Invalid { what, .. }) if what == "sigma of observation 2"
     ));
     for bad in [
         Parameter::new("a", 1.0, 1.0, Scale::Linear),
@@ -542,7 +539,7 @@ fn bad_input_is_named() {
         Parameter::new("a", 0.0, f64::INFINITY, Scale::Linear),
         Parameter::new("a", 0.0, 1.0, Scale::Logarithmic),
     ] {
-        assert!(matches!(bad, Err(CalibrationError::InvalidParameter { .. })));
+        assert!(matches!(bad, Err(CalibrationError::Invalid { .. })));
     }
     let same = vec![
         saturation_parameters().remove(0),

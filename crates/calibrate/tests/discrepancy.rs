@@ -148,7 +148,7 @@ fn what_does_not_go_together_is_refused() {
     let calibration = Calibration::new(&line, vec![level], vec![1.0, 1.1, 0.9, 1.0]).unwrap();
     let of = |count| Discrepancy::new(count, |_, _| 1.0, 0.1).unwrap();
     let refused =
-        |error: CalibrationError| assert!(matches!(error, CalibrationError::InvalidOption { .. }), "{error}");
+        |error: CalibrationError| assert!(matches!(error, CalibrationError::Invalid { .. }), "{error}");
     refused(calibration.clone().with_discrepancy(of(3)).unwrap_err());
     refused(Discrepancy::new(4, |_, _| f64::NAN, 0.1).unwrap_err());
     refused(Discrepancy::new(4, |_, _| 1.0, 0.0).unwrap_err());

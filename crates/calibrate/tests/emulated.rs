@@ -156,7 +156,7 @@ fn parts_that_do_not_fit_the_observations_are_refused() {
         let calibration = Calibration::new(&model, saturation_parameters(), vec![1.0; 40]).unwrap();
         let found = calibration.fit();
         assert!(
-            matches!(found, Err(CalibrationError::InvalidOption { .. })),
+            matches!(found, Err(CalibrationError::Invalid { .. })),
             "{found:?}"
         );
     }
@@ -237,7 +237,7 @@ fn a_stranger_is_no_coarse_model() {
         fit(30, narrower, Some(emulator)),
     ] {
         assert!(
-            matches!(found, Err(CalibrationError::InvalidOption { .. })),
+            matches!(found, Err(CalibrationError::Invalid { .. })),
             "{found:?}"
         );
     }
