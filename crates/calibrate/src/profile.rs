@@ -13,10 +13,11 @@
 use nalgebra::DVector;
 
 use crate::CalibrationError;
+use crate::covariance::Covariance;
 use crate::descent::{Optimum, descend};
 use crate::likelihood::{Likelihood, Point};
-use crate::parameter;
-use crate::tuning::{ACCURACY, GRID, JUMP};
+use crate::parameter::FARTHEST;
+use crate::tuning::{ACCURACY, BETTER, GRID, JUMP};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
@@ -39,6 +40,7 @@ impl ProfilePoint {
 }
 
 /// The profile of one parameter.
+#[derive(Clone)]
 pub(crate) struct Profile {
     parameter: usize,
     /// Index of the optimum.
@@ -61,6 +63,20 @@ impl Profile {
         finite.map(move |point| (point.point.free[k], point.rise))
     }
 
+    /// Whether a point lies below both values between which it lies.
+    fn lies_above(&self, point: &ProfilePoint) -> bool {
+        let k = self.parameter;
+        let next = self
+            .points
+            .partition_point(|other| other.point.free[k] < point.point.free[k]);
+        let around = [next.checked_sub(1), Some(next)];
+        let mut around = around
+            .into_iter()
+            .flatten()
+            .filter_map(|index| self.points.get(index));
+        around.all(|other| point.rise < other.rise - BETTER)
+    }
+
     /// Points within reach of the optimum, beyond some that are not.
     pub fn beyond_barrier(&self, wanted: f64) -> impl Iterator<Item = &ProfilePoint> {
         let inside = move |point: &&ProfilePoint| point.root() < wanted;
@@ -74,38 +90,59 @@ impl Profile {
 pub(crate) struct Profiler<'a> {
     pub likelihood: &'a Likelihood<'a>,
     pub optimum: &'a Optimum,
+    pub covariance: &'a Covariance,
     /// Root of the rise at which an interval ends.
     pub wanted: f64,
 }
 
 impl Profiler<'_> {
-    /// The profile of parameter `k`, from the optimum to both bounds and back from there.
-    pub fn profile(&self, k: usize) -> Result<Profile, CalibrationError> {
+    /// The profiles of the first `count` parameters. What one of them finds is true for all: where a point of
+    /// another lies below a profile, the others are in a wrong valley there.
+    pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
+        let first = (0..count)
+            .map(|k| self.profile(k, &[]))
+            .collect::<Result<Vec<_>, _>>()?;
+        let again = |profile: &Profile| {
+            let foreign = first.iter().filter(|other| other.parameter != profile.parameter);
+            let within = foreign.flat_map(|other| &other.points);
+            let within = within.filter(|point| point.root() < EXCLUSION * self.wanted);
+            let below: Vec<&ProfilePoint> = within.filter(|point| profile.lies_above(point)).collect();
+            if below.is_empty() {
+                return Ok(profile.clone());
+            }
+            self.profile(profile.parameter, &below)
+        };
+        first.iter().map(again).collect()
+    }
+
+    /// The profile of parameter `k`, from the optimum to both bounds, and from there and from `known` points
+    /// back.
+    fn profile(&self, k: usize, known: &[&ProfilePoint]) -> Result<Profile, CalibrationError> {
         let here = self.optimum.point.free[k];
-        let grid = (0..GRID).map(|index| parameter::free(index as f64 / (GRID - 1) as f64));
-        let (below, above): (Vec<f64>, Vec<f64>) = grid.filter(|z| *z != here).partition(|z| *z < here);
-        let middle = below.len();
         let mut points = vec![ProfilePoint {
             point: self.optimum.point.clone(),
             rise: 0.0,
         }];
-        for &z in &above {
-            points.push(self.fit_others(k, z, &points[points.len() - 1])?);
+        for bound in [-FARTHEST, FARTHEST] {
+            for z in self.values(k, here, bound) {
+                points.push(self.fit_others(k, z, &points[points.len() - 1])?);
+            }
+            points.reverse();
         }
-        points.reverse();
-        for &z in below.iter().rev() {
-            points.push(self.fit_others(k, z, &points[points.len() - 1])?);
-        }
-        points.reverse();
-        for index in (middle + 1..points.len() - 1).rev() {
+        points.extend(known.iter().map(|&point| point.clone()));
+        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
+        for index in (0..points.len() - 1).rev() {
             points[index] = self.lower(k, &points[index], &points[index + 1])?;
         }
-        for index in 1..middle {
+        for index in 1..points.len() {
             points[index] = self.lower(k, &points[index], &points[index - 1])?;
         }
         let mut profile = Profile {
             parameter: k,
-            middle,
+            middle: points
+                .iter()
+                .take_while(|point| point.point.free[k] < here)
+                .count(),
             points,
             ends: [None; 2],
             at_ends: Vec::new(),
@@ -117,6 +154,19 @@ impl Profiler<'_> {
             }
         }
         Ok(profile)
+    }
+
+    /// Half of the values of parameter `k` but its estimate: to a bound, at distances that grow by one factor
+    /// from half a standard error on.
+    fn values(&self, k: usize, here: f64, bound: f64) -> Vec<f64> {
+        let (count, farthest) = (GRID / 2, bound - here);
+        let error = self.covariance.standard_error(k).unwrap_or(f64::INFINITY);
+        let first = (0.5 * error / farthest.abs()).min(1.0 / count as f64);
+        let share = |index: usize| first.powf(1.0 - index as f64 / (count - 1) as f64);
+        if farthest == 0.0 {
+            return Vec::new();
+        }
+        (0..count).map(|index| here + farthest * share(index)).collect()
     }
 
     /// Fits all parameters but `k`, held at `z`, from where a neighbour has them.

@@ -82,15 +82,14 @@ pub(crate) fn solve(
             likelihood,
             wanted: quantile(tail, noise_estimated.then(|| freedom(problem, &optimum))),
             optimum: &optimum,
+            covariance: &Covariance::of(&optimum),
         };
         let wanted = if kind == Profiles::All {
             problem.parameters.len()
         } else {
             0
         };
-        let profiles = (0..wanted)
-            .map(|k| profiler.profile(k))
-            .collect::<Result<Vec<_>, _>>()?;
+        let profiles = profiler.profiles(wanted)?;
         let points = profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise));
         if let Some(lower) = lowest.filter(|lowest| lowest.rise < -BETTER) {
@@ -130,7 +129,7 @@ pub(crate) fn freedom(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
 /// The optimum with estimates and their intervals; without profiles, these are symmetric.
 fn describe(profiler: &Profiler<'_>, profiles: &[Profile]) -> Result<Solution, CalibrationError> {
     let (optimum, wanted) = (profiler.optimum, profiler.wanted);
-    let covariance = Covariance::of(optimum);
+    let covariance = profiler.covariance.clone();
     let (mut estimates, mut shares) = (Vec::new(), Vec::new());
     for (k, parameter) in profiler.likelihood.problem.parameters.iter().enumerate() {
         let error = covariance.standard_error(k);
