@@ -14,7 +14,7 @@ use std::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::tuning::LENGTH;
+use crate::tuning::{LENGTH, NUGGETS};
 
 /// Distance of places that are one, as a share of the range: far below any standard error.
 const SAME: f64 = 1e-9;
@@ -57,7 +57,7 @@ impl Kriging {
         let mut values = DMatrix::from_fn(count, width, |run, row| own[run][rows.start + row]);
         let correlations = DMatrix::from_fn(count, count, |i, j| correlation(&places[i], &places[j]));
         // A larger nugget makes the matrix positive definite whatever the rounding.
-        let factor = [nugget, 1e-8, 1e-4, 1.0].into_iter().find_map(|nugget| {
+        let factor = [nugget, NUGGETS.1, 1e-4, 1.0].into_iter().find_map(|nugget| {
             Cholesky::new(&correlations + DMatrix::from_diagonal_element(count, count, nugget))
         });
         let solve = |values: &DMatrix<f64>| match &factor {
@@ -152,7 +152,7 @@ impl PredictionVariance {
     /// What is left of it once the model has run there.
     pub fn learn(&mut self, place: &DVector<f64>) {
         let place = chosen(place, &self.inputs);
-        let column = correlations(&self.places, &place).push(1.0 + 1e-8);
+        let column = correlations(&self.places, &place).push(1.0 + NUGGETS.1);
         self.factor = self.factor.insert_column(self.places.len(), column);
         self.places.push(place);
     }

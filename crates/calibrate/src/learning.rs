@@ -14,7 +14,7 @@ use crate::likelihood::{Likelihood, Point};
 use crate::problem::Problem;
 use crate::search::{MAX_ROUNDS, all_over};
 use crate::solution::{CheckPoint, Solution, solve};
-use crate::tuning::{ACCURACY, APART, FIRST_RUNS, HIDDEN, HIGH, NEAR, SETTLED, SURE};
+use crate::tuning::{ACCURACY, APART, FIRST_RUNS, HIDDEN, HIGH, NEAR, NUGGETS, SETTLED, SURE};
 use crate::whitening::Whitening;
 use crate::{CalibrationError, Emulator, ModelError, Profiles};
 
@@ -69,7 +69,7 @@ impl<'a> Learner<'a> {
                 parameters,
                 parts,
                 coarse,
-                problem.options.relative_noise.powi(2).clamp(1e-12, 1e-8),
+                problem.options.relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
             ),
             evaluations: 0,
         };
