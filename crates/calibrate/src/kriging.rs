@@ -226,7 +226,7 @@ mod tests {
     /// Rounding leaves no doubt; what is no number leaves nothing sure.
     #[test]
     fn variance_is_a_number() {
-        let mut kriging = through(|place| place.sum());
+        let mut kriging = through(DVector::sum);
         let at = |kriging: &Kriging| kriging.variance(&[1.0; 2]).unwrap().at(&dvector![0.4, 0.6]);
         assert!(at(&kriging) > 0.0);
         kriging.squares = vec![-1e-20, 0.0];
@@ -238,7 +238,7 @@ mod tests {
     /// A run that is made leaves no doubt where it was, and less around it.
     #[test]
     fn a_run_takes_the_doubt() {
-        let kriging = through(|place| place.sum());
+        let kriging = through(DVector::sum);
         let mut variance = kriging.variance(&[1.0; 2]).unwrap();
         let (place, near) = (dvector![0.4, 0.6], dvector![0.42, 0.6]);
         let before = variance.at(&near);

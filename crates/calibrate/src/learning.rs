@@ -31,6 +31,15 @@ const LOST: f64 = 1e-4;
 /// A place, and what the model said there.
 type Run = (DVector<f64>, Result<Vec<f64>, ModelError>);
 
+/// What the model said in a round.
+struct Seen {
+    runs: Vec<Run>,
+    /// Residuals at the optimum, if it has an answer there.
+    here: Option<DVector<f64>>,
+    /// Whether it agrees with the emulator at all places.
+    agrees: bool,
+}
+
 /// An emulator and the model that it learns from.
 pub(crate) struct Learner<'a> {
     pub problem: &'a Problem<'a>,
@@ -105,49 +114,63 @@ impl<'a> Learner<'a> {
             let mut likelihood = Likelihood::new(problem, &self.emulator);
             let mut solution = solve(&mut likelihood, last.clone(), kind)?;
             let (mut doubt, asked) = doubtful(&likelihood, &solution);
+            let mut seen = self.ask(&likelihood, &solution, &asked)?;
             let free = solution.optimum.point.free.clone();
-            let optimum = likelihood.place(&free);
-            let mut places = vec![optimum.clone()];
-            places.extend(asked.iter().map(|check| likelihood.place(&check.point.free)));
-            let mut runs = self.run(places)?;
             // Where readings have no noise, it is lost in rounding.
             let lost = |last: &DVector<f64>| round == MAX_ROUNDS && (last - &free).amax() < LOST;
-            let spent = runs.is_empty() || last.as_ref().is_some_and(lost);
-            let seen = |place: &DVector<f64>| match runs.iter().find(|(other, _)| other == place) {
-                Some((_, said)) => said.as_ref().ok().cloned(),
-                None => self.emulator.known(place),
-            };
-            let here = seen(&optimum).map(|said| likelihood.residuals(&free, &said));
-            let settled = here
-                .as_ref()
-                .is_some_and(|here| is_settled(&likelihood, &solution, here));
-            let agree = |here| {
-                asked.iter().all(|check| {
-                    let said = seen(&likelihood.place(&check.point.free));
-                    said.is_some_and(|said| agrees(&likelihood, &solution, here, check, &said))
-                })
-            };
-            let agreed = settled && kind == wanted && here.as_ref().is_some_and(agree);
-            let hidden = if agreed {
-                hidden(&likelihood, &solution, doubt.as_mut())
-            } else {
-                Vec::new()
-            };
-            if (agreed && hidden.is_empty()) || (spent && kind == wanted) {
-                solution.optimum.point.residuals = here.ok_or(CalibrationError::NotConverged)?;
-                let whitening = likelihood.whitening;
-                self.learn(runs);
-                self.emulator.optimum = Some(optimum);
-                return Ok((solution, whitening));
+            let spent = seen.runs.is_empty() || last.as_ref().is_some_and(lost);
+            let mut hidden_places = Vec::new();
+            if kind == wanted {
+                if seen.agrees {
+                    hidden_places = hidden(&likelihood, &solution, doubt.as_mut());
+                }
+                if spent || (seen.agrees && hidden_places.is_empty()) {
+                    let optimum = likelihood.place(&free);
+                    solution.optimum.point.residuals = seen.here.ok_or(CalibrationError::NotConverged)?;
+                    let whitening = likelihood.whitening;
+                    self.learn(seen.runs);
+                    self.emulator.optimum = Some(optimum);
+                    return Ok((solution, whitening));
+                }
             }
-            if settled || spent || here.is_some_and(|here| solution.shift(&here) < NEAR) {
+            let is_near = |here: &DVector<f64>| solution.shift(here) < NEAR;
+            if spent || seen.agrees || seen.here.as_ref().is_some_and(is_near) {
                 kind = wanted;
             }
-            runs.extend(self.run(hidden)?);
+            seen.runs.extend(self.run(hidden_places)?);
             last = Some(free);
-            self.learn(runs);
+            self.learn(seen.runs);
         }
         Err(CalibrationError::NotConverged)
+    }
+
+    /// What the model says at the optimum and at these places.
+    fn ask(
+        &self,
+        likelihood: &Likelihood<'_>,
+        solution: &Solution,
+        asked: &[&CheckPoint],
+    ) -> Result<Seen, CalibrationError> {
+        let points = asked.iter().map(|check| &check.point);
+        let points = [&solution.optimum.point].into_iter().chain(points);
+        let runs = self.run(points.map(|point| likelihood.place(&point.free)).collect())?;
+        let residuals = |point: &Point| {
+            let place = likelihood.place(&point.free);
+            let said = match runs.iter().find(|(other, _)| *other == place) {
+                Some((_, said)) => said.as_ref().ok().cloned(),
+                None => self.emulator.known(&place),
+            };
+            Some(likelihood.residuals(&point.free, &said?))
+        };
+        let here = residuals(&solution.optimum.point);
+        let holds = |here: &DVector<f64>, check: &CheckPoint| {
+            let seen = residuals(&check.point);
+            seen.is_some_and(|seen| agrees(likelihood, solution, here, check, &seen))
+        };
+        let agrees = here.as_ref().is_some_and(|here| {
+            is_settled(likelihood, solution, here) && asked.iter().all(|check| holds(here, check))
+        });
+        Ok(Seen { runs, here, agrees })
     }
 
     /// Runs the model where it has not run yet.
@@ -254,20 +277,17 @@ fn is_settled(likelihood: &Likelihood<'_>, solution: &Solution, seen: &DVector<f
     solution.shift(seen) <= SETTLED.max(share * noise) && change <= TOLD.max(noise)
 }
 
-/// Whether what the model said at a place means what the emulator did, where `here` are its residuals at the
+/// Whether the model's residuals at a place mean what the emulator's did, where `here` are those at the
 /// optimum.
 fn agrees(
     likelihood: &Likelihood<'_>,
     solution: &Solution,
     here: &DVector<f64>,
     check: &CheckPoint,
-    said: &[f64],
+    seen: &DVector<f64>,
 ) -> bool {
     let deviance = &solution.optimum.deviance;
-    let residuals = likelihood.residuals(&check.point.free, said);
-    let root = (deviance.total(&residuals) - deviance.total(here))
-        .max(0.0)
-        .sqrt();
+    let root = (deviance.total(seen) - deviance.total(here)).max(0.0).sqrt();
     // Half of what would make it another answer.
     let margin = 0.5 * (check.root - check.threshold).abs();
     let accuracy = (ACCURACY * check.threshold).max(noise(likelihood, solution));

@@ -44,13 +44,14 @@ impl<'a> Likelihood<'a> {
 
     /// The residuals by the emulator.
     pub fn point(&self, free: DVector<f64>) -> Point {
-        let residuals = match self.emulator.at(&self.place(&free)) {
-            Some(predicted) => self.residuals(&free, predicted.as_slice()),
-            None => {
-                let count = self.problem.observations.len() + self.problem.priors();
-                DVector::from_element(count, f64::INFINITY)
-            }
+        let predicted = self.emulator.at(&self.place(&free));
+        let none = || {
+            DVector::from_element(
+                self.problem.observations.len() + self.problem.priors(),
+                f64::INFINITY,
+            )
         };
+        let residuals = predicted.map_or_else(none, |predicted| self.residuals(&free, predicted.as_slice()));
         Point { free, residuals }
     }
 

@@ -91,20 +91,23 @@ pub(crate) struct Profiler<'a> {
     pub likelihood: &'a Likelihood<'a>,
     pub optimum: &'a Optimum,
     pub covariance: &'a Covariance,
+    /// Where descents from elsewhere ended.
+    pub others: &'a [Point],
     /// Root of the rise at which an interval ends.
     pub wanted: f64,
 }
 
 impl Profiler<'_> {
     /// The profiles of the first `count` parameters. What one of them finds is true for all: where a point of
-    /// another lies below a profile, the others are in a wrong valley there.
+    /// another, or a minimum elsewhere, lies below a profile, the others are in a wrong valley there.
     pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
         let first = (0..count)
             .map(|k| self.profile(k, &[]))
             .collect::<Result<Vec<_>, _>>()?;
+        let minima: Vec<ProfilePoint> = self.others.iter().cloned().map(|point| self.at(point)).collect();
         let again = |profile: &Profile| {
             let foreign = first.iter().filter(|other| other.parameter != profile.parameter);
-            let within = foreign.flat_map(|other| &other.points);
+            let within = foreign.flat_map(|other| &other.points).chain(&minima);
             let within = within.filter(|point| point.root() < EXCLUSION * self.wanted);
             let below: Vec<&ProfilePoint> = within.filter(|point| profile.lies_above(point)).collect();
             if below.is_empty() {
@@ -174,8 +177,12 @@ impl Profiler<'_> {
         let mut start: DVector<f64> = from.point.free.clone();
         start[k] = z;
         let point = descend(self.likelihood, self.optimum.deviance, start, Some(k))?;
+        Ok(self.at(point))
+    }
+
+    fn at(&self, point: Point) -> ProfilePoint {
         let rise = self.optimum.deviance.total(&point.residuals) - self.optimum.value();
-        Ok(ProfilePoint { point, rise })
+        ProfilePoint { point, rise }
     }
 
     /// The lower of a point and what its neighbour leads to there. Where the others move as one from point to

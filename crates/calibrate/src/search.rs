@@ -35,7 +35,8 @@ fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
     }
 }
 
-/// The optimum on the emulator; `start` is tried before the best places of a scan.
+/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places of a
+/// scan.
 ///
 /// # Errors
 ///
@@ -44,7 +45,7 @@ pub(crate) fn optimum(
     likelihood: &mut Likelihood<'_>,
     start: Option<DVector<f64>>,
     known_noise: bool,
-) -> Result<Optimum, CalibrationError> {
+) -> Result<(Optimum, Vec<Point>), CalibrationError> {
     let (data, count) = (
         likelihood.problem.observations.len(),
         likelihood.problem.parameters.len(),
@@ -60,12 +61,15 @@ pub(crate) fn optimum(
     let scanned = points.into_iter().map(|(_, point)| point.free);
     let starts = start.into_iter().chain(scanned.take(STARTS));
     let mut best: Result<Optimum, CalibrationError> = Err(CalibrationError::NotConverged);
+    let mut others = Vec::new();
     for start in starts {
         best = match best {
             Err(_) => refine(likelihood, start, known_noise),
             Ok(best) => {
                 let other = descend(likelihood, best.deviance, start, None)?;
+                others.push(other.clone());
                 if best.deviance.total(&other.residuals) < best.value() - BETTER {
+                    others.push(best.point.clone());
                     refine(likelihood, other.free, known_noise).or(Ok(best))
                 } else {
                     Ok(best)
@@ -73,7 +77,7 @@ pub(crate) fn optimum(
             }
         };
     }
-    best
+    Ok((best?, others))
 }
 
 /// Descends, adapting the scale of the noise: of the residuals beside a discrepancy without its smooth part

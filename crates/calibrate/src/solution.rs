@@ -69,7 +69,7 @@ pub(crate) fn solve(
     kind: Profiles,
 ) -> Result<Solution, CalibrationError> {
     let problem = likelihood.problem;
-    let mut optimum = search::optimum(likelihood, start, problem.knows_noise)?;
+    let (mut optimum, others) = search::optimum(likelihood, start, problem.knows_noise)?;
     for _ in 0..MAX_ROUNDS {
         let misfit = misfit(problem, &optimum);
         if misfit.is_some() {
@@ -83,6 +83,7 @@ pub(crate) fn solve(
             wanted: quantile(tail, noise_estimated.then(|| freedom(problem, &optimum))),
             optimum: &optimum,
             covariance: &Covariance::of(&optimum),
+            others: &others,
         };
         let wanted = if kind == Profiles::All {
             problem.parameters.len()

@@ -56,7 +56,7 @@ pub enum Warning {
         correlation: f64,
     },
     /// Observations that hardly count in a robust fit, by their indices from 0.
-    #[error("{} observations look like outliers, index {}", .0.len(), listed(.0, |index| index.to_string()))]
+    #[error("{} observations look like outliers, index {}", .0.len(), listed(.0, ToString::to_string))]
     Outliers(Vec<usize>),
     /// Other values of the parameters, in their order and far from the best ones, fit about as well. The
     /// intervals hold both.
