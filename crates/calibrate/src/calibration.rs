@@ -23,7 +23,8 @@ impl fmt::Debug for Calibration<'_> {
 }
 
 impl<'a> Calibration<'a> {
-    /// Fits `parameters` of `model` to `observations`, whose noise is the same for all and is estimated from the residuals.
+    /// Fits `parameters` of `model` to `observations`, whose noise is the same for all and is estimated
+    /// from the residuals.
     ///
     /// # Errors
     ///
@@ -97,7 +98,8 @@ impl<'a> Calibration<'a> {
         Ok(self)
     }
 
-    /// The standard deviations of the observations are known but for a factor that all share, which is fitted.
+    /// The standard deviations of the observations are known but for a factor that all share, which is
+    /// fitted.
     ///
     /// # Errors
     ///
@@ -129,8 +131,8 @@ impl<'a> Calibration<'a> {
         &self.0.observations
     }
 
-    /// What an earlier fit of the same parameters and observations learned of a coarser model: this one runs
-    /// first where the answer of that fit rests, and learns what the coarser model misses.
+    /// What an earlier fit of the same parameters and observations learned of a coarser model: this one
+    /// runs first where the answer of that fit rests, and learns what the coarser model misses.
     #[must_use]
     pub fn with_coarse(mut self, coarse: Emulator) -> Self {
         self.0.coarse = Some(Arc::new(coarse));

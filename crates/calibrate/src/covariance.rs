@@ -11,7 +11,8 @@ use crate::descent::Optimum;
 use crate::deviance::information;
 
 /// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown:
-/// rounding makes no larger ones. A parameter with more than its fourth root in such a direction is unknown.
+/// rounding makes no larger ones. A parameter with more than its fourth root in such a direction is
+/// unknown.
 const UNKNOWN: f64 = 1e-12;
 
 /// Covariance of the free variables.

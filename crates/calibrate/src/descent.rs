@@ -192,8 +192,8 @@ impl<'a> Solver<Surface<'a>, Iteration> for Converging {
         self.0.next_iter(problem, state)
     }
 
-    /// Ends by the length of the undamped step in standard errors, √(½ gᵀH⁻¹g) (D. M. Bates, D. G. Watts, "A
-    /// relative offset orthogonality convergence criterion", Technometrics 23, 1981).
+    /// Ends by the length of the undamped step in standard errors, √(½ gᵀH⁻¹g) (D. M. Bates, D. G.
+    /// Watts, "A relative offset orthogonality convergence criterion", Technometrics 23, 1981).
     fn terminate(&mut self, state: &Iteration) -> TerminationStatus {
         let (gradient, hessian) = (state.get_gradient(), state.get_hessian());
         let factor = hessian.and_then(|hessian| hessian.clone().cholesky());

@@ -69,8 +69,8 @@ impl Deviance {
         (sum / self.data as f64).max(LEAST_CURVATURE)
     }
 
-    /// The same with s, of a robust loss, and κ, of a noise that is not known, as these residuals have them. They have so many degrees of freedom and
-    /// a noise of at least `least` in units of σ.
+    /// The same with s, of a robust loss, and κ, of a noise that is not known, as these residuals have
+    /// them. They have so many degrees of freedom and a noise of at least `least` in units of σ.
     pub fn scaled(mut self, residuals: &DVector<f64>, known: bool, freedom: f64, least: f64) -> Self {
         let data = || residuals.iter().take(self.data);
         if self.loss.is_robust() && !known {

@@ -41,9 +41,9 @@ pub struct Discrepancy {
 }
 
 impl Discrepancy {
-    /// A process with this covariance between `count` observations where δ is 1, and this `size` δ. It is
-    /// given, not fitted: few independent values of a smooth error are seen in a series, so that observations
-    /// hardly tell its size.
+    /// A process with this covariance between `count` observations where δ is 1, and this `size` δ. It
+    /// is given, not fitted: few independent values of a smooth error are seen in a series, so that
+    /// observations hardly tell its size.
     ///
     /// # Errors
     ///

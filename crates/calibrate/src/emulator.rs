@@ -186,8 +186,8 @@ impl Doubt {
         }
     }
 
-    /// Indices of places, each beside a standard error that is allowed there, at which the model should run:
-    /// the one of most doubt, then of what that run leaves, until all is allowed.
+    /// Indices of places, each beside a standard error that is allowed there, at which the model should
+    /// run: the one of most doubt, then of what that run leaves, until all is allowed.
     pub fn asked(&mut self, places: &[(DVector<f64>, f64)]) -> Vec<usize> {
         let mut asked = Vec::new();
         loop {

@@ -151,9 +151,9 @@ impl Fit {
         change
     }
 
-    /// By how many standard errors each estimate would move, to first order, if the model predicted `change`
-    /// more, in the observations' unit: what an error of the model does to the parameters. 0 for what has no
-    /// standard error.
+    /// By how many standard errors each estimate would move, to first order, if the model predicted
+    /// `change` more, in the observations' unit: what an error of the model does to the parameters. 0
+    /// for what has no standard error.
     pub fn shift(&self, change: &[f64]) -> Vec<f64> {
         let curvatures = DVector::from_column_slice(&self.curvatures);
         let weighted = self.standardised(change).component_mul(&curvatures);

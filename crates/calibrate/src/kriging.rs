@@ -36,8 +36,8 @@ pub(crate) struct Kriging {
 }
 
 impl Kriging {
-    /// Through the predictions `rows` of runs: solves (K + nugget) w = values − mean for all of them at once,
-    /// the mean by generalised least squares.
+    /// Through the predictions `rows` of runs: solves (K + nugget) w = values − mean for all of them at
+    /// once, the mean by generalised least squares.
     pub fn through(
         runs: &[(DVector<f64>, DVector<f64>)],
         inputs: &[usize],
@@ -96,8 +96,8 @@ impl Kriging {
         self.mean.tr_mul(&basis) + self.weights.tr_mul(&correlations(&self.places, &place))
     }
 
-    /// Its derivatives by the shares that act on it, each with its index: ∂c/∂u = −5/(3 length²) (1 + a) e^(−a)
-    /// (u − u_run).
+    /// Its derivatives by the shares that act on it, each with its index: ∂c/∂u = −5/(3 length²) (1 + a)
+    /// e^(−a) (u − u_run).
     pub fn slopes(&self, place: &DVector<f64>) -> impl Iterator<Item = (usize, DVector<f64>)> {
         let place = chosen(place, &self.inputs);
         let factors = DVector::from_fn(self.places.len(), |run, _| {

@@ -1,11 +1,13 @@
 //! Whether the residuals of a fit are the noise that the fit takes them for.
 //!
-//! *Signs.* Residuals that are noise change their sign from one to the next as coins do; too few changes show a curve that the model does
-//! not follow (A. Wald, J. Wolfowitz, "On a test whether two samples are from the same population", 1940; here with signs that are
-//! positive and negative alike, so that residuals all of one sign count).
+//! *Signs.* Residuals that are noise change their sign from one to the next as coins do; too few changes
+//! show a curve that the model does not follow (A. Wald, J. Wolfowitz, "On a test whether two samples
+//! are from the same population", 1940; here with signs that are positive and negative alike, so that
+//! residuals all of one sign count).
 //!
-//! *Terms.* Would a term more in the model, such as a constant, explain them? Its column is freed of what the parameters can do,
-//! which is the score test (N. R. Draper, H. Smith, Applied Regression Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
+//! *Terms.* Would a term more in the model, such as a constant, explain them? Its column is freed of
+//! what the parameters can do, which is the score test (N. R. Draper, H. Smith, Applied Regression
+//! Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
 
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
@@ -30,8 +32,8 @@ pub struct TermTest {
 }
 
 impl TermTest {
-    /// Tests terms with these columns, an entry for each observation, all at once. `None` where the parameters can do what the terms do, or
-    /// nothing is left to judge by.
+    /// Tests terms with these columns, an entry for each observation, all at once. `None` where the
+    /// parameters can do what the terms do, or nothing is left to judge by.
     ///
     /// ```
     /// use calibrate::{Calibration, ModelError, Parameter, Scale, TermTest};
@@ -86,7 +88,8 @@ impl TermTest {
     }
 }
 
-/// Probability of so few changes of sign by chance, of residuals in the order in which they were measured; `series` are independent.
+/// Probability of so few changes of sign by chance, of residuals in the order in which they were
+/// measured; `series` are independent.
 pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     let pairs = series.iter().flat_map(|residuals| residuals.windows(2));
     let (mut changes, mut chances) = (0, 0);
@@ -97,7 +100,8 @@ pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     Binomial::new(0.5, chances).map_or(1.0, |binomial| binomial.cdf(changes))
 }
 
-/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals falls from `before` to `after`, with this
+/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals
+/// falls from `before` to `after`, with this
 /// `freedom` left, where the residuals are in units of a noise that is known (`known`) or estimated. `None` of too few.
 pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<f64>) -> Option<f64> {
     let gain = (before - after).max(0.0);
@@ -111,9 +115,10 @@ pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<
     }
 }
 
-/// Probability that noise like that between neighbours makes residuals so large, of which `used` are determined by parameters: a ratio of
-/// variances, one from all residuals and one from how far each lies off the line between its neighbours, which a curve hardly moves (J. von Neumann,
-/// "Distribution of the ratio of the mean square successive difference to the variance", 1941). `None` of too few.
+/// Probability that noise like that between neighbours makes residuals so large, of which `used` are
+/// determined by parameters: a ratio of variances, one from all residuals and one from how far each lies
+/// off the line between its neighbours, which a curve hardly moves (J. von Neumann, "Distribution of the
+/// ratio of the mean square successive difference to the variance", 1941). `None` of too few.
 pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
     let all = series.iter().flatten();
     let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
@@ -129,8 +134,9 @@ pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
     Some(1.0 - FisherSnedecor::new(freedom, half).ok()?.cdf(ratio))
 }
 
-/// Probability that noise of known sigmas makes residuals so large, which are in units of these, and of which `used` are determined by
-/// parameters: χ² with what is left, or with one where nothing is, which is cautious.
+/// Probability that noise of known sigmas makes residuals so large, which are in units of these, and of
+/// which `used` are determined by parameters: χ² with what is left, or with one where nothing is, which
+/// is cautious.
 pub fn probability_of_scatter(series: &[Vec<f64>], used: f64) -> f64 {
     let all = series.iter().flatten();
     let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
@@ -144,7 +150,8 @@ mod tests {
 
     #[test]
     fn sigmas_bound_the_scatter() {
-        // 1.96 standard deviations of one residual, and the 95 % quantile of χ² with two degrees of freedom, −2 ln 0.05.
+        // 1.96 standard deviations of one residual, and the 95 % quantile of χ² with two degrees of
+        // freedom, −2 ln 0.05.
         assert!((probability_of_scatter(&[vec![1.959_963_984_540_054]], 1.0) - 0.05).abs() < 1e-9);
         let root = (-0.05_f64.ln()).sqrt();
         assert!((probability_of_scatter(&[vec![root, -root], vec![0.0]], 1.0) - 0.05).abs() < 1e-9);

@@ -1,10 +1,11 @@
 //! The loop of a fit: what the likelihood on the emulator says, the model confirms, or the emulator learns.
 //!
-//! The model runs all over the range first, or where the answer of a coarser model rests. Then it runs at the
-//! optimum, at the ends of the intervals and the bounds that they leave out wherever the emulator's own doubt
-//! could change the answer, and, once they agree, at low places of the profiles of which too little is known,
-//! until both agree at all of them (after D. R. Jones, M. Schonlau, W. J. Welch, "Efficient Global
-//! Optimization of Expensive Black-Box Functions", Journal of Global Optimization 13, 1998).
+//! The model runs all over the range first, or where the answer of a coarser model rests. Then it runs
+//! at the optimum, at the ends of the intervals and the bounds that they leave out wherever the
+//! emulator's own doubt could change the answer, and, once they agree, at low places of the profiles of
+//! which too little is known, until both agree at all of them (after D. R. Jones, M. Schonlau, W. J.
+//! Welch, "Efficient Global Optimization of Expensive Black-Box Functions", Journal of Global
+//! Optimization 13, 1998).
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -264,8 +265,8 @@ fn noise(likelihood: &Likelihood<'_>, solution: &Solution) -> f64 {
         .sqrt()
 }
 
-/// Whether the optimum would hardly move if the emulator knew what the model said there, and it predicts the
-/// deviance: where readings are out of reach, the sensitivities that tell a move vanish.
+/// Whether the optimum would hardly move if the emulator knew what the model said there, and it predicts
+/// the deviance: where readings are out of reach, the sensitivities that tell a move vanish.
 fn is_settled(likelihood: &Likelihood<'_>, solution: &Solution, seen: &DVector<f64>) -> bool {
     let optimum = &solution.optimum;
     let change = (optimum.deviance.total(seen) - optimum.value()).abs();

@@ -27,7 +27,8 @@ pub enum Scale {
 pub struct Prior {
     /// Most likely value, in the parameter's unit.
     pub value: f64,
-    /// Standard deviation: in the parameter's unit if its scale is linear, relative (of the logarithm) if logarithmic.
+    /// Standard deviation: in the parameter's unit if its scale is linear, relative (of the logarithm)
+    /// if logarithmic.
     pub sigma: f64,
 }
 
@@ -80,7 +81,8 @@ impl Parameter {
         Ok(parameter)
     }
 
-    /// A parameter that adds its value times `column` to the predictions, an entry each: an error of the instrument, such as its zero. The
+    /// A parameter that adds its value times `column` to the predictions, an entry each: an error of the
+    /// instrument, such as its zero. The
     /// [`Model`](crate::Model) is not given it, so that it costs no runs.
     ///
     /// # Errors

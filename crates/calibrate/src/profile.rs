@@ -2,9 +2,9 @@
 //!
 //! A parameter is held at each value of a grid, all others are fitted anew, and the rise of the deviance
 //! above its minimum is compared with the square of Student's t (of Gauss's z where the noise is known),
-//! which is the likelihood-ratio test. Such an interval needs no symmetry and may stay open on a side (D. M.
-//! Bates, D. G. Watts, Nonlinear Regression Analysis and Its Applications, 1988, section 6.1; A. Raue et
-//! al., Bioinformatics 25, 2009).
+//! which is the likelihood-ratio test. Such an interval needs no symmetry and may stay open on a side
+//! (D. M. Bates, D. G. Watts, Nonlinear Regression Analysis and Its Applications, 1988, section 6.1; A.
+//! Raue et al., Bioinformatics 25, 2009).
 //!
 //! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance
 //! that makes an interval: by four standard errors. For a true value at the bound itself, one such distance
@@ -98,8 +98,9 @@ pub(crate) struct Profiler<'a> {
 }
 
 impl Profiler<'_> {
-    /// The profiles of the first `count` parameters. What one of them finds is true for all: where a point of
-    /// another, or a minimum elsewhere, lies below a profile, the others are in a wrong valley there.
+    /// The profiles of the first `count` parameters. What one of them finds is true for all: where a
+    /// point of another, or a minimum elsewhere, lies below a profile, the others are in a wrong valley
+    /// there.
     pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
         let first = (0..count)
             .map(|k| self.profile(k, &[]))
@@ -118,8 +119,8 @@ impl Profiler<'_> {
         first.iter().map(again).collect()
     }
 
-    /// The profile of parameter `k`, from the optimum to both bounds, and from there and from `known` points
-    /// back.
+    /// The profile of parameter `k`, from the optimum to both bounds, and from there and from `known`
+    /// points back.
     fn profile(&self, k: usize, known: &[&ProfilePoint]) -> Result<Profile, CalibrationError> {
         let here = self.optimum.point.free[k];
         let mut points = vec![ProfilePoint {
@@ -159,8 +160,8 @@ impl Profiler<'_> {
         Ok(profile)
     }
 
-    /// Half of the values of parameter `k` but its estimate: to a bound, at distances that grow by one factor
-    /// from half a standard error on.
+    /// Half of the values of parameter `k` but its estimate: to a bound, at distances that grow by one
+    /// factor from half a standard error on.
     fn values(&self, k: usize, here: f64, bound: f64) -> Vec<f64> {
         let (count, farthest) = (GRID / 2, bound - here);
         let error = self.covariance.standard_error(k).unwrap_or(f64::INFINITY);
@@ -185,8 +186,8 @@ impl Profiler<'_> {
         ProfilePoint { point, rise }
     }
 
-    /// The lower of a point and what its neighbour leads to there. Where the others move as one from point to
-    /// point, both are the same.
+    /// The lower of a point and what its neighbour leads to there. Where the others move as one from
+    /// point to point, both are the same.
     fn lower(
         &self,
         k: usize,

@@ -35,8 +35,8 @@ fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
     }
 }
 
-/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places of a
-/// scan.
+/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places
+/// of a scan.
 ///
 /// # Errors
 ///

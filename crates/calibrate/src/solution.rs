@@ -44,8 +44,8 @@ pub(crate) struct Solution {
 }
 
 impl Solution {
-    /// How far the optimum would move, in standard errors, if the model everywhere missed the emulator as it
-    /// does there.
+    /// How far the optimum would move, in standard errors, if the model everywhere missed the emulator
+    /// as it does there.
     pub fn shift(&self, seen: &DVector<f64>) -> f64 {
         let optimum = &self.optimum;
         let off = seen - &optimum.point.residuals;

@@ -15,8 +15,8 @@ pub(crate) const SCAN: usize = 64;
 pub(crate) const STARTS: usize = 4;
 /// Values of a parameter at which its profile is computed, the estimate among them.
 pub(crate) const GRID: usize = 41;
-/// Distance of the other free variables at neighbouring values from which on they may have jumped to another
-/// valley, and are fitted from both sides.
+/// Distance of the other free variables at neighbouring values from which on they may have jumped to
+/// another valley, and are fitted from both sides.
 pub(crate) const JUMP: f64 = 0.5;
 /// Standard error of the readings by the emulator, in those of all readings together, up to which an end is
 /// believed without a run.
@@ -32,8 +32,8 @@ pub(crate) const ACCURACY: f64 = 0.03;
 /// on intervals are looked at.
 pub(crate) const SETTLED: f64 = 0.05;
 pub(crate) const NEAR: f64 = 1.0;
-/// Distance, in standard errors of all readings together, of the ends at which a finer model runs first: two
-/// of the four ends of two parameters that are hardly told apart.
+/// Distance, in standard errors of all readings together, of the ends at which a finer model runs first:
+/// two of the four ends of two parameters that are hardly told apart.
 pub(crate) const APART: f64 = 1.0;
 /// Change of the noise's scale, as a share, at which the rounds of fit and scale end.
 pub(crate) const SCALE_TOLERANCE: f64 = 0.01;
