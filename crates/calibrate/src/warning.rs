@@ -1,16 +1,6 @@
 //! What the user should know before trusting a fit.
 
 use crate::Interval;
-use crate::parameter::{FARTHEST, share};
-use crate::problem::Problem;
-use crate::solution::Solution;
-
-/// Correlation from which two parameters count as hardly distinguishable.
-const CORRELATED: f64 = 0.99;
-/// Weight below which an observation counts as an outlier: of Tukey's loss at three sigmas.
-const OUTLIER: f64 = 0.35;
-/// Degrees of freedom below which the noise is hardly known: its own standard error is a third.
-const FEW: f64 = 5.0;
 
 /// What the user should know before trusting a fit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -69,53 +59,4 @@ pub enum Warning {
 
 fn listed<T>(values: &[T], word: impl Fn(&T) -> String) -> String {
     values.iter().map(word).collect::<Vec<_>>().join(" ")
-}
-
-/// What is to be said of a solution with these weights of the observations.
-pub(crate) fn warnings(
-    problem: &Problem<'_>,
-    solution: &Solution,
-    weights: &[f64],
-    degrees_of_freedom: f64,
-) -> Vec<Warning> {
-    let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
-    // An interval that is open says more than another minimum does.
-    let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
-    let rival = solution.rival.as_ref().filter(|_| closed);
-    warnings.extend(rival.map(|rival| {
-        let pairs = problem.parameters.iter().zip(rival.free.iter());
-        Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(share(z))).collect())
-    }));
-    for (k, estimate) in solution.estimates.iter().enumerate() {
-        let name = || estimate.name.clone();
-        if !estimate.identifiable {
-            let interval = estimate.interval;
-            warnings.push(Warning::NotIdentifiable {
-                name: name(),
-                interval,
-            });
-        } else if solution.optimum.point.free[k].abs() >= FARTHEST {
-            let value = estimate.value;
-            warnings.push(Warning::AtBound { name: name(), value });
-        }
-        for (index, other) in solution.estimates.iter().take(k).enumerate() {
-            let correlation = solution.covariance.correlation(k, index);
-            if let Some(correlation) = correlation.filter(|c| c.abs() > CORRELATED) {
-                let first = other.name.clone();
-                warnings.push(Warning::Correlated {
-                    first,
-                    second: name(),
-                    correlation,
-                });
-            }
-        }
-    }
-    let indices: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] < OUTLIER).collect();
-    if !indices.is_empty() {
-        warnings.push(Warning::Outliers(indices));
-    }
-    if solution.noise_estimated && degrees_of_freedom < FEW {
-        warnings.push(Warning::FewObservations(degrees_of_freedom));
-    }
-    warnings
 }

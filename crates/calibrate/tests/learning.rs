@@ -1,4 +1,4 @@
-//! Fits by an emulator: the same answers as direct fits, with a part of their model runs, and a direct fit where it cannot follow.
+//! What a fit learns of its model: few runs, fewer where a coarser model or its parts are known, and all that the answer rests on.
 
 mod common;
 
