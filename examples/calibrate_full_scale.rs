@@ -13,7 +13,6 @@
 //! ```
 
 use creepage::calibration::{Calibrated, Deflection, Quantity, Unknown};
-use creepage::scene::PeakScaling;
 use creepage::{CalibrateOptions, Reading, Readings, Scene, Series, calibrate, calibrate_jointly};
 
 type Failure = Box<dyn std::error::Error>;
@@ -40,7 +39,7 @@ fn main() -> Result<(), Failure> {
     for micrometres in [90.0, 100.0, 115.0, 125.0, 140.0] {
         for (scene, readings) in scenes.iter().zip(&readings) {
             let mut scene = scene.clone();
-            scene.ground.scaling = Some(PeakScaling::Vertical(1e-6 * micrometres));
+            scene.ground.vertical_peak = Some(1e-6 * micrometres);
             let answer = calibrate(&scene, readings, &only(Quantity::DynamicCoefficient))?;
             println!("{micrometres:>5} um  {}", told(&answer));
         }

@@ -8,7 +8,7 @@
 //! ```
 
 use creepage::Scene;
-use creepage::scene::{FrictionLaw, SolverMethod};
+use creepage::scene::{Law, SolverMethod};
 
 const FRICTION: f64 = 0.25;
 const SHAPE_FACTOR: f64 = 2e6;
@@ -19,9 +19,7 @@ const PASSES: u64 = 40;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
     scene.friction.dynamic_coefficient = FRICTION;
-    scene.friction.law = FrictionLaw::ElasticPlastic {
-        shape_factor: SHAPE_FACTOR,
-    };
+    (scene.friction.law, scene.friction.shape_factor) = (Law::ElasticPlastic, Some(SHAPE_FACTOR));
     scene.traffic.passes = PASSES;
     scene.solver.method = SolverMethod::Explicit;
     scene.solver.node_spacing = Some(0.1);

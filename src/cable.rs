@@ -9,7 +9,7 @@ const GRAVITY: f64 = 9.80665;
 
 /// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps, and its weight along the duct.
 pub fn cable(scene: &Scene) -> Result<DuctedCable, CableError> {
-    let friction = Friction::new(scene.friction.law, scene.friction_limit())?;
+    let friction = Friction::new(scene.friction.law(), scene.friction_limit())?;
     DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?
         .with_ends(scene.ends.upstream, scene.ends.downstream)?
         .with_restraints(scene.restraints.clone())?
@@ -31,6 +31,5 @@ pub fn known_order(scene: &Scene) -> u64 {
 
 /// A scene's vehicles one after the other in `order`, by their place in the scene.
 pub fn traffic(scene: &Scene, order: Order) -> Result<Traffic, CableError> {
-    let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-    Traffic::new(&shares, order)
+    Traffic::new(&scene.shares(), order)
 }

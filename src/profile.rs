@@ -36,7 +36,7 @@ finite::numbers! {
 /// [`Error`] when the ground model does not fit the scene or cannot be computed.
 pub fn profile(scene: &Scene) -> Result<Profile, Error> {
     scene.validate()?;
-    let wheels = scene.vehicles[0].vehicle.wheels();
+    let wheels = scene.vehicles[0].wheels();
     let half = 8.0 * scene.duct.depth + wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
     let positions: Vec<f64> = (-80..=80).map(|k| half * f64::from(k) / 80.0).collect();
     profile_at(scene, &positions)

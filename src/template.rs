@@ -101,7 +101,7 @@ mod tests {
             (scene.ends.upstream, scene.ends.downstream),
             (End::Free, End::Fixed)
         );
-        let FrictionLaw::ElasticPlastic { shape_factor } = scene.friction.law else {
+        let FrictionLaw::ElasticPlastic { shape_factor } = scene.friction.law() else {
             panic!("elastic-plastic")
         };
         // q·b/2 = 1e8 N/m².
@@ -153,8 +153,8 @@ mod tests {
         assert_eq!(scene.title, "a \"b\" \\ c\n長");
         assert_eq!((scene.duct.length, scene.traffic.passes), (200.0, 7));
         assert_eq!(scene.ends.upstream, End::Spring(3e6));
-        assert_eq!(scene.ground.profile.layers().len(), 3);
-        assert_eq!(scene.vehicles[0].vehicle.speed(), 5.0);
+        assert_eq!(scene.ground.layers.len(), 4);
+        assert_eq!(scene.vehicles[0].speed, 5.0);
         for (key, value, named) in [
             ("duct.depth", "1.2 kN", "`duct.depth`"),
             ("cable.preset", "rope", "`cable.preset`"),

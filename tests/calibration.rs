@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use creepage::calibration::{Deflection, Loss, Quantity, Unknown};
-use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
+use creepage::scene::{End, Law, SolverMethod};
 use creepage::{
     CalibrateOptions, Calibrated, Error, Progress, Reading, Readings, Scene, Series, calibrate,
     calibrate_jointly,
@@ -21,7 +21,7 @@ fn upper() -> Scene {
 fn forces(dynamic_coefficient: f64, shape_factor: f64, passes: u64) -> Vec<f64> {
     let mut scene = upper();
     scene.friction.dynamic_coefficient = dynamic_coefficient;
-    scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor };
+    (scene.friction.law, scene.friction.shape_factor) = (Law::ElasticPlastic, Some(shape_factor));
     scene.traffic.passes = passes;
     scene.solver.method = SolverMethod::Explicit;
     scene.solver.node_spacing = Some(0.1);
@@ -98,7 +98,7 @@ fn friction_comes_back_from_another_solver() {
 #[test]
 fn a_force_out_of_reach_is_met_as_nearly_as_can_be() {
     let mut scene = Scene::from_file("examples/scenes/full-scale-lower.toml").unwrap();
-    scene.ground.scaling = Some(PeakScaling::Vertical(90e-6));
+    scene.ground.vertical_peak = Some(90e-6);
     let read = Reading {
         sigma: Some(45.0),
         ..Reading::force(200, 900.0)
@@ -230,7 +230,7 @@ fn two_series_share_their_ground() {
         .map(|(seed, scene)| {
             let mut scene = scene.clone();
             scene.traffic.passes = 100;
-            scene.ground.scaling = Some(PeakScaling::Vertical(deflection));
+            scene.ground.vertical_peak = Some(deflection);
             let run = creepage::run(&scene).unwrap();
             let forces: Vec<f64> = run.passes.iter().map(|pass| pass.downstream_force_n).collect();
             readings(&noisy(&forces, 4.0, seed))
@@ -347,7 +347,11 @@ fn what_does_not_fit_is_named() {
         unknowns: vec![Unknown::shared(Quantity::ShapeFactor)],
         ..CalibrateOptions::default()
     };
-    let coulomb = with(&|scene| scene.friction.law = FrictionLaw::Coulomb, &shape).unwrap_err();
+    let coulomb = with(
+        &|scene| (scene.friction.law, scene.friction.shape_factor) = (Law::Coulomb, None),
+        &shape,
+    )
+    .unwrap_err();
     assert!(
         matches!(
             coulomb,
@@ -380,7 +384,7 @@ fn what_does_not_fit_is_named() {
 #[test]
 fn coulomb_and_an_upstream_load_cell() {
     let mut scene = upper();
-    scene.friction.law = FrictionLaw::Coulomb;
+    (scene.friction.law, scene.friction.shape_factor) = (Law::Coulomb, None);
     (scene.ends.upstream, scene.ends.downstream) = (End::Fixed, End::Free);
     scene.traffic.passes = 30;
     let forces: Vec<f64> = creepage::run(&scene)

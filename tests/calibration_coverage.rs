@@ -66,7 +66,7 @@ struct Range {
 fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
     let scene = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let law = FrictionLaw::ElasticPlastic { shape_factor };
-    let friction = Friction::new(law, friction * scene.cable.normal_load()).unwrap();
+    let friction = Friction::new(law, friction * scene.normal_load()).unwrap();
     let cable = DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)
         .and_then(|cable| cable.with_ends(scene.ends.upstream, scene.ends.downstream))
         .unwrap();
@@ -98,10 +98,10 @@ fn motion() -> &'static DuctMotion {
     static MOTION: OnceLock<DuctMotion> = OnceLock::new();
     MOTION.get_or_init(|| {
         let scene = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
-        let ground = HalfSpace::new(scene.ground.profile.homogeneous().unwrap());
+        let ground = HalfSpace::new(scene.ground.profile().expect("layers").homogeneous().unwrap());
         let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset).unwrap();
         let reach = scene.duct.length + 2.0 * APPROACH;
-        DuctMotion::new(&ground, &scene.vehicles[0].vehicle, line, reach, 1e-9).unwrap()
+        DuctMotion::new(&ground, &scene.vehicles[0].vehicle().unwrap(), line, reach, 1e-9).unwrap()
     })
 }
 

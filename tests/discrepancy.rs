@@ -1,7 +1,7 @@
 //! A discrepancy between model and readings, of the series that comes with the project: μ_d 0.25, an elastic-plastic law.
 
 use creepage::calibration::Loss;
-use creepage::scene::FrictionLaw;
+use creepage::scene::Law;
 use creepage::{CalibrateOptions, Calibrated, Readings, Scene, calibrate};
 
 /// An interval is as wide as the given discrepancy leaves it; where the law is not the true one, the fit is
@@ -12,7 +12,7 @@ fn a_discrepancy_makes_room_where_the_law_is_wrong() {
     let data = Readings::from_file("examples/data/synthetic-upper.csv").unwrap();
     let upper = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let mut coulomb = upper.clone();
-    coulomb.friction.law = FrictionLaw::Coulomb;
+    (coulomb.friction.law, coulomb.friction.shape_factor) = (Law::Coulomb, None);
     let fit = |scene: &Scene, discrepancy| {
         let options = CalibrateOptions {
             discrepancy,

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::sync::OnceLock;
 
 use creepage::readings::ReadOptions;
-use creepage::scene::FrictionLaw;
+use creepage::scene::Law;
 use creepage::{CalibrateOptions, Calibrated, Readings, Scene, SceneFile};
 use rayon::prelude::*;
 
@@ -52,9 +52,7 @@ fn scene(stiffness: f64) -> Scene {
 fn forces(stiffness: f64) -> Vec<f64> {
     let mut scene = scene(stiffness);
     scene.friction.dynamic_coefficient = FRICTION;
-    scene.friction.law = FrictionLaw::ElasticPlastic {
-        shape_factor: SHAPE_FACTOR,
-    };
+    (scene.friction.law, scene.friction.shape_factor) = (Law::ElasticPlastic, Some(SHAPE_FACTOR));
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.1), Some(0.05));
     scene.traffic.passes = 2 * PASSES as u64;
     let run = creepage::run(&scene).unwrap();

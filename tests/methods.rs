@@ -227,7 +227,7 @@ fn a_run_is_looked_at_in_stages() {
     let first = creepage::run(&first).expect("an answer");
     assert_eq!(run.stages[0].force_profile, first.force_profile);
 
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let limit = scene.friction.dynamic_coefficient * scene.normal_load();
     for stage in &run.stages {
         let friction = stage.friction.as_ref().expect("seen");
         assert!((friction.vehicle_position_m - 15.0).abs() <= run.plan.vehicle_step_m);

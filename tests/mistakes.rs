@@ -221,6 +221,7 @@ order = "random"¶seed = 7 → sequence = "truck" | 2 | 54 | `traffic.sequence`:
 seed = 7 → seed = 7¶sequence = ["van"] | 2 | 56 | both `order` and `sequence`
 order = "random" → sequence = ["van"] | 2 | 55 | `traffic.seed`: found 7 with `sequence` = ["van"]
 name = "van" → name = "truck" | 2 | 43 | `vehicles.1.name` (vehicle 2): found "truck"; allowed: a name
+name = "van" → name = "" | 2 | 43 | `vehicles.1.name` (vehicle 2): found ""; allowed: a name
 name = "van" → name = " " | 2 | 43 | `vehicles.1.name` (vehicle 2): found " "; allowed: a name
 method = "explicit" → method = "quasi-static" | 2 | 61 | `solver.time_step` | with `method` = "quasi-static" | "explicit"
 method = "explicit" → method = "pass-law" | 2 | 61 | `solver.time_step` | with `method` = "pass-law"

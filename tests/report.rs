@@ -9,6 +9,7 @@ use std::process::{Command, Output, Stdio};
 use super::xml::{Element, parse};
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
+use creepage::scene::TrafficVehicle;
 use creepage::{Limits, Readings, Scene};
 use serde_json::Value;
 
@@ -339,8 +340,7 @@ fn texts_of_the_user_stay_texts() {
     let nasty = "<script>alert('x')</script> & \"é\" </title><b>";
     let mut scene = scene(&["traffic.passes=2"]);
     scene.title = nasty.into();
-    let vehicle = &mut scene.vehicles[0].vehicle;
-    *vehicle = ground_field::Vehicle::point(nasty, 1e5, 10.0).expect("a vehicle");
+    scene.vehicles = vec![TrafficVehicle::point(nasty, 1e5, 10.0)];
     let warning = [nasty.to_owned()];
     let options = ReportOptions {
         warnings: &warning,
@@ -433,8 +433,7 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
     let clamps =
         r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="5 MN/m"}]"#;
     let mut scene = scene(&["traffic.passes=6", clamps, "ends.downstream.spring=1 MN/m"]);
-    let mut other = scene.vehicles[0].clone();
-    other.vehicle = ground_field::Vehicle::point("back", 1e5, 10.0).expect("a vehicle");
+    let mut other = TrafficVehicle::point("back", 1e5, 10.0);
     (scene.vehicles[0].share, other.share) = (0.75, 0.25);
     scene.vehicles.push(other);
     let mut limits = Limits::default();
@@ -679,10 +678,8 @@ fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
         "duct.depth=3 m",
     ];
     let mut scene = scene(&overrides);
-    let mut other = scene.vehicles[0].clone();
-    other.vehicle = ground_field::Vehicle::point("back", 1e5, 10.0)
-        .expect("a vehicle")
-        .driving(ground_field::Direction::Reverse);
+    let mut other = TrafficVehicle::point("back", 1e5, 10.0);
+    other.direction = ground_field::Direction::Reverse;
     other.lateral_offset = -3.0;
     (scene.vehicles[0].share, other.share) = (0.75, 0.25);
     scene.vehicles.push(other);

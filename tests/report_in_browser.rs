@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
-use creepage::scene::{Dimension, Unit};
+use creepage::scene::{Dimension, TrafficVehicle, Unit};
 use creepage::{Readings, Scene, Units};
 use serde_json::Value;
 
@@ -247,12 +247,9 @@ fn full() -> String {
         r#"restraints=[{position="20 m", stiffness="1 MN/m"}]"#,
     ]);
     scene.title = format!("<b>{long}</b>");
-    let mut other = scene.vehicles[0].clone();
-    scene.vehicles[0].share = 0.6;
-    other.share = 0.4;
-    other.vehicle = ground_field::Vehicle::point(&long, 5e4, 15.0)
-        .expect("a vehicle")
-        .driving(ground_field::Direction::Reverse);
+    let mut other = TrafficVehicle::point(&long, 5e4, 15.0);
+    other.direction = ground_field::Direction::Reverse;
+    (scene.vehicles[0].share, other.share) = (0.6, 0.4);
     scene.vehicles.push(other);
     let readings = Readings::from_csv("cell.csv", b"pass,force_n,sigma_n\n1,50,9\n20,200,9\n40,260,9\n")
         .expect("readings");
@@ -369,7 +366,6 @@ fn crowded() -> String {
         r#"heat={expansion="17e-6 1/K", daily_swing="15 K"}"#,
         "solver.tolerance=0.1",
     ]);
-    let first = scene.vehicles[0].clone();
     let lanes = [
         (0.0, true),
         (0.2, true),
@@ -383,15 +379,11 @@ fn crowded() -> String {
         .into_iter()
         .enumerate()
         .map(|(k, (lateral_offset, forward))| {
-            let mut lane = first.clone();
-            let vehicle = ground_field::Vehicle::point(format!("vehicle in lane {k}"), 5e4, 15.0);
-            lane.vehicle = vehicle.expect("a vehicle").driving(if forward {
-                ground_field::Direction::Forward
-            } else {
-                ground_field::Direction::Reverse
-            });
+            let mut lane = TrafficVehicle::point(&format!("vehicle in lane {k}"), 5e4, 15.0);
+            if !forward {
+                lane.direction = ground_field::Direction::Reverse;
+            }
             lane.lateral_offset = lateral_offset;
-            lane.share = 1.0 / 7.0;
             lane
         })
         .collect();

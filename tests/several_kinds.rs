@@ -3,7 +3,7 @@
 
 use creepage::calibration::{Quantity, Unknown};
 use creepage::readings::{Measured, Place};
-use creepage::scene::{End, FrictionLaw};
+use creepage::scene::{End, Law};
 use creepage::{
     CableEnd, CalibrateOptions, Calibrated, Reading, Readings, RunOptions, Scene, SceneFile, calibrate,
 };
@@ -29,9 +29,7 @@ fn measured(instruments: &[(Measured, f64)], stiffness: f64) -> Readings {
     let mut truth = scene(stiffness);
     (truth.solver.node_spacing, truth.solver.vehicle_step) = (Some(SPACING), Some(0.5 * SPACING));
     truth.friction.dynamic_coefficient = FRICTION;
-    truth.friction.law = FrictionLaw::ElasticPlastic {
-        shape_factor: SHAPE_FACTOR,
-    };
+    (truth.friction.law, truth.friction.shape_factor) = (Law::ElasticPlastic, Some(SHAPE_FACTOR));
     let stages: Vec<u64> = (1..=PASSES).collect();
     let options = RunOptions {
         stages: &stages,

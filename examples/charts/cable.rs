@@ -2,7 +2,7 @@
 //!
 //! The full-scale experiment's upper cable in its duct of 30 m, and the same in 300 m, on the ground's closed form. The error is the
 //! largest difference of the force at the load cell over the last half of 10, 100 and 1000 passes, as a share of it. Methods and
-//! knobs: quasi-static, exact step and explicit on one mesh of so many nodes a depth of the duct, quasi-static with jumps over
+//! knobs: quasi-static and explicit on one mesh of so many nodes a depth of the duct, quasi-static with jumps over
 //! passes, and the paper's own chain, explicit with the sigmoid law and its b.
 //!
 //! *Truth.* Quasi-static on a mesh at least three times as fine as any point that shares its method; how far it may be off is drawn
@@ -18,7 +18,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{Mesh, QuasiStatic};
 use creepage::Scene;
 use creepage::figure::{Axis, Chart, Panels, Reference, Series};
-use creepage::scene::FrictionLaw;
+use creepage::scene::Law;
 use cycle_jump::{JumpError, Jumps, Next, Request, evolve};
 use ground_field::DuctMotion;
 use rayon::prelude::*;
@@ -76,8 +76,12 @@ impl Case {
         let set = [format!("duct.length={length} m")];
         let scene = creepage::SceneFile::read(&path).and_then(|file| file.with(&set)?.scene())?;
         let mut coulomb = scene.clone();
-        coulomb.friction.law = FrictionLaw::Coulomb;
-        let soil = scene.ground.profile.homogeneous().ok_or("the scene has layers")?;
+        (coulomb.friction.law, coulomb.friction.shape_factor) = (Law::Coulomb, None);
+        let soil = scene
+            .ground
+            .profile()?
+            .homogeneous()
+            .ok_or("the scene has layers")?;
         let motion = motion(&scene, &HalfSpace::new(soil), MOTION)?;
         Ok(Self {
             scene,
@@ -93,7 +97,7 @@ impl Case {
             Method::Jumps => return self.jumps(knob, passes).map(Some),
             Method::Solver(solver) => (solver, knob),
             Method::Sigmoid => {
-                scene.friction.law = FrictionLaw::Sigmoid { shape_factor: knob };
+                (scene.friction.law, scene.friction.shape_factor) = (Law::Sigmoid, Some(knob));
                 (Solver::Explicit, SIGMOID_DENSITY)
             }
         };
@@ -155,9 +159,8 @@ enum Method {
 }
 
 /// Name, method and knobs.
-const METHODS: [(&str, Method, &[f64]); 5] = [
+const METHODS: [(&str, Method, &[f64]); 4] = [
     ("quasi-static", Method::Solver(Solver::QuasiStatic), &DENSITIES),
-    ("exact step", Method::Solver(Solver::ExactStep), &DENSITIES),
     ("explicit", Method::Solver(Solver::Explicit), &DENSITIES),
     ("quasi-static with jumps", Method::Jumps, &JUMP_DENSITIES),
     ("explicit, sigmoid over b", Method::Sigmoid, &SHAPE_FACTORS),
@@ -194,10 +197,7 @@ impl Panel<'_> {
             self.density
         )?;
         for (number, (name, method, knobs)) in METHODS.iter().enumerate() {
-            let same = matches!(
-                method,
-                Method::Solver(Solver::QuasiStatic | Solver::ExactStep) | Method::Jumps
-            );
+            let same = matches!(method, Method::Solver(Solver::QuasiStatic) | Method::Jumps);
             let finest = if same {
                 self.density / COARSER
             } else {

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use creepage::figure::{Axis, Chart, Panels, Reference, Series};
-use creepage::scene::FrictionLaw;
+use creepage::scene::{FrictionLaw, Law};
 use creepage::{CalibrateOptions, Calibrated, Reading, Readings, Scene, SceneFile, calibrate};
 use rayon::prelude::*;
 
@@ -88,7 +88,7 @@ fn scene(changes: &[String], law: FrictionLaw, spacing: f64) -> Result<Scene, Fa
         }
     })?;
     if law == FrictionLaw::Coulomb {
-        scene.friction.law = law;
+        (scene.friction.law, scene.friction.shape_factor) = (Law::Coulomb, None);
     }
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(spacing), Some(0.5 * spacing));
     scene.traffic.passes = PASSES;

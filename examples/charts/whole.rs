@@ -115,7 +115,7 @@ impl Panel {
     /// Forces after every pass, and how far they may be off.
     fn truth(&self) -> Result<(Vec<f64>, f64), Failure> {
         let scene = self.scene()?;
-        let field = LayeredHalfSpace::new(&scene.ground.profile)?.with_accuracy(TRUE_FIELD)?;
+        let field = LayeredHalfSpace::new(&scene.ground.profile()?)?.with_accuracy(TRUE_FIELD)?;
         let motion = motion(&scene, &field, TRUE_MOTION)?;
         truth(
             &scene,
@@ -156,7 +156,7 @@ fn planned(scene: &Scene, tolerance: f64) -> Result<Found, Failure> {
 
 /// The chain of Kashiro et al.; `None` where that takes too long.
 fn forced(scene: &Scene, density: f64) -> Result<Option<Found>, Failure> {
-    let field = LayeredFem::new(&scene.ground.profile, ELEMENTS)?;
+    let field = LayeredFem::new(&scene.ground.profile()?, ELEMENTS)?;
     let motion = motion(scene, &field, ELEMENTS)?;
     let passes = usize::try_from(scene.traffic.passes)?;
     let answer = simulate(scene, &motion, Solver::Explicit, density, passes, BUDGET)?;

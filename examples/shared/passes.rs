@@ -25,8 +25,6 @@ const PROBE: usize = 3;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Solver {
     QuasiStatic,
-    /// The same, every window by dynamic programming instead of iteration.
-    ExactStep,
     Explicit,
 }
 
@@ -36,7 +34,6 @@ impl Solver {
     fn updates_per_second(self) -> f64 {
         match self {
             Self::QuasiStatic => 1e8,
-            Self::ExactStep => 7e7,
             Self::Explicit => 3e8,
         }
     }
@@ -59,8 +56,8 @@ fn approach(scene: &Scene) -> f64 {
 ///
 /// None for a scene that was read from a file.
 pub fn cable(scene: &Scene) -> Result<DuctedCable, Box<dyn Error + Send + Sync>> {
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
-    let friction = Friction::new(scene.friction.law, limit)?;
+    let limit = scene.friction.dynamic_coefficient * scene.normal_load();
+    let friction = Friction::new(scene.friction.law(), limit)?;
     Ok(
         DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?
             .with_ends(scene.ends.upstream, scene.ends.downstream)?,
@@ -81,7 +78,7 @@ pub fn motion(
     let reach = scene.duct.length + 2.0 * approach(scene);
     Ok(DuctMotion::new(
         field,
-        &scene.vehicles[0].vehicle,
+        &scene.vehicles[0].vehicle()?,
         line,
         reach,
         accuracy,
@@ -107,12 +104,9 @@ pub fn simulate(
     let mesh = Mesh::new(scene.duct.length, spacing, 0.5 * spacing)?;
     let mut state = CableState::at_rest(&mesh);
     let mut pass: Box<dyn FnMut() -> Result<PassOutcome, cable_dem::CableError>> = match solver {
-        Solver::QuasiStatic | Solver::ExactStep => {
+        Solver::QuasiStatic => {
             let passage = Passage::new(&cable, &mesh, motion, approach(scene))?;
             let mut quasi_static = QuasiStatic::new(cable, mesh)?;
-            if solver == Solver::ExactStep {
-                quasi_static = quasi_static.without_iteration();
-            }
             Box::new(move || quasi_static.pass(&passage, &mut state))
         }
         Solver::Explicit => {
@@ -125,7 +119,7 @@ pub fn simulate(
     for done in 1..=passes {
         let outcome = pass()?;
         answer.forces.push(outcome.force.downstream);
-        answer.node_updates += outcome.statistics.node_updates + outcome.statistics.corners;
+        answer.node_updates += outcome.statistics.node_updates;
         let expected = answer.node_updates as f64 * passes as f64 / done as f64;
         if done <= PROBE && expected > seconds * solver.updates_per_second() {
             return Ok(None);

@@ -61,12 +61,12 @@ impl Table {
         let ground = HalfSpace::new(
             scene
                 .ground
-                .profile
+                .profile()?
                 .homogeneous()
                 .ok_or("the ground has layers")?,
         );
         let line = DuctLine::new(scene.duct.depth, scene.offset_from(&scene.vehicles[0]))?;
-        let vehicle = &scene.vehicles[0].vehicle;
+        let vehicle = &scene.vehicles[0].vehicle()?;
         let motion = DuctMotion::new(&ground, vehicle, line, scene.duct.length + APPROACH, 1e-6)?;
         let spacing = scene.duct.depth / density;
         let mesh = Mesh::new(scene.duct.length, spacing, 0.5 * spacing)?;
@@ -77,7 +77,7 @@ impl Table {
                 let law = FrictionLaw::ElasticPlastic {
                     shape_factor: place(SHAPE_FACTORS, index % columns),
                 };
-                let limit = place(COEFFICIENTS, index / columns) * scene.cable.normal_load();
+                let limit = place(COEFFICIENTS, index / columns) * scene.normal_load();
                 let cable = DuctedCable::new(
                     scene.duct.length,
                     scene.cable.axial_stiffness,

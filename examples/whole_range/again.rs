@@ -48,11 +48,10 @@ fn mirrored(mut scene: Scene) -> Scene {
         clamp.position = scene.duct.length - clamp.position;
     }
     for of_traffic in &mut scene.vehicles {
-        let driving = match of_traffic.vehicle.direction() {
+        of_traffic.direction = match of_traffic.direction {
             Direction::Forward => Direction::Reverse,
             Direction::Reverse => Direction::Forward,
         };
-        of_traffic.vehicle = of_traffic.vehicle.clone().driving(driving);
     }
     scene
 }

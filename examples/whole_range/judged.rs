@@ -182,7 +182,7 @@ fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Resu
             return Err(format!("{end:?} with {force} N at {inward} m"));
         }
     }
-    let friction = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let friction = scene.friction.dynamic_coefficient * scene.normal_load();
     let slope = scene.duct.slope.atan();
     let weight = scene.cable.weight * slope.sin().abs();
     let carried = (friction + weight) * scene.duct.length + clamps;

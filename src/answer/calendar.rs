@@ -55,14 +55,14 @@ pub fn after(years: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Order;
 
     #[test]
     fn days_months_and_years_have_their_passes() {
+        let scene = crate::Scene::from_file("examples/scenes/full-scale-upper.toml").expect("a scene");
         let traffic = |passes, per_day| Traffic {
             passes,
             per_day,
-            order: Order::Interleaved,
+            ..scene.traffic.clone()
         };
         let names = |traffic: &Traffic| -> Vec<(u64, String)> { calendar(traffic) };
         assert_eq!(names(&traffic(1000, None)), []);

@@ -47,7 +47,7 @@ pub fn saturation(
         .map(|record| peak(&record.outcome))
         .fold(0.0, f64::max);
     // Vehicles in random order show what they do in many passes only.
-    let period = match scene.traffic.order {
+    let period = match scene.order() {
         Order::Random { .. } => period.max(records.len() / WINDOW),
         _ => period,
     };
@@ -148,7 +148,7 @@ fn levels_off<'a>(
         return None;
     }
     // Of vehicles in random order, a row between jumps is the mean of a period: it leads to the mean.
-    let leads_to = match (beyond, &scene.traffic.order) {
+    let leads_to = match (beyond, scene.order()) {
         (Some(Beyond { period, .. }), Order::Random { .. }) => {
             period.iter().map(shown).sum::<f64>() / period.len() as f64
         }

@@ -42,7 +42,7 @@ pub fn in_rows(
         return None;
     }
     let last = rows.last().map_or(0, |record| record.pass);
-    let order = traffic(scene, scene.traffic.order.clone()).ok()?;
+    let order = traffic(scene, scene.order()).ok()?;
     let period = Period::own(scene).ok()?;
     let first = if period.is_some() {
         0
@@ -57,7 +57,7 @@ pub fn in_rows(
             .map_or_else(|| first.get(place), |period| period.get(place % period.len()))
     };
     let name = |record: &&PassRecord| match vehicle(record.pass) {
-        Some(vehicle) => scene.vehicles[*vehicle].vehicle.name().to_owned(),
+        Some(vehicle) => scene.vehicles[*vehicle].name.clone(),
         None => "mean".to_owned(),
     };
     Some(("vehicle", rows.iter().map(name).collect()))

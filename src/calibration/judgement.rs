@@ -159,7 +159,7 @@ fn explanation(
     let is_elastic = problem
         .series
         .iter()
-        .any(|one| one.scene.friction.law != FrictionLaw::Coulomb);
+        .any(|one| one.scene.friction.law() != FrictionLaw::Coulomb);
     let held = (is_elastic && !is_fitted(Quantity::ShapeFactor)).then_some(Quantity::ShapeFactor);
     let fit_it = |quantity: Quantity| {
         let fitted = problem.unknowns.iter().map(|unknown| unknown.quantity);

@@ -84,7 +84,7 @@ impl SeriesModel {
             ground,
             method,
         };
-        if model.scene.traffic.passes > EVERY_PASS && model.scene.friction.law.has_memory() {
+        if model.scene.traffic.passes > EVERY_PASS && model.scene.friction.law().has_memory() {
             let task = model.task(&model.scene, &model.ground.motions, 0)?;
             let passes = task.with_jumps(&jumping(&period, Guide::Free), &[])?;
             model.jumps = Some((period, passes.schedule));

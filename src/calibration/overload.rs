@@ -18,7 +18,7 @@ const FEWEST: usize = 6;
 fn largest_force(scene: &Scene) -> f64 {
     let (_, most) = Quantity::DynamicCoefficient.bounds();
     let most = most.max(scene.friction.dynamic_coefficient);
-    (most * scene.cable.normal_load() + scene.body_force().abs()) * scene.duct.length
+    (most * scene.normal_load() + scene.body_force().abs()) * scene.duct.length
 }
 
 /// The readings without those that are beyond reach, and words on these if there are any.

@@ -143,7 +143,7 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         series
             .iter()
             .enumerate()
-            .any(|(index, one)| unknown.acts_on(index) && one.scene.friction.law == FrictionLaw::Coulomb)
+            .any(|(index, one)| unknown.acts_on(index) && one.scene.friction.law() == FrictionLaw::Coulomb)
     };
     if unknowns.is_empty() {
         unknowns.push(Unknown::shared(Quantity::DynamicCoefficient));

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use calibrate::{CalibrationError, Parameter, Prior, Scale};
 
-use crate::scene::{FrictionLaw, Scene, words};
+use crate::scene::{Scene, words};
 
 /// A quantity that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,7 +57,7 @@ impl Quantity {
     pub(super) fn value(self, scene: &Scene) -> f64 {
         match self {
             Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
-            Self::ShapeFactor => scene.friction.law.shape_factor(),
+            Self::ShapeFactor => scene.friction.law().shape_factor(),
             Self::GroundStiffness => 1.0,
             Self::ZeroOffset | Self::Drift => 0.0,
         }
@@ -65,12 +65,9 @@ impl Quantity {
 
     /// Sets its value in a scene; the ground's stiffness acts on the motion instead.
     pub(super) fn set(self, scene: &mut Scene, value: f64) {
-        match (self, &mut scene.friction.law) {
+        match (self, &mut scene.friction.shape_factor) {
             (Self::DynamicCoefficient, _) => scene.friction.dynamic_coefficient = value,
-            (
-                Self::ShapeFactor,
-                FrictionLaw::ElasticPlastic { shape_factor } | FrictionLaw::Sigmoid { shape_factor },
-            ) => *shape_factor = value,
+            (Self::ShapeFactor, Some(shape_factor)) => *shape_factor = value,
             _ => {}
         }
     }

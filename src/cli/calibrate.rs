@@ -166,7 +166,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         // Which of the files is at fault is not known.
         _ => answer?,
     };
-    let law = inputs[0].scene.friction.law;
+    let law = inputs[0].scene.friction.law();
     terminal::warn_all(&answer.warnings);
     let slips: Vec<String> = inputs.into_iter().flat_map(|input| input.warnings).collect();
     answer.warnings.splice(0..0, slips);

@@ -46,7 +46,7 @@ impl Ground {
             let reason = "the caller's own model";
             return Self::of_field(scene, "own", field, OWN_ACCURACY, reason, reach);
         }
-        let profile = &scene.ground.profile;
+        let profile = &scene.ground.profile()?;
         match scene.ground.model {
             GroundModel::Auto => match profile.homogeneous() {
                 Some(soil) => {
@@ -79,7 +79,7 @@ impl Ground {
     fn elements(scene: &Scene, reason: &'static str, reach: f64) -> Result<Self, Error> {
         // A quarter of the tolerance is for the ground.
         let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
-        let field = layered_fem::LayeredFem::new(&scene.ground.profile, accuracy)?;
+        let field = layered_fem::LayeredFem::new(&scene.ground.profile()?, accuracy)?;
         Self::of_field(scene, "fem", &field, accuracy, reason, reach)
     }
 
@@ -121,7 +121,7 @@ impl Ground {
     /// Uniform sublayers in the place of a modulus that varies.
     fn graded(scene: &Scene, reach: f64) -> Result<Self, Error> {
         let reason = "the Hankel transform on uniform sublayers, twice as many until the motion is steady";
-        let profile = &scene.ground.profile;
+        let profile = &scene.ground.profile()?;
         let sliced = |count| {
             Self::layered(
                 scene,

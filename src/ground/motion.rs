@@ -1,9 +1,9 @@
 //! Motion of the duct under each of a scene's vehicles.
 
-use ground_field::{DuctLine, DuctMotion, GroundField, Wheel};
+use ground_field::{DuctLine, DuctMotion, GroundField};
 
 use crate::Error;
-use crate::scene::{PeakScaling, Scene, TrafficVehicle};
+use crate::scene::{PeakScaling, Scene, TrafficVehicle, Wheel};
 
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);
@@ -30,7 +30,7 @@ pub fn motions(
             motions[base].clone().scaled(ratio)?
         } else {
             let line = DuctLine::new(scene.duct.depth, scene.offset_from(traffic))?;
-            DuctMotion::new(field, &traffic.vehicle, line, reach, accuracy)?
+            DuctMotion::new(field, &traffic.vehicle()?, line, reach, accuracy)?
         });
     }
     scale(scene, motions)
@@ -38,21 +38,17 @@ pub fn motions(
 
 /// How many times as heavy a vehicle is as one that is like it but for its load; `None` where they differ in more.
 pub fn load_ratio(vehicle: &TrafficVehicle, base: &TrafficVehicle) -> Option<f64> {
-    let drives = |traffic: &TrafficVehicle| {
-        let vehicle = &traffic.vehicle;
-        (traffic.lateral_offset, vehicle.speed(), vehicle.direction())
-    };
-    let (wheels, others) = (vehicle.vehicle.wheels(), base.vehicle.wheels());
-    let ratio = vehicle.vehicle.weight() / base.vehicle.weight();
+    let drives = |vehicle: &TrafficVehicle| (vehicle.lateral_offset, vehicle.speed, vehicle.direction);
+    let (wheels, others) = (vehicle.wheels(), base.wheels());
+    let ratio = vehicle.weight() / base.weight();
     let is_alike = |(a, b): (&Wheel, &Wheel)| {
-        let radii = (a.load.contact_radius(), b.load.contact_radius());
-        (a.x, a.y, radii.0) == (b.x, b.y, radii.1)
-            && (a.load.force() - ratio * b.load.force()).abs() <= SAME * a.load.force()
+        let place = |wheel: &Wheel| (wheel.x, wheel.y, wheel.contact_radius);
+        place(a) == place(b) && (a.load - ratio * b.load).abs() <= SAME * a.load
     };
     let alike = drives(vehicle) == drives(base)
         && wheels.len() == others.len()
         && ratio.is_finite()
-        && wheels.iter().zip(others).all(is_alike);
+        && wheels.iter().zip(&others).all(is_alike);
     alike.then_some(ratio)
 }
 
@@ -86,7 +82,7 @@ fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Err
     };
     let first = motions[0].peak_vertical();
     let each = motions.into_iter();
-    match scene.ground.scaling {
+    match scene.ground.scaling() {
         None => Ok(each.collect()),
         Some(PeakScaling::Longitudinal(wanted)) => each
             .map(|motion| {

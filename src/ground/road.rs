@@ -3,7 +3,7 @@
 use cable_dem::CableError;
 use ground_field::DuctMotion;
 
-use crate::scene::Scene;
+use crate::scene::{Scene, TrafficVehicle};
 
 /// The road is looked at over a hundred times the distance from wheel to duct, and ten times the thickness of the layers.
 const FARTHEST_DISTANCES: f64 = 100.0;
@@ -13,21 +13,15 @@ const FARTHEST: f64 = 3000.0;
 
 /// How far the road is looked at \[m\], measured from a vehicle's origin.
 pub fn farthest(scene: &Scene) -> f64 {
-    let wheels = || scene.vehicles.iter().flat_map(|traffic| traffic.vehicle.wheels());
+    let wheels = || scene.vehicles.iter().flat_map(TrafficVehicle::wheels);
     let ahead = wheels().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
     let aside = scene.vehicles.iter().flat_map(|traffic| {
         let offset = scene.offset_from(traffic).abs();
-        let wheels = traffic.vehicle.wheels().iter();
+        let wheels = traffic.wheels().into_iter();
         wheels.map(move |wheel| wheel.y.abs() + offset)
     });
     let aside = aside.fold(0.0, f64::max);
-    let thickness: f64 = scene
-        .ground
-        .profile
-        .layers()
-        .iter()
-        .map(ground_field::SoilLayer::thickness)
-        .sum();
+    let thickness = scene.ground.thickness();
     let far = (FARTHEST_DISTANCES * scene.duct.depth.hypot(aside)).max(FARTHEST_THICKNESSES * thickness);
     ahead + far.min(FARTHEST)
 }

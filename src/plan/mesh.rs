@@ -57,7 +57,7 @@ impl Levels {
     pub fn new(scene: &Scene, motions: &[DuctMotion], approach: f64) -> Self {
         let solver = &scene.solver;
         let length = scene.duct.length;
-        let steps_follow = scene.friction.law.has_memory();
+        let steps_follow = scene.friction.law().has_memory();
         let by_time_step = solver.method == SolverMethod::Explicit && solver.time_step.is_some();
         // The answer of a law without memory depends on its time step: there is no limit to refine towards.
         let named =

@@ -107,7 +107,7 @@ pub struct MethodChoice {
 /// The method the scene names, or the cheapest that keeps its tolerance.
 pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodChoice, Error> {
     let estimates = Estimates::new(scene, levels, period)?;
-    let has_rest = scene.friction.law.has_memory();
+    let has_rest = scene.friction.law().has_memory();
     let count = scene.traffic.passes;
     let asked = |method| (method, "the scene asks for it".to_owned());
     let (method, reason) = match scene.solver.method {
@@ -181,7 +181,7 @@ const NO_REST: &str = "the sigmoid law has no state of rest: its friction depend
 
 fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     let tolerance = scene.solver.tolerance;
-    if !scene.friction.law.has_memory() {
+    if !scene.friction.law().has_memory() {
         return (PassMethod::EveryPass(CableMethod::Explicit), NO_REST.into());
     }
     let (method, reason) = (CableMethod::QuasiStatic, estimates.inertia_in_words());
@@ -217,7 +217,7 @@ pub struct Estimates {
 
 /// Time steps per step of a vehicle where the explicit method is taken: they follow waves in the cable, stiff ends and slow vehicles.
 fn explicit_steps(scene: &Scene, levels: &Levels) -> Option<f64> {
-    if scene.solver.method != SolverMethod::Explicit && scene.friction.law.has_memory() {
+    if scene.solver.method != SolverMethod::Explicit && scene.friction.law().has_memory() {
         return None;
     }
     let first = levels.first();
@@ -225,10 +225,10 @@ fn explicit_steps(scene: &Scene, levels: &Levels) -> Option<f64> {
     let solver = Explicit::new(cable, mesh, cable::mass(scene), ExplicitOptions::default()).ok()?;
     let time_step = scene.solver.time_step.unwrap_or(solver.limits().advised());
     let (_, step) = levels.spacing(first);
-    let all: f64 = scene.vehicles.iter().map(|of_traffic| of_traffic.share).sum();
-    let steps = scene.vehicles.iter().map(|of_traffic| {
-        let advance = of_traffic.vehicle.speed() * time_step;
-        of_traffic.share / all * (step / advance).max(1.0)
+    let shares = scene.shares().into_iter();
+    let steps = shares.zip(&scene.vehicles).map(|(share, vehicle)| {
+        let advance = vehicle.speed * time_step;
+        share * (step / advance).max(1.0)
     });
     Some(steps.sum())
 }
@@ -239,7 +239,7 @@ impl Estimates {
         let mass = cable::mass(scene);
         let mut inertia = 0.0_f64;
         for traffic in &scene.vehicles {
-            inertia = inertia.max(inertia_ratio(&cable, mass, traffic.vehicle.speed())?);
+            inertia = inertia.max(inertia_ratio(&cable, mass, traffic.speed)?);
         }
         let first = levels.first();
         let lattice = levels.whole_cable_updates(first, 1);
@@ -260,7 +260,7 @@ impl Estimates {
             simulated: simulated(MOST_PERIODS),
             passes,
             stands_in: period.stands_in(),
-            drawn: matches!(scene.traffic.order, Order::Random { .. }),
+            drawn: matches!(scene.order(), Order::Random { .. }),
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
             explicit: EXPLICIT_SECONDS * explicit_steps(scene, levels).unwrap_or(EXPLICIT_STEPS) * lattice,
         })
@@ -314,14 +314,14 @@ impl Estimates {
 
     /// Error of `method` beside those of its mesh and its jumps, as a share of the force; `None` where it does not apply.
     pub fn error(&self, scene: &Scene, method: PassMethod) -> Option<f64> {
-        let without = scene.friction.law.has_memory().then_some(self.inertia);
+        let without = scene.friction.law().has_memory().then_some(self.inertia);
         if method.has_inertia() { Some(0.0) } else { without }
     }
 
     /// Why `method` was not taken.
     pub fn against(&self, scene: &Scene, method: PassMethod) -> String {
         let named = scene.solver.method != SolverMethod::Auto;
-        let has_rest = scene.friction.law.has_memory();
+        let has_rest = scene.friction.law().has_memory();
         match method {
             _ if !has_rest && !method.has_inertia() => NO_REST.into(),
             _ if named => "the scene names another method".into(),

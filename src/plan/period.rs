@@ -50,8 +50,8 @@ impl Period {
         let coming = coming(scene)?;
         let shares = shares(scene, &coming);
         let most = longest(scene);
-        let reordered = scene.traffic.order != Order::Interleaved;
-        let at_random = matches!(scene.traffic.order, Order::Random { .. });
+        let reordered = scene.order() != Order::Interleaved;
+        let at_random = matches!(scene.order(), Order::Random { .. });
         let is_drawn = |mix: &Mix| at_random && scene.warming().is_none() && mix.len() > FEW;
         let mut others = Vec::new();
         let mut weights = shares.clone();
@@ -121,9 +121,9 @@ impl Period {
     /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it does.
     pub fn own(scene: &Scene) -> Result<Option<Vec<usize>>, Error> {
         let most = longest(scene);
-        match &scene.traffic.order {
+        match scene.order() {
             Order::Sequence(sequence) if scene.warming().is_some() && sequence.len() > most => Ok(None),
-            Order::Sequence(sequence) => Ok(Some(sequence.clone())),
+            Order::Sequence(sequence) => Ok(Some(sequence)),
             Order::Interleaved => {
                 let coming = coming(scene)?;
                 let mix = Mix::best(&shares(scene, &coming), most);
@@ -180,17 +180,16 @@ pub fn coming(scene: &Scene) -> Result<Vec<usize>, Error> {
     let passes = scene.traffic.passes;
     let kinds = scene.vehicles.len();
     let mut comes = vec![false; kinds];
-    if let Order::Sequence(sequence) = &scene.traffic.order {
+    if let Order::Sequence(sequence) = scene.order() {
         for &vehicle in sequence.iter().take(passes as usize) {
             comes[vehicle] = true;
         }
     } else {
-        let total: f64 = scene.vehicles.iter().map(|vehicle| vehicle.share).sum();
-        for (comes, vehicle) in comes.iter_mut().zip(&scene.vehicles) {
-            *comes = passes > known_order(scene) && vehicle.share / total * passes as f64 >= 0.5;
+        for (comes, share) in comes.iter_mut().zip(scene.shares()) {
+            *comes = passes > known_order(scene) && share * passes as f64 >= 0.5;
         }
         let mut left = comes.iter().filter(|comes| !**comes).count();
-        let traffic = traffic(scene, scene.traffic.order.clone())?;
+        let traffic = traffic(scene, scene.order())?;
         for vehicle in traffic.take(passes.min(known_order(scene)) as usize) {
             left -= usize::from(!std::mem::replace(&mut comes[vehicle], true));
             if left == 0 {
@@ -203,17 +202,9 @@ pub fn coming(scene: &Scene) -> Result<Vec<usize>, Error> {
 
 /// Their shares, which sum to 1.
 fn shares(scene: &Scene, coming: &[usize]) -> Vec<f64> {
-    let weights: Vec<f64> = match &scene.traffic.order {
-        Order::Sequence(sequence) => {
-            let count = |vehicle: &usize| sequence.iter().filter(|one| *one == vehicle).count() as f64;
-            coming.iter().map(count).collect()
-        }
-        _ => coming
-            .iter()
-            .map(|&vehicle| scene.vehicles[vehicle].share)
-            .collect(),
-    };
-    normal(&weights)
+    let shares = scene.shares();
+    let coming: Vec<f64> = coming.iter().map(|&vehicle| shares[vehicle]).collect();
+    normal(&coming)
 }
 
 /// The same shares, whose sum is 1.

@@ -38,7 +38,7 @@ fn warm(scene: &Scene) -> Vec<String> {
             "`traffic.per_day` is {per_day}: a day of heat has whole passes, {whole}"
         ));
     }
-    if scene.traffic.order != Order::Interleaved {
+    if scene.order() != Order::Interleaved {
         warnings.push(
             "every day of heat has its vehicles in the same order, as evenly mixed as their shares allow"
                 .to_owned(),
@@ -52,7 +52,7 @@ pub fn absent(scene: &Scene) -> Result<Option<String>, Error> {
     let coming = coming(scene)?;
     let absent = (0..scene.vehicles.len()).filter(|vehicle| !coming.contains(vehicle));
     let names: Vec<String> = absent
-        .map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].vehicle.name()))
+        .map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].name))
         .collect();
     let passes = scene.traffic.passes;
     Ok((!names.is_empty()).then(|| format!("no pass among the {passes} is one of {}", names.join(", "))))
@@ -75,7 +75,7 @@ pub fn inertia(scene: &Scene, inertia: f64) -> Option<String> {
 }
 
 fn fast(scene: &Scene) -> Option<String> {
-    let profile = &scene.ground.profile;
+    let profile = &scene.ground.profile().ok()?;
     let base = match profile.base() {
         Base::HalfSpace(soil) => Some(soil.shear_modulus()),
         Base::Rigid => None,
@@ -86,7 +86,7 @@ fn fast(scene: &Scene) -> Option<String> {
     });
     let softest = layers.chain(base).fold(f64::INFINITY, f64::min);
     let wave = (softest / SOIL_DENSITY).sqrt();
-    let speeds = scene.vehicles.iter().map(|traffic| traffic.vehicle.speed());
+    let speeds = scene.vehicles.iter().map(|traffic| traffic.speed);
     let mach = speeds.fold(0.0, f64::max) / wave;
     (mach > FAST).then(|| {
         format!(

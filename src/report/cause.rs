@@ -107,7 +107,7 @@ fn motion(report: &Report) -> [Chart; 2] {
 fn velocity(report: &Report) -> Chart {
     let velocity = &report.motion.longitudinal_velocity_m_per_s;
     let [forward, backward] = ways(report).map(|way| MICRO * way);
-    let sign = report.scene.vehicles[0].vehicle.direction().sign();
+    let sign = report.scene.vehicles[0].direction.sign();
     let part = |name: String, sign: f64| {
         let points = past(report, velocity, |v| MILLI * sign * (sign * v).max(0.0));
         Series::area(name, points).solid()
@@ -121,10 +121,10 @@ fn velocity(report: &Report) -> Chart {
 /// How far the duct moves with the vehicle and against it as it drives by: ∫ V_l dt of either sign \[m\].
 fn ways(report: &Report) -> [f64; 2] {
     let motion = &report.motion;
-    let vehicle = &report.scene.vehicles[0].vehicle;
-    [vehicle.direction().sign(), -vehicle.direction().sign()].map(|sign| {
+    let vehicle = &report.scene.vehicles[0];
+    [vehicle.direction.sign(), -vehicle.direction.sign()].map(|sign| {
         let velocities = motion.longitudinal_velocity_m_per_s.iter();
-        positive_area(&motion.positions_m, velocities.map(|v| sign * v)) / vehicle.speed()
+        positive_area(&motion.positions_m, velocities.map(|v| sign * v)) / vehicle.speed
     })
 }
 

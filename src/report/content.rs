@@ -127,7 +127,7 @@ impl Report {
 
 /// How far on either side of the vehicle the figures go, a round length in `unit`.
 pub(super) fn reach(scene: &Scene, unit: Unit) -> f64 {
-    let wheels = scene.vehicles[0].vehicle.wheels();
+    let wheels = scene.vehicles[0].wheels();
     let longest = wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
     let reach = unit.of_si(REACH_DEPTHS * scene.duct.depth + longest);
     let step = 0.5 * 10_f64.powf(reach.log10().floor());

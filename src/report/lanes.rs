@@ -17,24 +17,21 @@ pub struct Lane<'s> {
     pub direction: Direction,
     /// In the scene's order.
     pub vehicles: Vec<&'s TrafficVehicle>,
+    /// Its share of all passes.
+    pub share: f64,
 }
 
 impl Lane<'_> {
-    /// The share of all passes.
-    pub fn share(&self) -> f64 {
-        self.vehicles.iter().map(|traffic| traffic.share).sum()
-    }
-
     /// Places of the wheels of its heaviest vehicle, and half their widths \[m\].
     pub fn wheels(&self) -> Vec<(f64, f64)> {
-        let weight = |traffic: &TrafficVehicle| traffic.vehicle.weight();
+        let weight = |traffic: &TrafficVehicle| traffic.weight();
         let heaviest = self
             .vehicles
             .iter()
             .max_by(|a, b| weight(a).total_cmp(&weight(b)));
         let wheels = heaviest.iter().flat_map(|traffic| {
-            let wheels = traffic.vehicle.wheels().iter();
-            wheels.map(|wheel| (wheel.y + traffic.lateral_offset, wheel.load.contact_radius()))
+            let wheels = traffic.wheels().into_iter();
+            wheels.map(|wheel| (wheel.y + traffic.lateral_offset, wheel.contact_radius))
         });
         wheels.collect()
     }
@@ -43,15 +40,15 @@ impl Lane<'_> {
     pub fn name(&self) -> String {
         match &self.vehicles[..] {
             [] => String::new(),
-            [traffic] => traffic.vehicle.name().to_owned(),
-            [first, others @ ..] => format!("{} and {} more", first.vehicle.name(), others.len()),
+            [traffic] => traffic.name.clone(),
+            [first, others @ ..] => format!("{} and {} more", first.name, others.len()),
         }
     }
 }
 
 /// Middle between a vehicle's outer wheels.
 pub fn middle(traffic: &TrafficVehicle) -> f64 {
-    let sides = || traffic.vehicle.wheels().iter().map(|wheel| wheel.y);
+    let sides = || traffic.wheels().into_iter().map(|wheel| wheel.y);
     let (right, left) = (
         sides().fold(f64::INFINITY, f64::min),
         sides().fold(f64::NEG_INFINITY, f64::max),
@@ -62,15 +59,19 @@ pub fn middle(traffic: &TrafficVehicle) -> f64 {
 /// The lanes of a scene, in the order of their first vehicles.
 pub fn lanes(scene: &Scene) -> Vec<Lane<'_>> {
     let mut lanes: Vec<Lane> = Vec::new();
-    for traffic in &scene.vehicles {
-        let (middle, direction) = (middle(traffic), traffic.vehicle.direction());
+    for (traffic, share) in scene.vehicles.iter().zip(scene.shares()) {
+        let (middle, direction) = (middle(traffic), traffic.direction);
         let same = |lane: &&mut Lane| lane.direction == direction && (lane.middle - middle).abs() < SAME;
         match lanes.iter_mut().find(same) {
-            Some(lane) => lane.vehicles.push(traffic),
+            Some(lane) => {
+                lane.vehicles.push(traffic);
+                lane.share += share;
+            }
             None => lanes.push(Lane {
                 middle,
                 direction,
                 vehicles: vec![traffic],
+                share,
             }),
         }
     }

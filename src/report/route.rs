@@ -89,11 +89,9 @@ fn caption(report: &Report) -> String {
 /// The shares of both directions.
 fn traffic(drawing: &mut Drawing, scene: &Scene) {
     let words = |direction: Direction| {
-        let same = scene
-            .vehicles
-            .iter()
-            .filter(|traffic| traffic.vehicle.direction() == direction);
-        let share: f64 = same.map(|traffic| traffic.share).sum();
+        let shares = scene.vehicles.iter().zip(scene.shares());
+        let same = shares.filter(|(vehicle, _)| vehicle.direction == direction);
+        let share: f64 = same.map(|(_, share)| share).sum();
         Some(format!("{direction}, {} %", significant(100.0 * share))).filter(|_| share > 0.0)
     };
     if let Some(words) = words(Direction::Forward) {

@@ -71,7 +71,7 @@ pub fn section(report: &Report) -> (String, String) {
         drawing.text(name, (LEFT, y), Anchor::Start);
     }
     let enlarged = words_if(inner < SMALLEST, " The duct is drawn larger than it is.");
-    let has_layers = !scene.ground.profile.layers().is_empty();
+    let has_layers = scene.ground.thickness() > 0.0;
     let darker = words_if(has_layers, " Stiffer layers are darker.");
     let caption = format!(
         "The road seen along the duct toward growing x: ⊗ marks vehicles that drive away, ⊙ those that come. To scale but for the height of \
@@ -161,7 +161,7 @@ fn sign(drawing: &mut Drawing, across: &Across, lane: &Lane, number: usize, sign
 /// Who drives in which lane.
 fn names(lanes: &[Lane]) -> Vec<String> {
     let name = |(k, lane): (usize, &Lane)| {
-        let rest = format!(", {}, {} %", lane.direction, significant(100.0 * lane.share()));
+        let rest = format!(", {}, {} %", lane.direction, significant(100.0 * lane.share));
         let whole = format!("{}: {}", k + 1, lane.name());
         // As much of a long name as there is room for.
         let mut room = RIGHT - LEFT - Drawing::text_width(&format!("…{rest}"));
@@ -185,7 +185,9 @@ fn names(lanes: &[Lane]) -> Vec<String> {
 
 /// Thickness and modulus of the layers from above to below, and the base.
 fn layers(scene: &Scene, shown: &Shown) -> Vec<String> {
-    let profile = &scene.ground.profile;
+    let Ok(profile) = scene.ground.profile() else {
+        return Vec::new();
+    };
     let layer = |layer: &ground_field::SoilLayer| {
         format!(
             "{}, {}",
@@ -209,7 +211,9 @@ fn layers(scene: &Scene, shown: &Shown) -> Vec<String> {
 
 /// The layers, the stiffer the darker, and the base, as far as they are shown.
 fn ground(drawing: &mut Drawing, scene: &Scene, scale: f64, high: f64) {
-    let profile = &scene.ground.profile;
+    let Ok(profile) = scene.ground.profile() else {
+        return;
+    };
     let stiffness = |modulus: Modulus| match modulus {
         Modulus::Uniform(modulus) => modulus,
         Modulus::Linear { top, bottom } => 0.5 * (top + bottom),

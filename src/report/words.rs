@@ -1,6 +1,6 @@
 //! The scene in words.
 
-use ground_field::{Base, Direction, Modulus, Vehicle};
+use ground_field::{Base, Direction, Modulus};
 
 use super::content::Report;
 use super::html::Html;
@@ -61,7 +61,7 @@ fn slope(report: &Report) -> String {
 fn cable(report: &Report) -> String {
     let Report { scene, shown, .. } = report;
     let cable = &scene.cable;
-    let pressed = match cable.normal_load_factor {
+    let pressed = match scene.normal_load_factor() {
         1.0 => "it lies on the duct with its own weight".to_owned(),
         factor => format!(
             "it presses on {} with {} times its weight",
@@ -113,7 +113,7 @@ fn together(scene: &Scene) -> &'static str {
 
 fn friction(report: &Report) -> String {
     let Report { scene, shown, .. } = report;
-    let law = match scene.friction.law {
+    let law = match scene.friction.law() {
         FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
         FrictionLaw::ElasticPlastic { shape_factor: b } => {
             format!("elastic-plastic law, shape factor {} 1/m", power_of_ten(b))
@@ -151,7 +151,7 @@ fn traffic(scene: &Scene) -> String {
     let rate = rate.map(|(per_day, years)| format!(" in {}, {} a day,", after(years), significant(per_day)));
     let passes = passes + &rate.unwrap_or_default();
     let vehicles = scene.vehicles.len();
-    let order = match &scene.traffic.order {
+    let order = match scene.order() {
         _ if vehicles == 1 => return format!("Traffic: {passes} of one vehicle."),
         Order::Interleaved => "mixed evenly by their shares",
         Order::Random { .. } => "at random by their shares",
@@ -163,7 +163,9 @@ fn traffic(scene: &Scene) -> String {
 /// The layers of the ground from the surface down.
 pub fn ground(html: &mut Html, report: &Report) {
     let Report { scene, shown, .. } = report;
-    let profile = &scene.ground.profile;
+    let Ok(profile) = scene.ground.profile() else {
+        return;
+    };
     let row = |depth: String, modulus: String, ratio: f64| vec![depth, modulus, significant(ratio)];
     let mut rows = Vec::new();
     let mut top = 0.0;
@@ -195,7 +197,7 @@ pub fn ground(html: &mut Html, report: &Report) {
 
 /// How the ground was scaled to a measurement, if it was.
 pub fn scaling(scene: &Scene) -> Option<String> {
-    Some(match scene.ground.scaling? {
+    Some(match scene.ground.scaling()? {
         PeakScaling::Longitudinal(peak) => format!(
             "The motion of the duct is scaled so that each vehicle moves it by {} along its axis at most.",
             quantity(peak, "m")
@@ -213,18 +215,17 @@ pub fn vehicles(html: &mut Html, report: &Report) {
     let first = &scene.vehicles[0];
     let alike = |other: &TrafficVehicle| load_ratio(other, first).is_some();
     let many = scene.vehicles.len() > MOST_ROWS && scene.vehicles.iter().all(alike);
-    let rows = scene.vehicles.iter().map(|traffic| {
-        let vehicle = &traffic.vehicle;
-        let speed = significant(KILOMETRES_PER_HOUR * vehicle.speed());
-        let direction = match vehicle.direction() {
+    let rows = scene.vehicles.iter().zip(scene.shares()).map(|(vehicle, share)| {
+        let speed = significant(KILOMETRES_PER_HOUR * vehicle.speed);
+        let direction = match vehicle.direction {
             Direction::Forward => "forward",
             Direction::Reverse => "reverse",
         };
         vec![
-            vehicle.name().to_owned(),
-            format!("{speed} km/h {direction}, {}", lane(report, traffic)),
+            vehicle.name.clone(),
+            format!("{speed} km/h {direction}, {}", lane(report, vehicle)),
             load(vehicle, shown),
-            format!("{} %", significant(100.0 * traffic.share)),
+            format!("{} %", significant(100.0 * share)),
         ]
     });
     let head = ["vehicle", "drives", "load", "share"];
@@ -242,16 +243,13 @@ pub fn vehicles(html: &mut Html, report: &Report) {
 /// The range of the vehicles' loads and their mean.
 fn loads(report: &Report) -> String {
     let Report { scene, shown, .. } = report;
-    let weights = || scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
+    let weights = || scene.vehicles.iter().map(TrafficVehicle::weight);
     let (least, most) = (
         weights().fold(f64::INFINITY, f64::min),
         weights().fold(0.0, f64::max),
     );
-    let mean: f64 = scene
-        .vehicles
-        .iter()
-        .map(|traffic| traffic.share * traffic.vehicle.weight())
-        .sum();
+    let shared = weights().zip(scene.shares());
+    let mean: f64 = shared.map(|(weight, share)| share * weight).sum();
     let [least, most, mean] = [least, most, mean].map(|load| shown.load(load));
     format!("{least} to {most}, in the mean {mean}")
 }
@@ -266,10 +264,10 @@ fn lane(report: &Report, traffic: &TrafficVehicle) -> String {
     format!("{} {side} of the duct", report.shown.length(left.abs()))
 }
 
-fn load(vehicle: &Vehicle, shown: &Shown) -> String {
+fn load(vehicle: &TrafficVehicle, shown: &Shown) -> String {
     let whole = shown.load(vehicle.weight());
-    match vehicle.wheels() {
-        [wheel] if wheel.load.is_point() => format!("{whole}, concentrated"),
+    match &vehicle.wheels()[..] {
+        [wheel] if wheel.contact_radius == 0.0 => format!("{whole}, concentrated"),
         [_] => format!("{whole}, one wheel"),
         wheels => format!("{whole} on {} wheels", wheels.len()),
     }

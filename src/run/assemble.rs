@@ -138,7 +138,7 @@ impl<'a> RunBuilder<'a> {
         let of_period = solved.passes.peaks.iter().filter(|_| !period.is_own());
         let of_period = of_period.map(|record| (vehicle(record), record));
         let pass = |(vehicle, record): (usize, &Record)| ExtremePass {
-            vehicle: scene.vehicles[vehicle].vehicle.name().to_owned(),
+            vehicle: scene.vehicles[vehicle].name.clone(),
             after: PassRecord::new(record, &scene.traffic),
             restraints_n: record.outcome.restraints.clone(),
         };

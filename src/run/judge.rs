@@ -30,7 +30,7 @@ pub fn judge(
             remedy(error, scene, period, mesh)
         ));
     }
-    if !scene.friction.law.has_memory() {
+    if !scene.friction.law().has_memory() {
         warnings.push(
             "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
                 .into(),

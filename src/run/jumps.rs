@@ -162,7 +162,7 @@ pub fn find<'a>(
         let last_bad = bad.map_or(0, |bad| fine.records[jumped + bad].pass);
         let periods = last_bad / length + 1;
         early = (periods <= MOST_FIRST_PERIODS && last_bad <= MOST_FIRST_PASSES).then_some(periods);
-        let work = fine.statistics.node_updates + fine.statistics.corners;
+        let work = fine.statistics.node_updates;
         let next = COST_OF_FINER * REFINEMENT_COST.pow((first - level) as u32) * work;
         coarse = fine.clone();
         best = Some(Found {
@@ -250,7 +250,7 @@ fn draws(
         let vehicles = plan.period.draw(all.len() as u64);
         let passes = in_place(plan, found, vehicles.clone(), &simulate)?;
         *statistics += passes.statistics;
-        work += passes.statistics.node_updates + passes.statistics.corners;
+        work += passes.statistics.node_updates;
         all.push(Draw { vehicles, passes });
         if all.len() >= FEWEST_DRAWS {
             let draws = Draws::new(&found.passes, &all, drawn(plan), scale);

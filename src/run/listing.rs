@@ -53,7 +53,7 @@ impl<'a> Listing<'a> {
             own: None,
             one_by_one: (0, 0),
             count,
-            is_drawn: matches!(scene.traffic.order, Order::Random { .. }),
+            is_drawn: matches!(scene.order(), Order::Random { .. }),
         };
         // The last passes too are the mean of a whole period: the last vehicle alone says nothing.
         let around = |pass: u64| match mean_around(pass, length, count) {
@@ -72,7 +72,7 @@ impl<'a> Listing<'a> {
             return Ok(listing);
         }
         let known = count.min(known_order(scene));
-        let vehicles = traffic(scene, scene.traffic.order.clone())?.take(known as usize);
+        let vehicles = traffic(scene, scene.order())?.take(known as usize);
         let own = OwnOrder {
             vehicles: vehicles.map(|vehicle| vehicle as u32).collect(),
             period,

@@ -206,7 +206,7 @@ impl<'a> Living<'a> {
         };
         let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.
-        let mut order = traffic(scene, scene.traffic.order.clone())?;
+        let mut order = traffic(scene, scene.order())?;
         let cable = cable(scene)?;
         let lived = live(
             &cable,

@@ -103,7 +103,7 @@ impl Task<'_> {
     /// Simulates every pass.
     pub fn every_pass(&self) -> Result<Passes, Error> {
         let mut simulation = Simulation::new(self)?;
-        let traffic = traffic(self.scene, self.scene.traffic.order.clone())?;
+        let traffic = traffic(self.scene, self.scene.order())?;
         let count = self.scene.traffic.passes;
         let mut state = simulation.solver.at_rest();
         let mut records = Vec::new();

@@ -22,7 +22,7 @@ pub fn spread(
     state: &CableState,
     answer: &Passes,
 ) -> Result<(Option<RandomSpread>, Statistics), Error> {
-    let Order::Random { seed } = task.scene.traffic.order else {
+    let Order::Random { seed } = task.scene.order() else {
         return Ok((None, Statistics::default()));
     };
     let mut simulation = Simulation::new(task)?;

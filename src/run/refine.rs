@@ -179,7 +179,7 @@ impl Refinement<'_> {
         let tolerance = self.plan.scene.solver.tolerance;
         let last = &passes[passes.len() - 1].statistics;
         // A corner of an exact step is about as much work as a node.
-        let next = REFINEMENT_COST.saturating_mul(last.node_updates + last.corners);
+        let next = REFINEMENT_COST.saturating_mul(last.node_updates);
         // A run whose error is above 10 % is refused: spend more before that.
         let most = if error_estimate::is_doubtful(error.total().force, tolerance) {
             MAX_NODE_UPDATES

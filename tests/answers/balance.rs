@@ -1,7 +1,7 @@
 //! However many passes, whatever the method: no force that friction cannot carry, or an error that names a way out.
 
 use creepage::Scene;
-use creepage::scene::{FrictionLaw, SolverMethod};
+use creepage::scene::{Law, SolverMethod};
 
 use super::common::{UPPER, answer, by, limit, scene, upper};
 
@@ -87,9 +87,11 @@ fn without_friction_nothing_is_dragged() {
             (200, SolverMethod::PassLaw),
             (200, SolverMethod::QuasiStatic),
         ] {
-            for law in [None, Some(FrictionLaw::Coulomb)] {
+            for coulomb in [false, true] {
                 let mut scene = by(&scene(&[&UPPER, duct, &[smooth]]), method);
-                scene.friction.law = law.unwrap_or(scene.friction.law);
+                if coulomb {
+                    (scene.friction.law, scene.friction.shape_factor) = (Law::Coulomb, None);
+                }
                 scene.traffic.passes = passes;
                 let run = answer(&scene).expect("nothing is an answer");
                 for record in &run.passes {

@@ -42,7 +42,7 @@ pub fn upper(lines: &[&str]) -> Scene {
 
 /// The most that friction carries per metre \[N/m\].
 pub fn limit(scene: &Scene) -> f64 {
-    scene.friction.dynamic_coefficient * scene.cable.normal_load()
+    scene.friction.dynamic_coefficient * scene.normal_load()
 }
 
 /// An answer that can be true, or a typed error that says what else to try.

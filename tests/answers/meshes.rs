@@ -2,7 +2,6 @@
 
 use creepage::scene::{GroundModel, SolverMethod};
 use creepage::{PassRecord, Run, Scene};
-use ground_field::Vehicle;
 
 use super::common::{answer, scene, upper};
 use crate::whole_range;
@@ -141,14 +140,7 @@ fn slip_that_only_fine_meshes_show_is_not_missed() {
     (scene.duct.length, scene.traffic.passes) = (5.0, 1);
     // So slow that inertia does not count.
     for traffic in &mut scene.vehicles {
-        let vehicle = &traffic.vehicle;
-        traffic.vehicle = Vehicle::new(
-            vehicle.name(),
-            vehicle.wheels().to_vec(),
-            1.0,
-            vehicle.direction(),
-        )
-        .expect("a vehicle");
+        traffic.speed = 1.0;
     }
     let run = creepage::run(&scene).expect("an answer");
     scene.solver.tolerance = 0.01;

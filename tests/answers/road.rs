@@ -65,7 +65,7 @@ fn meshed(mut scene: Scene, passes: u64) -> Scene {
     scene.solver.vehicle_step = Some(scene.duct.depth / 24.0);
     scene.solver.tolerance = 0.5;
     // Nor is any of the ground left out, however large the tolerance.
-    scene.ground.model = if scene.ground.profile.homogeneous().is_some() {
+    scene.ground.model = if scene.ground.profile().expect("layers").homogeneous().is_some() {
         GroundModel::Boussinesq
     } else {
         GroundModel::Burmister

@@ -22,11 +22,18 @@ fn chain(scene: &Scene, ground: &dyn GroundField, deflection: Option<f64>, spaci
         DuctLine::new(scene.duct.depth, 0.0).expect("a line"),
     );
     let reach = length + 2.0 * APPROACH;
-    let motion = DuctMotion::new(ground, &scene.vehicles[0].vehicle, line, reach, 1e-7).expect("a motion");
+    let motion = DuctMotion::new(
+        ground,
+        &scene.vehicles[0].vehicle().expect("a vehicle"),
+        line,
+        reach,
+        1e-7,
+    )
+    .expect("a motion");
     let factor = deflection.map_or(1.0, |peak| peak / motion.peak_vertical());
     let motion = motion.scaled(factor).expect("a motion");
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
-    let friction = Friction::new(scene.friction.law, limit).expect("friction");
+    let limit = scene.friction.dynamic_coefficient * scene.normal_load();
+    let friction = Friction::new(scene.friction.law(), limit).expect("friction");
     let cable = DuctedCable::new(length, scene.cable.axial_stiffness, friction)
         .and_then(|cable| cable.with_ends(scene.ends.upstream, scene.ends.downstream))
         .expect("a cable");
@@ -46,7 +53,14 @@ fn chain(scene: &Scene, ground: &dyn GroundField, deflection: Option<f64>, spaci
 }
 
 fn half_space(scene: &Scene) -> HalfSpace {
-    HalfSpace::new(scene.ground.profile.homogeneous().expect("one soil"))
+    HalfSpace::new(
+        scene
+            .ground
+            .profile()
+            .expect("layers")
+            .homogeneous()
+            .expect("one soil"),
+    )
 }
 
 /// Forces of both cables' scenes as the plan has it, computed once for all tests.
@@ -117,7 +131,7 @@ fn the_ground_of_table_1_on_rock_agrees_with_an_independent_program() {
     for ((name, file, _), wanted) in CABLES.iter().zip([[539.0, 575.0, 594.0], [704.0, 805.0, 861.0]]) {
         let preset = GROUNDS[1].1.expect("a preset").to_owned();
         let scene = scene(file, &[preset]).expect("a scene");
-        let ground = LayeredHalfSpace::new(&scene.ground.profile).expect("layers");
+        let ground = LayeredHalfSpace::new(&scene.ground.profile().expect("layers")).expect("layers");
         for (deflection, wanted) in WITHIN.into_iter().zip(wanted) {
             let at = |spacing| chain(&scene, &ground, Some(1e-6 * deflection), spacing)[199];
             let (coarse, fine) = (at(0.2), at(0.1));

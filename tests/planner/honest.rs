@@ -52,7 +52,7 @@ fn floor(scene: &Scene, reference: &Run) -> Errors {
             .map(f64::abs)
             .fold(0.0, f64::max)
     };
-    let friction = SHORT * scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let friction = SHORT * scene.friction.dynamic_coefficient * scene.normal_load();
     let profile = reference
         .force_profile
         .force_n
@@ -116,7 +116,7 @@ fn reference(scene: &Scene, spacing: f64, work: f64, inertia: bool) -> Option<Ru
     scene.solver.node_spacing = Some(spacing);
     scene.solver.vehicle_step = Some(0.5 * spacing);
     // Nothing is left out of the ground, and no answer is refused.
-    scene.ground.model = if scene.ground.profile.homogeneous().is_some() {
+    scene.ground.model = if scene.ground.profile().expect("layers").homogeneous().is_some() {
         GroundModel::Boussinesq
     } else {
         GroundModel::Burmister

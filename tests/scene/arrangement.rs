@@ -38,7 +38,7 @@ fn arranged(arrangement: &str) -> String {
 }
 
 fn factor(text: &str) -> f64 {
-    read(text).expect("a scene").cable.normal_load_factor
+    read(text).expect("a scene").normal_load_factor()
 }
 
 fn refused(text: &str) -> String {
@@ -107,20 +107,27 @@ fn a_factor_and_an_arrangement_exclude_each_other() {
 fn what_is_set_later_stands() {
     let set = |text: &str, overrides: &[&str]| {
         let file = creepage::SceneFile::from_toml("bundle.toml", text).and_then(|file| file.with(overrides));
-        file.and_then(|file| file.scene()).expect("a scene").cable
+        file.and_then(|file| file.scene()).expect("a scene")
     };
-    let cable = set(&arranged("trefoil-lower"), &["cable.normal_load_factor=1.5"]);
+    let scene = set(&arranged("trefoil-lower"), &["cable.normal_load_factor=1.5"]);
     assert_eq!(
-        (cable.normal_load_factor, cable.arrangement, cable.diameter),
+        (
+            scene.normal_load_factor(),
+            scene.cable.arrangement,
+            scene.cable.diameter
+        ),
         (1.5, Arrangement::Single, None)
     );
-    let cable = set(
+    let scene = set(
         &text("normal_load_factor = 1.5"),
         &["cable.arrangement=cradled-outer", "cable.diameter=67 mm"],
     );
-    assert_eq!((cable.normal_load_factor, cable.diameter), (1.0, Some(0.067)));
+    assert_eq!(
+        (scene.normal_load_factor(), scene.cable.diameter),
+        (1.0, Some(0.067))
+    );
     let wider = set(&arranged("trefoil-lower"), &["duct.inner_diameter=250 mm"]);
-    assert!(wider.normal_load_factor < factor(&arranged("trefoil-lower")));
+    assert!(wider.normal_load_factor() < factor(&arranged("trefoil-lower")));
 }
 
 #[test]
@@ -180,7 +187,7 @@ fn an_arrangement_is_written_and_a_factor_that_contradicts_it_refused() {
         );
         scene.validate().expect("valid");
         for factor in [3.0, f64::NAN] {
-            scene.cable.normal_load_factor = factor;
+            scene.cable.normal_load_factor = Some(factor);
             let message = scene.validate().expect_err("another factor").to_string();
             assert!(message.starts_with("`cable.normal_load_factor`"), "{message}");
         }

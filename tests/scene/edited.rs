@@ -4,11 +4,11 @@ use creepage::Readings;
 use creepage::calibration::{Quantity, Unknown};
 use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{
-    Arrangement, Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod,
-    TrafficVehicle,
+    Arrangement, Duct, End, Following, Law, Layer, Restraint, Scene, SceneError, SolverMethod,
+    TrafficVehicle, Wheel,
 };
 use creepage::{CalibrateOptions, Error, Progress, SceneFile};
-use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
+use ground_field::{Direction, Modulus};
 use proptest::prelude::*;
 
 use super::FULL;
@@ -35,11 +35,7 @@ fn assert_refused(key: &str, edit: impl Fn(&mut Scene)) {
 }
 
 fn vehicle(name: &str) -> TrafficVehicle {
-    TrafficVehicle {
-        vehicle: Vehicle::point(name, 1e5, 10.0).expect("a vehicle"),
-        share: 0.5,
-        lateral_offset: 0.0,
-    }
+    TrafficVehicle::point(name, 1e5, 10.0)
 }
 
 #[test]
@@ -47,10 +43,10 @@ fn an_edited_scene_is_refused_with_its_key() {
     assert_refused("vehicles", |scene| scene.vehicles.clear());
     for peak in [-1e-4, 0.0, f64::NAN, 2.0] {
         assert_refused("ground.vertical_peak", |scene| {
-            scene.ground.scaling = Some(PeakScaling::Vertical(peak));
+            scene.ground.vertical_peak = Some(peak);
         });
         assert_refused("ground.longitudinal_peak", |scene| {
-            scene.ground.scaling = Some(PeakScaling::Longitudinal(peak));
+            scene.ground.longitudinal_peak = Some(peak);
         });
     }
     for tolerance in [f64::NAN, 0.0, -0.01, 0.6] {
@@ -63,10 +59,14 @@ fn an_edited_scene_is_refused_with_its_key() {
     }
     assert_refused("traffic.passes", |scene| scene.traffic.passes = 0);
     assert_refused("traffic.passes", |scene| scene.traffic.passes = u64::MAX);
-    for share in [7.0, -1.0, 0.0, f64::NAN, f64::INFINITY] {
+    for share in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
         assert_refused("vehicles.0.share", |scene| scene.vehicles[0].share = share);
     }
-    assert_refused("vehicles.0.share", |scene| scene.vehicles[0].share = 0.5);
+    // Shares are relative to each other.
+    let mut scene = example();
+    scene.vehicles[0].share = 7.0;
+    scene.validate().expect("a scene");
+    assert_eq!(scene.shares(), [1.0]);
     for depth in [-1.0, 0.0, f64::NAN, f64::INFINITY, 1e4] {
         assert_refused("duct.depth", |scene| scene.duct.depth = depth);
     }
@@ -86,10 +86,10 @@ fn every_part_of_a_scene_has_its_ranges() {
         scene.cable.axial_stiffness = -1.0;
     });
     assert_refused("cable.normal_load_factor", |scene| {
-        scene.cable.normal_load_factor = 0.0;
+        scene.cable.normal_load_factor = Some(0.0);
     });
     assert_refused("friction.shape_factor", |scene| {
-        scene.friction.law = FrictionLaw::Sigmoid { shape_factor: 0.0 };
+        (scene.friction.law, scene.friction.shape_factor) = (Law::Sigmoid, Some(0.0));
     });
     assert_refused("ends.downstream.spring", |scene| {
         scene.ends.downstream = End::Spring(-1.0);
@@ -115,63 +115,79 @@ fn every_part_of_a_scene_has_its_ranges() {
 
 #[test]
 fn ground_and_traffic_have_their_ranges_too() {
-    let soil = Soil::new(1e20, 0.4).expect("a soil");
-    let on = |layers, base| SoilProfile::new(layers, base).expect("a ground");
-    let layer = |thickness, modulus| SoilLayer::new(thickness, modulus, 0.4).expect("a layer");
-    let stone = Soil::new(1e9, 0.4).expect("a soil");
+    let layer = |thickness, young_modulus| Layer {
+        thickness,
+        young_modulus,
+        poisson_ratio: 0.4,
+    };
+    let stone = layer(None, Modulus::Uniform(1e9));
+    assert_refused("ground.layers", |scene| scene.ground.layers.clear());
     assert_refused("ground.layers.0.young_modulus", |scene| {
-        scene.ground.profile = SoilProfile::half_space(soil);
+        scene.ground.layers[0].young_modulus = Modulus::Uniform(1e20);
     });
     assert_refused("ground.layers.0.thickness", |scene| {
-        let layers = vec![layer(1e5, Modulus::Uniform(1e9))];
-        scene.ground.profile = on(layers, Base::HalfSpace(stone));
+        scene.ground.layers = vec![layer(Some(1e5), Modulus::Uniform(1e9)), stone];
     });
+    assert_refused("ground.layers.0.thickness", |scene| {
+        scene.ground.layers = vec![layer(None, Modulus::Uniform(1e9)), stone];
+    });
+    assert_refused("ground.layers.1.thickness", |scene| {
+        scene.ground.layers = vec![layer(Some(1.0), Modulus::Uniform(1e9)); 2];
+    });
+    assert_refused("ground.rigid_base_depth", |scene| {
+        scene.ground.layers = vec![layer(Some(1.0), Modulus::Uniform(1e9)), stone];
+        scene.ground.rigid_base_depth = Some(0.9);
+    });
+    let graded = |top| Modulus::Linear { top, bottom: 1e9 };
     assert_refused("ground.layers.0.young_modulus.top", |scene| {
-        let modulus = Modulus::Linear {
-            top: 1.0,
-            bottom: 1e9,
-        };
-        scene.ground.profile = on(vec![layer(1.0, modulus)], Base::Rigid);
+        scene.ground.layers = vec![layer(None, graded(1.0))];
+        scene.ground.rigid_base_depth = Some(1.0);
+    });
+    assert_refused("ground.layers.0.young_modulus", |scene| {
+        scene.ground.layers = vec![layer(None, graded(1e8))];
     });
     assert_refused("ground.model", |scene| {
-        let layers = vec![layer(1.0, Modulus::Uniform(2e9))];
-        scene.ground.profile = on(layers, Base::HalfSpace(stone));
+        scene.ground.layers = vec![layer(Some(1.0), Modulus::Uniform(2e9)), stone];
         scene.ground.model = creepage::scene::GroundModel::Boussinesq;
     });
     assert_refused("vehicles.1.name", |scene| {
         scene.vehicles = vec![vehicle("a"), vehicle("a")];
     });
     assert_refused("vehicles.0.speed", |scene| {
-        scene.vehicles[0].vehicle = Vehicle::point("fast", 1e5, 1e9).expect("a vehicle");
+        scene.vehicles[0].speed = 1e9;
     });
+    assert_refused("vehicles.0", |scene| scene.vehicles[0].load = None);
     for lane in [f64::NAN, 2e3] {
         assert_refused("vehicles.0.lateral_offset", |scene| {
             scene.vehicles[0].lateral_offset = lane;
         });
     }
     assert_refused("vehicles.0.load", |scene| {
-        scene.vehicles[0].vehicle = Vehicle::point("heavy", 1e30, 10.0).expect("a vehicle");
+        scene.vehicles[0].load = Some(1e30);
     });
     assert_refused("vehicles.0.load", |scene| {
-        scene.vehicles[0].vehicle = Vehicle::point("empty", 0.0, 10.0).expect("a vehicle");
-        scene.ground.scaling = Some(PeakScaling::Vertical(1e-4));
+        scene.vehicles[0].load = Some(0.0);
+        scene.ground.vertical_peak = Some(1e-4);
     });
-    let sequence = |order| {
+    let sequence = |names: &'static [&str]| {
         move |scene: &mut Scene| {
             scene.vehicles = vec![vehicle("a"), vehicle("b")];
-            scene.traffic.order = Order::Sequence(order);
+            scene.traffic.sequence = names.iter().map(ToString::to_string).collect();
         }
     };
-    assert_refused("traffic.sequence", |scene| sequence(vec![0, 2])(scene));
-    assert_refused("traffic.sequence", |scene| sequence(vec![])(scene));
-    assert_refused("vehicles.0.share", |scene| sequence(vec![0, 0, 1])(scene));
+    assert_refused("traffic.sequence.1", |scene| sequence(&["a", "c"])(scene));
+    assert_refused("traffic.sequence", |scene| {
+        sequence(&["a"])(scene);
+        scene.traffic.order = Following::Random;
+    });
     assert_refused("vehicles.0.share", |scene| {
         scene.vehicles = vec![vehicle("a"), vehicle("b")];
         (scene.vehicles[0].share, scene.vehicles[1].share) = (0.0, 1.0);
     });
     let mut scene = example();
-    sequence(vec![0, 1])(&mut scene);
+    sequence(&["a", "b", "a"])(&mut scene);
     scene.validate().expect("a scene");
+    assert_eq!(scene.shares(), [2.0 / 3.0, 1.0 / 3.0]);
 }
 
 /// Everything else that takes a scene, with one that has no vehicles.
@@ -257,29 +273,21 @@ fn numbers() -> impl Strategy<Value = f64> {
 
 /// Changes one number of the scene.
 fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
-    let soil = |modulus, ratio| Soil::new(modulus, ratio).unwrap_or(Soil::new(1e9, 0.4).expect("a soil"));
+    let layer = &mut scene.ground.layers[0];
     match field {
         0 => scene.duct.length = value,
         1 => scene.duct.depth = value,
         2 => scene.duct.lateral_offset = value,
-        3 => scene.ground.scaling = Some(PeakScaling::Vertical(value)),
-        4 => scene.ground.scaling = Some(PeakScaling::Longitudinal(1e-5 * value)),
-        5 => scene.ground.profile = SoilProfile::half_space(soil(1e8 * value, 0.4)),
-        6 => scene.ground.profile = SoilProfile::half_space(soil(1e9, value)),
+        3 => scene.ground.vertical_peak = Some(value),
+        4 => scene.ground.longitudinal_peak = Some(1e-5 * value),
+        5 => layer.young_modulus = Modulus::Uniform(1e8 * value),
+        6 => layer.poisson_ratio = value,
         7 => scene.cable.weight = value,
         8 => scene.cable.axial_stiffness = 1e6 * value,
-        9 => scene.cable.normal_load_factor = value,
+        9 => scene.cable.normal_load_factor = Some(value),
         10 => scene.friction.dynamic_coefficient = value,
-        11 => {
-            scene.friction.law = FrictionLaw::ElasticPlastic {
-                shape_factor: 1e7 * value,
-            }
-        }
-        12 => {
-            scene.friction.law = FrictionLaw::Sigmoid {
-                shape_factor: 1e7 * value,
-            }
-        }
+        11 => (scene.friction.law, scene.friction.shape_factor) = (Law::ElasticPlastic, Some(1e7 * value)),
+        12 => (scene.friction.law, scene.friction.shape_factor) = (Law::Sigmoid, Some(1e7 * value)),
         13 => scene.ends.upstream = End::Spring(1e6 * value),
         14 => scene.ends.downstream = End::Spring(value),
         15 => scene.restraints.push(Restraint {
@@ -293,25 +301,20 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         17 => scene.vehicles[0].share = value,
         18 => scene.vehicles.clear(),
         19 => {
-            let wheel = SurfaceLoad::new(1e5, value).map(|load| Wheel { x: 1.0, y: 0.5, load });
-            let made = wheel.and_then(|wheel| Vehicle::new("made", vec![wheel], 10.0, Direction::Reverse));
-            if let Ok(made) = made {
-                scene.vehicles[0].vehicle = made;
-            }
+            let wheel = Wheel {
+                x: 1.0,
+                y: 0.5,
+                load: 1e5,
+                contact_radius: value,
+            };
+            (scene.vehicles[0].load, scene.vehicles[0].wheels) = (None, vec![wheel]);
+            scene.vehicles[0].direction = Direction::Reverse;
         }
-        20 => {
-            if let Ok(made) = Vehicle::point("made", 1e5 * value, 10.0) {
-                scene.vehicles[0].vehicle = made;
-            }
-        }
-        21 => {
-            if let Ok(made) = Vehicle::point("made", 1e5, value) {
-                scene.vehicles[0].vehicle = made;
-            }
-        }
+        20 => scene.vehicles[0].load = Some(1e5 * value),
+        21 => scene.vehicles[0].speed = value,
         22 => scene.traffic.passes = whole,
-        23 => scene.traffic.order = Order::Sequence(vec![0, whole as usize]),
-        24 => scene.traffic.order = Order::Sequence(Vec::new()),
+        23 => scene.traffic.sequence = vec![scene.vehicles[0].name.clone(), whole.to_string()],
+        24 => scene.ground.rigid_base_depth = Some(value),
         25 => scene.solver.tolerance = value,
         26 => scene.solver.node_spacing = Some(value),
         27 => scene.solver.vehicle_step = Some(value),
@@ -345,7 +348,7 @@ fn small(scene: &Scene) -> bool {
         && usual(scene.solver.node_spacing)
         && usual(scene.solver.vehicle_step)
         && road <= 60.0 * scene.duct.depth
-        && scene.friction.law.has_memory()
+        && scene.friction.law().has_memory()
 }
 
 proptest! {

@@ -50,13 +50,13 @@ pub fn read(test: &str, table: &str, overrides: &[&str]) -> Result<Scene, SceneE
 
 /// Load, contact radius and share of each class.
 fn classes(scene: &Scene) -> Vec<(f64, f64, f64)> {
-    let class = |traffic: &creepage::scene::TrafficVehicle| {
-        let [wheel] = traffic.vehicle.wheels() else {
+    let class = |(traffic, share): (&creepage::scene::TrafficVehicle, f64)| {
+        let [wheel] = traffic.wheels()[..] else {
             panic!("one wheel");
         };
-        (wheel.load.force(), wheel.load.contact_radius(), traffic.share)
+        (wheel.load, wheel.contact_radius, share)
     };
-    scene.vehicles.iter().map(class).collect()
+    scene.vehicles.iter().zip(scene.shares()).map(class).collect()
 }
 
 #[test]
@@ -71,8 +71,8 @@ fn every_row_is_an_axle_with_its_share() {
     ] {
         let scene = read("rows", table, &[]).unwrap();
         assert_eq!(classes(&scene), expected, "{table}");
-        assert_eq!(scene.traffic.order, Order::Random { seed: 1 });
-        assert_eq!(scene.vehicles[0].vehicle.speed(), 40.0 / 3.6);
+        assert_eq!(scene.order(), Order::Random { seed: 1 });
+        assert_eq!(scene.vehicles[0].speed, 40.0 / 3.6);
         assert_eq!(Scene::from_toml("duct.toml", &scene.to_toml()).unwrap(), scene);
         scene.validate().unwrap();
     }
@@ -83,8 +83,8 @@ fn every_row_is_an_axle_with_its_share() {
     )
     .unwrap();
     assert_eq!(classes(&points), [(9806.65, 0.0, 1.0)]);
-    assert_eq!(points.traffic.order, Order::Random { seed: 9 });
-    assert_eq!(points.vehicles[0].vehicle.speed(), 5.0);
+    assert_eq!(points.order(), Order::Random { seed: 9 });
+    assert_eq!(points.vehicles[0].speed, 5.0);
 }
 
 /// Tables as stations and spreadsheets write them: a table, the loads \[N\] and their shares.
@@ -285,10 +285,7 @@ fn what_contradicts_a_histogram_is_refused() {
     );
     // What was set later counts.
     let later = read("contradictions", table, &[vehicle]).unwrap();
-    assert_eq!(
-        (later.vehicles.len(), &later.traffic.order),
-        (1, &Order::Interleaved)
-    );
+    assert_eq!((later.vehicles.len(), later.order()), (1, Order::Interleaved));
     let none = ["traffic.histogram=", vehicle, "traffic.speed=3"];
     let message = read("contradictions", table, &none).unwrap_err().to_string();
     assert!(

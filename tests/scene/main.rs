@@ -115,8 +115,9 @@ fn every_key_is_read() {
     assert_relative_eq!(scene.body_force(), 108.8 * 0.03_f64.atan().sin());
     assert_relative_eq!(scene.friction_limit(), 0.25 * 163.2 * 0.03_f64.atan().cos());
     assert_eq!(scene.ground.model, GroundModel::FiniteElements);
-    assert_eq!(scene.ground.scaling, Some(PeakScaling::Longitudinal(35.7e-6)));
-    let layers = scene.ground.profile.layers();
+    assert_eq!(scene.ground.scaling(), Some(PeakScaling::Longitudinal(35.7e-6)));
+    let profile = scene.ground.profile().expect("layers");
+    let layers = profile.layers();
     assert_eq!(layers.len(), 3);
     assert_eq!(layers[0].modulus(), Modulus::Uniform(4e9));
     assert_eq!(layers[0].thickness(), 0.05);
@@ -127,12 +128,16 @@ fn every_key_is_read() {
             bottom: 200e6
         }
     );
-    assert_eq!(scene.ground.profile.base(), Base::Rigid);
-    assert_relative_eq!(scene.ground.profile.base_depth(), 12.0, epsilon = 1e-12);
+    assert_eq!(scene.ground.profile().expect("layers").base(), Base::Rigid);
+    assert_relative_eq!(
+        scene.ground.profile().expect("layers").base_depth(),
+        12.0,
+        epsilon = 1e-12
+    );
     assert_eq!(layers[2].poisson_ratio(), 0.5);
     assert_eq!((scene.cable.weight, scene.cable.axial_stiffness), (108.8, 8.01e6));
-    assert_relative_eq!(scene.cable.normal_load(), 163.2, epsilon = 1e-12);
-    assert_eq!(scene.friction.law, FrictionLaw::Sigmoid { shape_factor: 2e7 });
+    assert_relative_eq!(scene.normal_load(), 163.2, epsilon = 1e-12);
+    assert_eq!(scene.friction.law(), FrictionLaw::Sigmoid { shape_factor: 2e7 });
     assert_eq!(scene.friction.dynamic_coefficient, 0.25);
     assert_eq!(
         (scene.ends.upstream, scene.ends.downstream),
@@ -146,27 +151,21 @@ fn every_key_is_read() {
     let [truck, van] = &scene.vehicles[..] else {
         panic!("two vehicles")
     };
-    assert_eq!((truck.share, van.share), (0.75, 0.25));
+    assert_eq!((truck.share, van.share), (3.0, 1.0));
+    assert_eq!(scene.shares(), [0.75, 0.25]);
     assert_eq!(
-        (
-            truck.vehicle.name(),
-            truck.vehicle.speed(),
-            truck.vehicle.weight()
-        ),
+        (&*truck.name, truck.speed, truck.weight()),
         ("truck", 10.0, 196_133.0)
     );
+    assert_eq!((van.direction, van.speed), (Direction::Reverse, 5.0));
+    let wheels = van.wheels();
     assert_eq!(
-        (van.vehicle.direction(), van.vehicle.velocity()),
-        (Direction::Reverse, -5.0)
-    );
-    let wheels = van.vehicle.wheels();
-    assert_eq!(
-        (wheels[0].y, wheels[0].load.contact_radius(), wheels[1].x),
+        (wheels[0].y, wheels[0].contact_radius, wheels[1].x),
         (0.9, 0.15, -2.5)
     );
-    assert!(wheels[1].load.is_point());
+    assert_eq!(wheels[1].contact_radius, 0.0);
     assert_eq!(scene.traffic.passes, 60);
-    assert_eq!(scene.traffic.order, Order::Random { seed: 7 });
+    assert_eq!(scene.order(), Order::Random { seed: 7 });
     assert_eq!(
         scene.solver,
         Solver {
@@ -195,23 +194,29 @@ fn what_may_be_left_out_has_a_default() {
     assert_eq!(scene.title, "short");
     assert_eq!((scene.duct.lateral_offset, scene.duct.slope), (0.0, 0.0));
     assert_eq!(
-        (scene.ground.model, scene.ground.scaling),
+        (scene.ground.model, scene.ground.scaling()),
         (GroundModel::Auto, None)
     );
-    assert_eq!(scene.ground.profile.homogeneous().unwrap().young_modulus(), 8e8);
-    assert_eq!(scene.cable.normal_load_factor, 1.0);
     assert_eq!(
-        scene.friction.law,
+        scene
+            .ground
+            .profile()
+            .expect("layers")
+            .homogeneous()
+            .unwrap()
+            .young_modulus(),
+        8e8
+    );
+    assert_eq!(scene.normal_load_factor(), 1.0);
+    assert_eq!(
+        scene.friction.law(),
         FrictionLaw::ElasticPlastic { shape_factor: 2e7 }
     );
     assert!(scene.restraints.is_empty());
-    assert_eq!(scene.vehicles[1].vehicle.name(), "vehicle 2");
-    assert_eq!(scene.vehicles[1].vehicle.direction(), Direction::Forward);
-    assert_eq!(scene.vehicles[1].share, 0.5);
-    assert_eq!(
-        (scene.traffic.passes, scene.traffic.order),
-        (1000, Order::Interleaved)
-    );
+    assert_eq!(scene.vehicles[1].name, "vehicle 2");
+    assert_eq!(scene.vehicles[1].direction, Direction::Forward);
+    assert_eq!(scene.shares(), [0.5, 0.5]);
+    assert_eq!((scene.traffic.passes, scene.order()), (1000, Order::Interleaved));
     assert_eq!(scene.solver, Solver::default());
 }
 
@@ -225,8 +230,8 @@ fn the_example_scenes_have_the_same_slope_before_slipping() {
         let scene = Scene::from_file(Path::new(&path)).unwrap();
         assert_eq!(scene.title, format!("Full-scale experiment, {name} phase"));
         assert_eq!(scene.friction.dynamic_coefficient, coefficient);
-        assert_relative_eq!(scene.cable.normal_load(), normal_load, max_relative = 1e-12);
-        let FrictionLaw::ElasticPlastic { shape_factor } = scene.friction.law else {
+        assert_relative_eq!(scene.normal_load(), normal_load, max_relative = 1e-12);
+        let FrictionLaw::ElasticPlastic { shape_factor } = scene.friction.law() else {
             panic!("elastic-plastic")
         };
         assert_relative_eq!(
@@ -234,7 +239,7 @@ fn the_example_scenes_have_the_same_slope_before_slipping() {
             1e8,
             max_relative = 1e-6
         );
-        let soil = scene.ground.profile.homogeneous().unwrap();
+        let soil = scene.ground.profile().expect("layers").homogeneous().unwrap();
         assert_eq!((soil.young_modulus(), soil.poisson_ratio()), (8e8, 0.4));
         assert_eq!(
             (scene.duct.length, scene.duct.depth, scene.traffic.passes),
@@ -244,22 +249,22 @@ fn the_example_scenes_have_the_same_slope_before_slipping() {
             (scene.ends.upstream, scene.ends.downstream),
             (End::Free, End::Fixed)
         );
-        assert_relative_eq!(scene.vehicles[0].vehicle.weight(), 196_133.0);
-        assert_relative_eq!(scene.vehicles[0].vehicle.velocity(), 40.0 / 3.6);
+        assert_relative_eq!(scene.vehicles[0].weight(), 196_133.0);
+        assert_relative_eq!(scene.vehicles[0].speed, 40.0 / 3.6);
     }
 }
 
 #[test]
 fn a_sequence_names_vehicles_and_makes_their_shares() {
     let scene = read_with(&["traffic.sequence=['van', 'truck', 'van', 'van']"]).unwrap();
-    assert_eq!(scene.traffic.order, Order::Sequence(vec![1, 0, 1, 1]));
-    assert_eq!((scene.vehicles[0].share, scene.vehicles[1].share), (0.25, 0.75));
+    assert_eq!(scene.order(), Order::Sequence(vec![1, 0, 1, 1]));
+    assert_eq!(scene.shares(), [0.25, 0.75]);
 }
 
 #[test]
 fn a_random_order_has_a_seed_of_its_own() {
     let scene = read(&FULL.replace("seed = 7\n", "")).unwrap();
-    assert_eq!(scene.traffic.order, Order::Random { seed: 1 });
+    assert_eq!(scene.order(), Order::Random { seed: 1 });
 }
 
 #[test]
@@ -312,5 +317,5 @@ fn a_mass_per_length_stands_for_its_weight() {
 #[test]
 fn shares_may_be_percentages() {
     let scene = read_with(&["vehicles.0.share=20 %", "vehicles.1.share=80 %"]).unwrap();
-    assert_eq!((scene.vehicles[0].share, scene.vehicles[1].share), (0.2, 0.8));
+    assert_eq!(scene.shares(), [0.2, 0.8]);
 }

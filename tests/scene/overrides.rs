@@ -21,9 +21,12 @@ fn overrides_set_any_key() {
     ])
     .unwrap();
     assert_eq!(scene.friction.dynamic_coefficient, 0.3);
-    assert_eq!(scene.vehicles[0].vehicle.speed(), 20.0);
-    assert_eq!(scene.vehicles[1].vehicle.weight(), 16e3);
-    assert_eq!(scene.ground.profile.layers()[2].modulus(), Modulus::Uniform(1e8));
+    assert_eq!(scene.vehicles[0].speed, 20.0);
+    assert_eq!(scene.vehicles[1].weight(), 16e3);
+    assert_eq!(
+        scene.ground.profile().expect("layers").layers()[2].modulus(),
+        Modulus::Uniform(1e8)
+    );
     assert_eq!(
         (scene.ends.upstream, scene.ends.downstream),
         (End::Spring(2e6), End::Fixed)
@@ -53,7 +56,10 @@ fn overrides_make_what_is_not_there() {
 #[test]
 fn an_empty_override_removes_the_key() {
     let scene = read_with(&["ground.rigid_base_depth=", "restraints.0=", "vehicles.0="]).unwrap();
-    assert!(matches!(scene.ground.profile.base(), Base::HalfSpace(_)));
+    assert!(matches!(
+        scene.ground.profile().expect("layers").base(),
+        Base::HalfSpace(_)
+    ));
     assert!(scene.restraints.is_empty());
     assert_eq!(scene.vehicles.len(), 1);
     assert_override_refused(
@@ -65,15 +71,15 @@ fn an_empty_override_removes_the_key() {
 #[test]
 fn an_override_beats_a_key_of_the_file_that_excludes_it() {
     assert_eq!(
-        read_with(&["friction.law=coulomb"]).unwrap().friction.law,
+        read_with(&["friction.law=coulomb"]).unwrap().friction.law(),
         FrictionLaw::Coulomb
     );
     let vertical = read_with(&["ground.vertical_peak=90 um"]).unwrap();
-    assert_eq!(vertical.ground.scaling, Some(PeakScaling::Vertical(90e-6)));
+    assert_eq!(vertical.ground.scaling(), Some(PeakScaling::Vertical(90e-6)));
     let wheels = read_with(&["vehicles.0.wheels=[{ load = 1 }, { x = 3, load = 2 }]"]).unwrap();
-    assert_eq!(wheels.vehicles[0].vehicle.weight(), 3.0);
+    assert_eq!(wheels.vehicles[0].weight(), 3.0);
     let ordered = read_with(&["traffic.order=interleaved"]).unwrap();
-    assert_eq!(ordered.traffic.order, Order::Interleaved);
+    assert_eq!(ordered.order(), Order::Interleaved);
     assert_eq!(
         read_with(&["solver.method=pass-law"]).unwrap().solver.time_step,
         None

@@ -112,14 +112,14 @@ fn every_value_has_a_source_or_is_marked_as_assumed() {
 fn design_trucks_weigh_their_gross_load_on_discs_of_the_tyres_area() {
     for (name, gross) in [("t-25", 250e3), ("t-20", 200e3), ("t-14", 140e3)] {
         let scene = read_with(SCENE, &[&format!("vehicles.0.preset={name}")]);
-        let vehicle = &scene.vehicles[0].vehicle;
+        let vehicle = &scene.vehicles[0];
         assert!((vehicle.weight() - gross).abs() < 1e-6);
         for wheel in vehicle.wheels() {
-            let area = PI * wheel.load.contact_radius().powi(2);
+            let area = PI * wheel.contact_radius.powi(2);
             assert!((area / (0.2 * 0.5) - 1.0).abs() < 1e-3, "{area} m²");
             // A rear wheel has four times the load of a front wheel, four metres before it.
             let front = wheel.x > 0.0;
-            assert!((wheel.load.force() - if front { 0.1 } else { 0.4 } * gross).abs() < 1e-6);
+            assert!((wheel.load - if front { 0.1 } else { 0.4 } * gross).abs() < 1e-6);
         }
     }
 }
@@ -136,7 +136,7 @@ fn lorries_weigh_what_their_codes_say() {
         ("hs20-44", 72.0 * 4448.2216152605, 3),
     ] {
         let scene = read_with(SCENE, &[&format!("vehicles.0.preset={name}")]);
-        let vehicle = &scene.vehicles[0].vehicle;
+        let vehicle = &scene.vehicles[0];
         assert!(
             (vehicle.weight() / gross - 1.0).abs() < 1e-12,
             "{name}: {}",
@@ -152,7 +152,7 @@ fn pavements_have_the_equivalent_thickness_of_their_class() {
     // stone at least 0.3 (graded) and 0.2 (crusher-run) centimetres of hot mix.
     let worth = |preset: &Preset| {
         let scene = read_with(SCENE, &[&format!("ground.preset={}", preset.name)]);
-        let layers = scene.ground.profile.layers().to_vec();
+        let layers = scene.ground.profile().expect("layers").layers().to_vec();
         let bituminous = layers.len() - 2;
         let factors = if bituminous == 1 {
             vec![1.0, 0.3, 0.2]
@@ -164,7 +164,7 @@ fn pavements_have_the_equivalent_thickness_of_their_class() {
             .zip(factors)
             .map(|(layer, factor)| 100.0 * layer.thickness() * factor)
             .sum();
-        let Base::HalfSpace(subgrade) = scene.ground.profile.base() else {
+        let Base::HalfSpace(subgrade) = scene.ground.profile().expect("layers").base() else {
             panic!("a subgrade without end")
         };
         (sum, subgrade.young_modulus() / 10e6)
@@ -197,8 +197,8 @@ fn what_stands_beside_a_preset_counts_instead_of_it() {
     let scene = read_with(&text, &[]);
     assert_eq!((scene.cable.weight, scene.cable.axial_stiffness), (200.0, 8.01e6));
     // A load excludes wheels: the one that the scene gives itself stands.
-    assert_eq!(scene.vehicles[0].vehicle.wheels().len(), 1);
-    assert_eq!(scene.vehicles[0].vehicle.speed(), 5.0);
+    assert_eq!(scene.vehicles[0].wheels().len(), 1);
+    assert_eq!(scene.vehicles[0].speed, 5.0);
 }
 
 #[test]
@@ -212,10 +212,10 @@ fn overrides_change_presets_and_what_is_in_them() {
             "ends.upstream=fixed",
         ],
     );
-    assert_eq!(scene.vehicles[0].vehicle.weight(), 226e3);
+    assert_eq!(scene.vehicles[0].weight(), 226e3);
     assert_eq!(scene.cable.weight, 150.0);
     assert_eq!(scene.ends.upstream, End::Fixed);
-    let Base::HalfSpace(subgrade) = scene.ground.profile.base() else {
+    let Base::HalfSpace(subgrade) = scene.ground.profile().expect("layers").base() else {
         panic!("a subgrade without end")
     };
     assert_eq!(subgrade.young_modulus(), 300e6);
@@ -223,16 +223,19 @@ fn overrides_change_presets_and_what_is_in_them() {
     // A preset named later wins over what was written before it, but not over what is set after it.
     let text = SCENE.replace("preset = \"t-25\"", "load = \"15 tf\"\nspeed = 5");
     let scene = read_with(&text, &["vehicles.0.preset=t-20", "vehicles.0.speed=7"]);
-    assert_eq!(scene.vehicles[0].vehicle.weight(), 200e3);
-    assert_eq!(scene.vehicles[0].vehicle.speed(), 7.0);
+    assert_eq!(scene.vehicles[0].weight(), 200e3);
+    assert_eq!(scene.vehicles[0].speed, 7.0);
     let scene = read_with(
         SCENE,
         &["ground.preset=n7-cbr12", "ground.layers.0.thickness=1 m"],
     );
-    assert_eq!(scene.ground.profile.layers()[0].thickness(), 1.0);
-    assert_eq!(scene.ground.profile.layers().len(), 4);
     assert_eq!(
-        scene.ground.profile.layers()[0].modulus(),
+        scene.ground.profile().expect("layers").layers()[0].thickness(),
+        1.0
+    );
+    assert_eq!(scene.ground.profile().expect("layers").layers().len(), 4);
+    assert_eq!(
+        scene.ground.profile().expect("layers").layers()[0].modulus(),
         Modulus::Uniform(2411e6)
     );
 }

@@ -1,10 +1,10 @@
 //! A scene that is written to a file and read again is the same scene.
 
 use creepage::scene::{
-    Duct, End, FrictionLaw, GroundModel, Order, PeakScaling, Restraint, Scene, Solver, SolverMethod,
-    TrafficVehicle,
+    Duct, End, Following, GroundModel, Law, Layer, Restraint, Scene, Solver, SolverMethod, TrafficVehicle,
+    Wheel,
 };
-use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
+use ground_field::{Direction, Modulus};
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
@@ -23,28 +23,26 @@ fn modulus() -> impl Strategy<Value = Modulus> {
     ]
 }
 
-/// Layers on a half-space, or on rock whose depth a file could give.
-fn profile() -> impl Strategy<Value = SoilProfile> {
+/// Layers on a half-space, or on rock.
+fn ground() -> impl Strategy<Value = (Vec<Layer>, Option<f64>)> {
     let layers = vec((length(), modulus(), 0.0..=0.5), 1..4);
-    (layers, any::<bool>()).prop_map(|(layers, rock)| {
-        let mut depth = 0.0;
-        let mut upper = Vec::new();
-        let (last, others) = layers.split_last().expect("a layer");
-        for (thickness, modulus, ratio) in others {
-            depth += thickness;
-            upper.push(SoilLayer::new(*thickness, *modulus, *ratio).expect("a layer"));
-        }
-        let (thickness, modulus, ratio) = *last;
-        let base = match modulus {
-            Modulus::Uniform(modulus) if !rock => Base::HalfSpace(Soil::new(modulus, ratio).expect("a soil")),
-            modulus => {
-                let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
-                let thickness = (depth + thickness) - above;
-                upper.push(SoilLayer::new(thickness, modulus, ratio).expect("a layer"));
-                Base::Rigid
-            }
-        };
-        SoilProfile::new(upper, base).expect("a profile")
+    (layers, option::of(length())).prop_map(|(layers, above_rock)| {
+        let mut layers: Vec<Layer> = layers
+            .into_iter()
+            .map(|(thickness, young_modulus, poisson_ratio)| Layer {
+                thickness: Some(thickness),
+                young_modulus,
+                poisson_ratio,
+            })
+            .collect();
+        let last = layers.last_mut().expect("a layer");
+        let (depth, is_graded) = (
+            last.thickness.take(),
+            matches!(last.young_modulus, Modulus::Linear { .. }),
+        );
+        let above: f64 = layers.iter().filter_map(|layer| layer.thickness).sum();
+        let rock = above_rock.or(depth.filter(|_| is_graded));
+        (layers, rock.map(|depth| above + depth))
     })
 }
 
@@ -54,22 +52,21 @@ fn vehicle(index: usize) -> impl Strategy<Value = TrafficVehicle> {
     let lane = prop_oneof![Just(0.0), -9.0..9.0];
     (wheels, 1.0..30.0, any::<bool>(), lane, "[a-z\"\\\\\n名ü ]{0,5}").prop_map(
         move |(wheels, speed, reverse, lateral_offset, name)| {
-            let wheels = wheels.into_iter().map(|(x, y, force, radius)| Wheel {
+            let wheel = |(x, y, load, contact_radius)| Wheel {
                 x,
                 y,
-                load: SurfaceLoad::new(force, radius).expect("a load"),
-            });
-            let direction = if reverse {
-                Direction::Reverse
-            } else {
-                Direction::Forward
+                load,
+                contact_radius,
             };
-            let vehicle = Vehicle::new(format!("{index}{name}"), wheels.collect(), speed, direction);
-            TrafficVehicle {
-                vehicle: vehicle.expect("a vehicle"),
-                share: 1.0,
-                lateral_offset,
+            let mut vehicle = TrafficVehicle::point(&format!("{index}{name}"), 2e5, speed);
+            if wheels != [(0.0, 0.0, 2e5, 0.0)] {
+                (vehicle.load, vehicle.wheels) = (None, wheels.into_iter().map(wheel).collect());
             }
+            if reverse {
+                vehicle.direction = Direction::Reverse;
+            }
+            vehicle.lateral_offset = lateral_offset;
+            vehicle
         },
     )
 }
@@ -82,13 +79,9 @@ fn end() -> impl Strategy<Value = End> {
     ]
 }
 
-fn law() -> impl Strategy<Value = FrictionLaw> {
-    let shape_factor = || 1.0..1e9;
-    prop_oneof![
-        Just(FrictionLaw::Coulomb),
-        shape_factor().prop_map(|shape_factor| FrictionLaw::ElasticPlastic { shape_factor }),
-        shape_factor().prop_map(|shape_factor| FrictionLaw::Sigmoid { shape_factor }),
-    ]
+fn law() -> impl Strategy<Value = (Law, Option<f64>)> {
+    let laws = prop::sample::select(Law::WORDS);
+    (laws, 1.0..1e9).prop_map(|((_, law), b)| (law, (law != Law::Coulomb).then_some(b)))
 }
 
 fn solver() -> impl Strategy<Value = Solver> {
@@ -130,7 +123,7 @@ fn scene() -> impl Strategy<Value = Scene> {
     let numbers = (1.0..1e3, 1e5..1e9, 0.5..2.0, 0.0..1.0, 1..1_000_000_u64);
     (
         duct,
-        (profile(), scaling),
+        (ground(), scaling),
         (law(), numbers),
         (end(), end(), clamps),
         vehicles,
@@ -140,7 +133,7 @@ fn scene() -> impl Strategy<Value = Scene> {
         .prop_map(
             |(
                 duct,
-                (profile, scaling),
+                ((layers, rock), scaling),
                 (law, numbers),
                 (upstream, downstream, clamps),
                 vehicles,
@@ -158,18 +151,17 @@ fn scene() -> impl Strategy<Value = Scene> {
                     inner_diameter: None,
                 };
                 scene.ground.model = GroundModel::Auto;
-                scene.ground.profile = profile;
-                scene.ground.scaling = scaling.map(|(along, peak)| {
-                    if along {
-                        PeakScaling::Longitudinal(peak)
-                    } else {
-                        PeakScaling::Vertical(peak)
-                    }
-                });
-                scene.friction.law = law;
+                (scene.ground.layers, scene.ground.rigid_base_depth) = (layers, rock);
+                let peak = |wanted| {
+                    scaling
+                        .filter(|(along, _)| *along == wanted)
+                        .map(|(_, peak)| peak)
+                };
+                (scene.ground.longitudinal_peak, scene.ground.vertical_peak) = (peak(true), peak(false));
+                (scene.friction.law, scene.friction.shape_factor) = law;
                 let cable = &mut scene.cable;
                 (cable.weight, cable.axial_stiffness, cable.normal_load_factor) =
-                    (numbers.0, numbers.1, numbers.2);
+                    (numbers.0, numbers.1, Some(numbers.2));
                 (scene.friction.dynamic_coefficient, scene.traffic.passes) = (numbers.3, numbers.4);
                 (scene.ends.upstream, scene.ends.downstream) = (upstream, downstream);
                 let restraint = |(share, stiffness)| Restraint {
@@ -182,23 +174,21 @@ fn scene() -> impl Strategy<Value = Scene> {
                     scene.duct.slope = 0.1 * lateral_offset;
                 }
                 scene.vehicles = vec![vehicles.0, vehicles.1, vehicles.2];
-                let shares = match passes {
+                let traffic = &mut scene.traffic;
+                (traffic.order, traffic.seed) = (Following::Interleaved, 1);
+                match passes {
                     Passes::Shares(shares, seed) => {
-                        scene.traffic.order = seed.map_or(Order::Interleaved, |seed| Order::Random { seed });
-                        shares
+                        if let Some(seed) = seed {
+                            (traffic.order, traffic.seed) = (Following::Random, seed);
+                        }
+                        for (vehicle, share) in scene.vehicles.iter_mut().zip(shares) {
+                            vehicle.share = share;
+                        }
                     }
                     Passes::Sequence(sequence) => {
-                        let count = |index| sequence.iter().filter(|&&i| i == index).count() as f64;
-                        let shares = (0..3).map(count).collect();
-                        scene.traffic.order = Order::Sequence(sequence);
-                        shares
+                        let name = |index: usize| scene.vehicles[index].name.clone();
+                        traffic.sequence = sequence.into_iter().map(name).collect();
                     }
-                };
-                // As reading a file makes them sum to 1.
-                let largest = shares.iter().fold(0.0, |a: f64, b| a.max(*b));
-                let sum: f64 = shares.iter().map(|share| share / largest).sum();
-                for (vehicle, share) in scene.vehicles.iter_mut().zip(&shares) {
-                    vehicle.share = share / largest / sum;
                 }
                 scene.solver = solver;
                 scene.solver.node_spacing = scene.solver.node_spacing.map(|spacing| spacing * length);

@@ -83,10 +83,7 @@ fn vehicles_that_are_too_seldom_for_a_period_are_judged() {
 #[test]
 fn a_seldom_vehicle_against_the_common_direction_counts() {
     let mut scene = scene(&[(100.0, 40.0), (1.0, 400.0)], "passes = 3000");
-    scene.vehicles[0].vehicle = scene.vehicles[0]
-        .vehicle
-        .clone()
-        .driving(ground_field::Direction::Reverse);
+    scene.vehicles[0].direction = ground_field::Direction::Reverse;
     let every = by(&scene, SolverMethod::QuasiStatic).expect("an answer");
     let found = by(&scene, SolverMethod::PassLaw).expect("an answer");
     let last = |run: &Run| run.passes.last().expect("a pass").downstream_force_n;

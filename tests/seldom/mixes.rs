@@ -43,7 +43,7 @@ fn judge(seed: u64) -> Vec<Judged> {
         assert_eq!(method, "quasi-static", "mix {seed}");
     }
     // In random order jumps show means.
-    if !matches!(scene.traffic.order, Order::Random { .. }) {
+    if !matches!(scene.order(), Order::Random { .. }) {
         methods.push((SolverMethod::PassLaw, "jumps"));
     }
     let of_method = |&(method, name): &(SolverMethod, &'static str)| {

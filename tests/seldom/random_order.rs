@@ -1,6 +1,6 @@
 //! Long traffic in random order shows the mean over random orders.
 
-use creepage::scene::{Order, SolverMethod};
+use creepage::scene::{Following, SolverMethod};
 use creepage::{CableEnd, PassRecord, Run, Scene};
 use rayon::prelude::*;
 
@@ -58,7 +58,7 @@ fn long_traffic_in_random_order_shows_the_mean_over_random_orders() {
     for (reverse, shares, loads) in mixes {
         let every = |seed: u64| {
             let mut scene = scene(reverse, shares, loads, PASSES);
-            scene.traffic.order = Order::Random { seed };
+            (scene.traffic.order, scene.traffic.seed) = (Following::Random, seed);
             late_mean(&by(&scene, SolverMethod::QuasiStatic).expect("an answer"))
         };
         let runs: Vec<[f64; 2]> = (0..RUNS).into_par_iter().map(every).collect();

@@ -111,7 +111,7 @@ pub struct Difference {
 
 /// By how much `found` differs from `every` pass simulated.
 pub fn difference(scene: &Scene, every: &Run, found: &Run) -> Difference {
-    let friction = SHORT * scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let friction = SHORT * scene.friction.dynamic_coefficient * scene.normal_load();
     let largest = every
         .passes
         .iter()

@@ -1,6 +1,6 @@
 //! Shares of n to one.
 
-use creepage::scene::{Order, SolverMethod};
+use creepage::scene::SolverMethod;
 use creepage::{Run, Scene};
 use proptest::prelude::*;
 
@@ -31,8 +31,8 @@ fn scene(n: usize, passes: u64) -> Scene {
 fn written_out(scene: &Scene, n: usize) -> Run {
     let mut scene = scene.clone();
     let special = n.div_ceil(2);
-    let order = (0..=n).map(|place| usize::from(place == special)).collect();
-    scene.traffic.order = Order::Sequence(order);
+    let name = |place| scene.vehicles[usize::from(place == special)].name.clone();
+    scene.traffic.sequence = (0..=n).map(name).collect();
     by(&scene, SolverMethod::QuasiStatic).expect("an answer")
 }
 

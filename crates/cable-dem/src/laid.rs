@@ -1,7 +1,8 @@
 //! The cable as laid.
 
 use crate::lumped::{Lumped, WholeStep};
-use crate::step::{Chain, Support};
+use crate::step::{Chain, Stretch, Support};
+use crate::tridiagonal::{self, Row};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, Statistics};
 
 /// Mass per metre \[kg/m\] where nothing moves: any.
@@ -74,19 +75,17 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
 /// K u = w p, by elimination.
 fn without_friction(cable: &DuctedCable, mesh: &Mesh) -> Vec<f64> {
     let chain = Chain::new(cable, mesh);
-    let mut u = cable.body_loads(mesh);
-    let (lo, hi) = (chain.free.lo, chain.free.hi);
-    u[..lo].fill(0.0);
-    u[hi + 1..].fill(0.0);
-    let (mut factors, mut factor, mut before) = (vec![0.0; u.len()], 0.0, 0.0);
-    for i in lo..=hi {
-        factor = 1.0 / (chain.nodes[i].diagonal - factor);
-        before = (u[i] / chain.stiffness + before) * factor;
-        factors[i] = factor;
-        u[i] = before;
-    }
-    for i in (lo..hi).rev() {
-        u[i] += factors[i] * u[i + 1];
-    }
+    let (body, mut u, mut factors) = (
+        cable.body_loads(mesh),
+        vec![0.0; mesh.nodes()],
+        vec![0.0; mesh.nodes()],
+    );
+    let Stretch { lo, hi } = chain.free;
+    let row = |k: usize| {
+        let share = 1.0 / chain.nodes[lo + k].diagonal;
+        let value = share * body[lo + k] * chain.per_stiffness;
+        Row { share, value }
+    };
+    tridiagonal::solve([0.0, 0.0], row, &mut factors, &mut u[lo..=hi]);
     u
 }

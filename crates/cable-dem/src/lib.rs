@@ -19,6 +19,7 @@ mod state;
 mod statistics;
 mod step;
 mod traffic;
+mod tridiagonal;
 mod view;
 
 pub use approach::approach;

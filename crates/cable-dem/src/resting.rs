@@ -2,6 +2,7 @@
 
 use crate::error::checked;
 use crate::step::{Chain, Load, StepSolver, Stretch, Support, largest};
+use crate::tridiagonal::{self, Row};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
 /// One cable on one mesh, at rest in a duct at rest.
@@ -38,9 +39,9 @@ pub struct RestingCable {
     load: Vec<f64>,
     /// Without heat that of both end nodes.
     weight: [f64; 2],
-    /// What [`Self::diffuse`] solved last, eliminated: of every row the factor of its neighbour, and what its right side is divided by.
+    /// Storage of [`Self::diffuse`].
     factor: Vec<f64>,
-    inverse: Vec<f64>,
+    given: Vec<f64>,
 }
 
 impl RestingCable {
@@ -64,7 +65,7 @@ impl RestingCable {
             weight: [load[0], load[mesh.elements()]],
             load,
             factor: zeros(),
-            inverse: zeros(),
+            given: zeros(),
         })
     }
 
@@ -85,7 +86,7 @@ impl RestingCable {
 
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
     pub fn is_held(&self) -> bool {
-        self.supports.iter().any(|support| support.stiffness != Some(0.0))
+        self.step.chain.is_held
     }
 
     /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, beside that which balances the body force, at every
@@ -121,33 +122,20 @@ impl RestingCable {
     /// Solves (1 + s K/w) y = b for slopes s ≥ 0 \[m²/N\] at every node: what diffuses b along the cable. `y` holds b before and
     /// the answer after; it is zero at fixed ends.
     pub fn diffuse(&mut self, slope: impl Fn(usize) -> f64, y: &mut [f64]) {
-        let chain = &self.step.chain;
-        let mut before = 0.0;
-        for i in chain.free.nodes() {
-            let off = slope(i) * chain.stiffness * chain.nodes[i].per_tributary;
-            let pivot = (1.0 + off * chain.nodes[i].diagonal) - off * before;
-            (self.factor[i], self.inverse[i]) = (off / pivot, 1.0 / pivot);
-            before = self.factor[i];
-        }
-        self.diffuse_again(y);
-    }
-
-    /// Solves the equation of the last [`RestingCable::diffuse`] for another b; before the first one y comes out as zero.
-    pub fn diffuse_again(&self, y: &mut [f64]) {
-        let (factor, inverse, Stretch { lo, hi }) =
-            (&self.factor[..], &self.inverse[..], self.step.chain.free);
-        y[..lo].fill(0.0);
-        y[hi + 1..].fill(0.0);
-        let mut before = 0.0;
-        for i in lo..=hi {
-            before = inverse[i] * y[i] + factor[i] * before;
-            y[i] = before;
-        }
-        let mut after = 0.0;
-        for i in (lo..=hi).rev() {
-            after = y[i] + factor[i] * after;
-            y[i] = after;
-        }
+        let (chain, given) = (&self.step.chain, &mut self.given);
+        let Stretch { lo, hi } = chain.free;
+        given.copy_from_slice(y);
+        y.fill(0.0);
+        let row = |k: usize| {
+            let node = &chain.nodes[lo + k];
+            let off = slope(lo + k) * chain.stiffness * node.per_tributary;
+            let per_pivot = 1.0 / (1.0 + off * node.diagonal);
+            Row {
+                share: off * per_pivot,
+                value: given[lo + k] * per_pivot,
+            }
+        };
+        tridiagonal::solve([0.0, 0.0], row, &mut self.factor, &mut y[lo..=hi]);
     }
 
     /// Lets the cable come to rest: friction beyond its limit yields, and the cable moves as little as equilibrium needs.
@@ -161,8 +149,9 @@ impl RestingCable {
         let mut at_rest = true;
         for i in chain.free.nodes() {
             let needed = chain.balancing_friction(&state.displacement, &self.load, i);
-            at_rest &= needed.abs() <= chain.limit;
-            state.friction[i] = needed.clamp(-chain.limit, chain.limit);
+            let limit = chain.nodes[i].limit;
+            at_rest &= needed.abs() <= limit;
+            state.friction[i] = needed.clamp(-limit, limit);
         }
         if at_rest { Ok(()) } else { self.step(state, 0.0) }
     }

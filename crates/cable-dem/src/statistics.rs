@@ -10,12 +10,10 @@ pub struct Statistics {
     pub windows: usize,
     /// Linear solves over a window.
     pub sweeps: usize,
-    /// Nodes eliminated in these, or advanced in time.
+    /// Nodes eliminated in these, with what bisections cost, or nodes advanced in time.
     pub node_updates: usize,
-    /// Windows that the iteration did not solve, so that the exact step was taken.
-    pub exact_steps: usize,
-    /// Corners of graphs that these touched, each about as much work as a node.
-    pub corners: usize,
+    /// Windows in which the iteration cycled, so that the contact states were found by bisection of the chain.
+    pub cycles: usize,
     /// Most nodes in one window, apart from the steps from rest and to it.
     pub widest_window: usize,
 }
@@ -26,8 +24,7 @@ impl std::ops::AddAssign for Statistics {
         self.windows += other.windows;
         self.sweeps += other.sweeps;
         self.node_updates += other.node_updates;
-        self.exact_steps += other.exact_steps;
-        self.corners += other.corners;
+        self.cycles += other.cycles;
         self.widest_window = self.widest_window.max(other.widest_window);
     }
 }

@@ -91,14 +91,15 @@ impl<'a> Flow<'a> {
 
     fn substep(&self, cable: &mut RestingCable, y: &[f64], time: f64, length: f64) -> Vec<f64> {
         let mut first = self.derivative(cable, y, time + GAMMA * length);
-        cable.diffuse(|i| GAMMA * length * self.slope[i], &mut first);
+        let slope = |i: usize| GAMMA * length * self.slope[i];
+        cable.diffuse(slope, &mut first);
         let mut sum: Vec<f64> = y
             .iter()
             .zip(&first)
             .map(|(y, k)| y + (1.0 - GAMMA) * length * k)
             .collect();
         let mut second = self.derivative(cable, &sum, time + length);
-        cable.diffuse_again(&mut second);
+        cable.diffuse(slope, &mut second);
         for (sum, k) in sum.iter_mut().zip(&second) {
             *sum += GAMMA * length * k;
         }

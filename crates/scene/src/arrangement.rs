@@ -14,12 +14,33 @@
 //! (R. C. Rifenburg, Trans. AIEE 72 (1953) 1275). They are factors for cables that are computed one by one: computed together, the lower ones
 //! also carry the upper one's friction.
 
-use crate::data::{Arrangement, Scene};
+use crate::words::file_words;
 
 /// Least D/d with which three cables fit into a duct: 1 + 2/√3.
 pub const CLOSEST: f64 = 2.154_700_538_379_251_5;
 /// D/d between which one of three cables may wedge itself between the others as they are pulled in (the same calculations' jam ratio).
-const JAMMING: std::ops::RangeInclusive<f64> = 2.8..=3.2;
+pub const JAMMING: std::ops::RangeInclusive<f64> = 2.8..=3.2;
+
+/// How a cable lies in its duct, alone or as one of three.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Arrangement {
+    /// Alone.
+    #[default]
+    Single,
+    /// On two others.
+    TrefoilUpper,
+    /// Under a third one, beside another.
+    TrefoilLower,
+    /// At the side of three in a row on the bottom of the duct.
+    CradledOuter,
+    /// Between two others on the bottom of the duct.
+    CradledMiddle,
+}
+
+file_words! {
+    Arrangement: Single "single", TrefoilUpper "trefoil-upper", TrefoilLower "trefoil-lower", CradledOuter "cradled-outer",
+    CradledMiddle "cradled-middle"
+}
 
 impl Arrangement {
     /// Whether it is one of three cables.
@@ -49,16 +70,4 @@ impl Arrangement {
             Self::CradledMiddle => 1.0 + 4.0 * s * s,
         }
     }
-}
-
-/// The warning for cables that may jam.
-pub fn may_jam(scene: &Scene) -> Option<String> {
-    let ratio = scene.duct.inner_diameter? / scene.cable.diameter?;
-    let jams = scene.cable.arrangement.is_of_three() && JAMMING.contains(&ratio);
-    jams.then(|| {
-        let (from, to) = (JAMMING.start(), JAMMING.end());
-        format!(
-            "`duct.inner_diameter` is {ratio:.2} times `cable.diameter`: from {from} to {to} times three cables may jam as they are pulled in"
-        )
-    })
 }

@@ -1,106 +1,97 @@
-//! `[cable]` and `[friction]`: from their keys to the cable and its friction, and back.
+//! `[cable]` and `[friction]`: the cable in the duct, and what holds it there.
 
 use cable_dem::FrictionLaw;
 
-use crate::data::{Arrangement, Cable, Duct, Friction};
-use crate::error::Wrong;
-use crate::keys::{CableKeys, FrictionKeys, Law};
+use crate::arrangement::Arrangement;
+use crate::error::SceneError;
+use crate::key::Form::Number;
+use crate::key::keys;
 use crate::range::{
-    AXIAL_STIFFNESS, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, INNER_DIAMETER, Quantity, SHAPE_FACTOR,
-    shown,
+    AXIAL_STIFFNESS, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, Quantity,
+    SHAPE_FACTOR, WEIGHT, shown,
 };
+use crate::words::file_words;
 
-impl CableKeys {
-    /// The cable with these keys in `duct`; its normal load factor is given, or as its arrangement and both diameters make it.
-    pub fn cable(&self, duct: &Duct) -> Result<Cable, Box<Wrong>> {
-        let (arrangement, mut diameter) = (self.arrangement, self.diameter);
-        let normal_load_factor = match (self.normal_load_factor, diameter, duct.inner_diameter) {
-            (Some(factor), ..) => {
-                diameter = None;
-                factor
-            }
-            (None, Some(diameter), Some(inner)) => arrangement.normal_load_factor(inner, diameter),
-            _ if !arrangement.is_of_three() => 1.0,
-            (None, _, None) => return Err(Wrong::missing("duct.inner_diameter", INNER_DIAMETER.allowed())),
-            _ => return Err(Wrong::missing("cable.diameter", DIAMETER.allowed())),
-        };
-        let (weight, axial_stiffness) = (self.weight, self.axial_stiffness()?);
-        Ok(Cable {
-            weight,
-            axial_stiffness,
-            normal_load_factor,
-            diameter,
-            arrangement,
-        })
-    }
-
-    /// EA \[N\], given or as a modulus times an area.
-    fn axial_stiffness(&self) -> Result<f64, Box<Wrong>> {
-        let missing =
-            |key: &str, quantity: Quantity| Wrong::missing(format!("cable.{key}"), quantity.allowed());
-        let (modulus, area) = match (self.axial_stiffness, self.young_modulus, self.conductor_area) {
-            (Some(stiffness), ..) => return Ok(stiffness),
-            (None, Some(modulus), Some(area)) => (modulus, area),
-            (None, Some(_), None) => return Err(missing("conductor_area", CONDUCTOR_AREA)),
-            (None, None, Some(_)) => return Err(missing("young_modulus", CONDUCTOR_MODULUS)),
-            (None, None, None) => return Err(missing("axial_stiffness", AXIAL_STIFFNESS)),
-        };
-        let stiffness = modulus * area;
-        if AXIAL_STIFFNESS.contains(stiffness) {
-            return Ok(stiffness);
-        }
-        let [modulus, area, force] = [modulus, area, stiffness].map(shown);
-        let found = format!("{modulus} Pa times {area} m2, {force} N");
-        let allowed = format!("a product {}", AXIAL_STIFFNESS.words);
-        Err(Wrong::value("cable.young_modulus", found, allowed))
-    }
-
-    /// The keys of a cable.
-    pub fn of(cable: &Cable) -> Self {
-        // Of several cables the factor follows from what is known of them.
-        let given = cable.arrangement == Arrangement::Single && cable.diameter.is_none();
-        Self {
-            weight: cable.weight,
-            axial_stiffness: Some(cable.axial_stiffness),
-            young_modulus: None,
-            conductor_area: None,
-            normal_load_factor: given.then_some(cable.normal_load_factor),
-            diameter: cable.diameter,
-            arrangement: cable.arrangement,
-        }
+keys! {
+    /// The cable, in SI.
+    #[derive(Copy)]
+    #[non_exhaustive]
+    pub struct Cable {
+        preset "A cable by its name; keys beside it override its values.";
+        /// Weight of the cable per length; a mass per length is multiplied by g.
+        weight: f64 = Number(WEIGHT);
+        /// Young's modulus times cross-section, EA.
+        axial_stiffness: f64 = Number(AXIAL_STIFFNESS), "`young_modulus` and `conductor_area` instead";
+        /// Young's modulus of the cable as a whole, relative to the area of its conductors.
+        young_modulus: Option<f64> = Number(CONDUCTOR_MODULUS), "`axial_stiffness` instead";
+        /// Area of its conductors; with `young_modulus` it gives EA.
+        conductor_area: Option<f64> = Number(CONDUCTOR_AREA), "`axial_stiffness` instead";
+        /// Normal force on the duct, in weights of the cable.
+        normal_load_factor: Option<f64> = Number(LOAD_FACTOR), "1";
+        /// Diameter of the cable; of several in a duct it sets the normal load factor.
+        diameter: Option<f64> = Number(DIAMETER), "none";
+        /// How it lies beside others in its duct.
+        arrangement: Arrangement = Arrangement::FORM, "\"single\"";
     }
 }
 
-impl FrictionKeys {
-    /// The friction with these keys.
-    pub fn friction(&self) -> Result<Friction, Box<Wrong>> {
-        let allowed = || format!("{}; law = \"coulomb\" needs none", SHAPE_FACTOR.allowed());
-        let missing = || Wrong::missing("friction.shape_factor", allowed());
-        let law = match (self.law, self.shape_factor) {
-            (Law::Coulomb, _) => FrictionLaw::Coulomb,
-            (_, None) => return Err(missing()),
-            (Law::ElasticPlastic, Some(shape_factor)) => FrictionLaw::ElasticPlastic { shape_factor },
-            (Law::Sigmoid, Some(shape_factor)) => FrictionLaw::Sigmoid { shape_factor },
+impl Cable {
+    /// Puts EA in place of a modulus and an area.
+    pub(crate) fn resolve(&mut self) -> Result<(), SceneError> {
+        let missing = |key, quantity: Quantity| Err(SceneError::missing(key, quantity.allowed()));
+        let (modulus, area) = match (self.young_modulus.take(), self.conductor_area.take()) {
+            (Some(modulus), Some(area)) => (modulus, area),
+            (Some(_), None) => return missing("cable.conductor_area", CONDUCTOR_AREA),
+            (None, Some(_)) => return missing("cable.young_modulus", CONDUCTOR_MODULUS),
+            (None, None) => return Ok(()),
         };
-        let dynamic_coefficient = self.dynamic_coefficient;
-        Ok(Friction {
-            law,
-            dynamic_coefficient,
-        })
+        self.axial_stiffness = modulus * area;
+        if AXIAL_STIFFNESS.contains(self.axial_stiffness) {
+            return Ok(());
+        }
+        let [modulus, area, force] = [modulus, area, self.axial_stiffness].map(shown);
+        let found = format!("{modulus} Pa times {area} m2, {force} N");
+        let allowed = format!("a product {}", AXIAL_STIFFNESS.words);
+        Err(SceneError::value("cable.young_modulus", found, allowed))
     }
+}
 
-    /// The keys of a friction.
-    pub fn of(friction: &Friction) -> Self {
-        let (law, shape_factor) = match friction.law {
-            FrictionLaw::ElasticPlastic { shape_factor } => (Law::ElasticPlastic, Some(shape_factor)),
-            FrictionLaw::Sigmoid { shape_factor } => (Law::Sigmoid, Some(shape_factor)),
-            _ => (Law::Coulomb, None),
-        };
-        let dynamic_coefficient = friction.dynamic_coefficient;
-        Self {
-            law,
-            dynamic_coefficient,
-            shape_factor,
+keys! {
+    /// Friction between cable and duct, in SI.
+    #[derive(Copy)]
+    pub struct Friction {
+        preset "A pair of surfaces by its name; keys beside it override its values.";
+        /// How friction follows slip.
+        law: Law = Law::FORM, "\"elastic-plastic\"";
+        /// Friction of the slipping cable in normal forces, μ_d.
+        dynamic_coefficient: f64 = Number(COEFFICIENT);
+        /// How steeply friction builds up before the cable slips, b: the slope is q b/2.
+        shape_factor: Option<f64> = Number(SHAPE_FACTOR), "required, but not with Coulomb's law";
+    }
+}
+
+/// The laws of friction by their names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Law {
+    /// Rigid until it slips; it has no shape factor.
+    Coulomb,
+    /// Linear elastic until it slips, with memory.
+    #[default]
+    ElasticPlastic,
+    /// A smooth function of the slip within one time step, without memory.
+    Sigmoid,
+}
+
+file_words!(Law: Coulomb "coulomb", ElasticPlastic "elastic-plastic", Sigmoid "sigmoid");
+
+impl Friction {
+    /// The law with its shape factor, which is not a number where none is given.
+    pub fn law(&self) -> FrictionLaw {
+        let shape_factor = self.shape_factor.unwrap_or(f64::NAN);
+        match self.law {
+            Law::Coulomb => FrictionLaw::Coulomb,
+            Law::ElasticPlastic => FrictionLaw::ElasticPlastic { shape_factor },
+            Law::Sigmoid => FrictionLaw::Sigmoid { shape_factor },
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The two ends of a cable.
 
+use cable_dem::End;
 use serde::{Deserialize, Serialize};
 
-use crate::data::{End, Scene};
+use crate::scene::Scene;
 
 /// An end of the cable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

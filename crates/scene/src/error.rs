@@ -69,66 +69,72 @@ pub enum WrongKind {
 const LONGEST_LIST: usize = 1000;
 const LONGEST_TEXT: usize = 300;
 
-impl Wrong {
+impl SceneError {
     /// What is wrong at a key, without the place where it stands.
-    pub(crate) fn at(
+    pub(crate) fn wrong(
         kind: WrongKind,
-        key: impl Into<String>,
+        key: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Box<Self> {
-        Box::new(Self {
+    ) -> Self {
+        let (key, found, allowed) = (key.to_owned(), found.into(), allowed.into());
+        Self::Wrong(Box::new(Wrong {
             kind,
-            key: key.into(),
-            found: found.into(),
-            allowed: allowed.into(),
+            key,
+            found,
+            allowed,
             location: None,
-        })
+        }))
     }
 
     /// A value that is of the wrong type, or contradicts another one.
-    pub(crate) fn value(
-        key: impl Into<String>,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Box<Self> {
-        Self::at(WrongKind::Value, key, found, allowed)
+    pub(crate) fn value(key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self::wrong(WrongKind::Value, key, found, allowed)
     }
 
     /// A key that is missing.
-    pub(crate) fn missing(key: impl Into<String>, allowed: impl Into<String>) -> Box<Self> {
-        Self::at(WrongKind::MissingKey, key, "", allowed)
+    pub(crate) fn missing(key: &str, allowed: impl Into<String>) -> Self {
+        Self::wrong(WrongKind::MissingKey, key, "", allowed)
     }
-}
 
-impl From<Box<Wrong>> for SceneError {
-    fn from(wrong: Box<Wrong>) -> Self {
-        Self::Wrong(wrong)
+    /// The same, at this place.
+    pub(crate) fn at(mut self, location: Location) -> Self {
+        if let Self::Wrong(wrong) = &mut self {
+            wrong.location = Some(location);
+        }
+        self
+    }
+
+    /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
+    pub fn location(&self) -> Option<&Location> {
+        match self {
+            Self::Unreadable(..) | Self::TooLarge(..) => None,
+            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
+            Self::Wrong(wrong) => wrong.location.as_ref(),
+        }
     }
 }
 
 impl fmt::Display for Wrong {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let key = format!("`{}`{}", shortened(&self.key, LONGEST_TEXT), counted(&self.key));
-        let (found, allowed) = (
-            shortened(&self.found, LONGEST_TEXT),
-            shortened(&self.allowed, LONGEST_LIST),
-        );
+        let found = shortened(&self.found, LONGEST_TEXT);
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
-        match &self.kind {
-            WrongKind::UnknownKey => write!(f, "found unknown key {key}{found}")?,
-            WrongKind::MissingKey => write!(f, "key {key} is missing")?,
-            WrongKind::Unit(problem) => {
-                write!(f, "{key}: {}: found {found}", shortened(problem, LONGEST_TEXT))?;
-            }
-            WrongKind::OutOfRange => write!(f, "{key}: out of range: found {found}")?,
-            WrongKind::Override | WrongKind::Value => write!(f, "{key}: found {found}")?,
-        }
-        write!(f, "; allowed: {allowed}")?;
-        let excerpt = self.location.as_ref().map(Location::excerpt);
-        f.write_str(&excerpt.unwrap_or_default())
+        let what = match &self.kind {
+            WrongKind::UnknownKey => format!("found unknown key {key}{found}"),
+            WrongKind::MissingKey => format!("key {key} is missing"),
+            WrongKind::Unit(problem) => format!("{key}: {}: found {found}", shortened(problem, LONGEST_TEXT)),
+            WrongKind::OutOfRange => format!("{key}: out of range: found {found}"),
+            WrongKind::Override | WrongKind::Value => format!("{key}: found {found}"),
+        };
+        let excerpt = self.location.as_ref().map_or_else(String::new, Location::excerpt);
+        write!(
+            f,
+            "{what}; allowed: {}{excerpt}",
+            shortened(&self.allowed, LONGEST_LIST)
+        )
     }
 }
 
@@ -139,15 +145,4 @@ pub fn did_you_mean(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |word| {
         format!(" (did you mean `{}`?)", shortened(word, LONGEST_TEXT))
     })
-}
-
-impl SceneError {
-    /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
-    pub fn location(&self) -> Option<&Location> {
-        match self {
-            Self::Unreadable(..) | Self::TooLarge(..) => None,
-            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
-            Self::Wrong(wrong) => wrong.location.as_ref(),
-        }
-    }
 }

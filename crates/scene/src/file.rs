@@ -5,19 +5,20 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::string::FromUtf8Error;
 
-use crate::data::Scene;
-use crate::document::{Content, Document};
-use crate::error::{SceneError, Wrong, WrongKind};
-use crate::key::{Kind, Visit};
-use crate::keys::{CableKeys, FrictionKeys, GroundKeys, SceneKeys, TrafficKeys, VehicleKeys};
-use crate::kind::section;
+use crate::check::checked;
+use crate::content::Node;
+use crate::document::Document;
+use crate::error::SceneError;
+use crate::key::{Form, Section};
 use crate::location::Location;
+use crate::scene::Scene;
+use crate::stored::Stored;
 use crate::units::{Dimension, Unit};
-use crate::value::Value;
-use crate::{histogram, names, overrides, preset, rivals, rules, traffic, unusual};
+use crate::{histogram, overrides, preset, rules, unusual};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
+const SCENE: Form = Form::Table(Scene::KEYS);
 
 /// The text of a scene and what was set on top of it.
 ///
@@ -36,7 +37,7 @@ const LARGEST_FILE: u64 = 16 << 20;
 #[derive(Debug, Clone)]
 pub struct SceneFile {
     name: String,
-    pub(crate) document: Document,
+    document: Document,
 }
 
 impl SceneFile {
@@ -50,17 +51,15 @@ impl SceneFile {
         let file = path.display().to_string();
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
-        match read {
-            Err(_) if path.is_dir() => {
+        if let Err(mut source) = read {
+            if path.is_dir() {
                 let what = "this is a folder; a scene is a file, such as my-duct.toml";
-                let source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
-                return Err(SceneError::Unreadable(file, source));
+                source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
             }
-            Err(source) => return Err(SceneError::Unreadable(file, source)),
-            Ok(length) if length as u64 > LARGEST_FILE => {
-                return Err(SceneError::TooLarge(file, LARGEST_FILE));
-            }
-            Ok(_) => {}
+            return Err(SceneError::Unreadable(file, source));
+        }
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(SceneError::TooLarge(file, LARGEST_FILE));
         }
         let text = String::from_utf8(bytes).map_err(|e| not_utf8(&file, &e))?;
         Self::from_toml(&file, &text)
@@ -74,10 +73,8 @@ impl SceneFile {
     pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
         let mut document = Document::parse(name, text)?;
         preset::expand(&mut document)?;
-        Ok(Self {
-            name: name.to_owned(),
-            document,
-        })
+        let name = name.to_owned();
+        Ok(Self { name, document })
     }
 
     /// The file with each `KEY=VALUE` of `overrides` set in turn.
@@ -96,7 +93,7 @@ impl SceneFile {
 
     /// The text of the file, without what was set on top of it.
     pub fn text(&self) -> &str {
-        self.document.text()
+        &self.document.sources[0].text
     }
 
     /// The scene.
@@ -105,38 +102,30 @@ impl SceneFile {
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        let document = &self.document;
-        rivals::contradiction(document, "", &document.root)?;
-        let root = Value {
-            document,
-            path: String::new(),
-            node: &document.root,
+        let read = || {
+            let mut scene = stored(&self.document.root)?;
+            scene.resolve(&self.name)?;
+            rules::check(&scene)?;
+            Ok(scene)
         };
-        let keys = section::<SceneKeys>().read(&root).map_err(|mut error| {
-            if let SceneError::Wrong(wrong) = &mut error {
-                names::advise(wrong);
-            }
-            error
-        })?;
-        let out_of_range = out_of_range(&keys, |key| match document.find(key) {
-            (node, true) => node.content.as_number().is_some(),
-            _ => false,
-        });
-        let scene = out_of_range.and_then(|()| Scene::of(&self.name, &keys));
-        let checked = scene.and_then(|scene| rules::check(&scene).map(|()| scene));
-        checked.map_err(|wrong| document.located(wrong))
+        read().map_err(|error| self.document.located(error))
     }
 
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
         let (node, _) = self.document.find(key);
-        (node.span != self.document.root.span).then(|| self.document.locate(&node.span))
+        (node.place != self.document.root.place).then(|| self.document.locate(&node.place))
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, and of masses that stand for weights; each
     /// with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
-        unusual::slips(&self.document)
+        let mut found = Vec::new();
+        self.document.root.each_value("", &mut |key, node| {
+            let words = unusual::slip(key, node);
+            found.extend(words.map(|words| (self.document.locate(&node.place), words)));
+        });
+        found
     }
 
     /// Whether the file, an override or a preset gives `key` a value.
@@ -146,25 +135,25 @@ impl SceneFile {
 
     /// The table of axle loads that the scene reads too, if it names one.
     pub fn histogram(&self) -> Option<PathBuf> {
-        let histogram = self.document.root.child("traffic")?.child("histogram")?;
-        match &histogram.child("file").unwrap_or(histogram).content {
-            Content::Text(text) => Some(histogram::beside(&self.name, text)),
-            _ => None,
-        }
+        let (node, true) = self.document.find("traffic.histogram") else {
+            return None;
+        };
+        let text = node.content.get("file").unwrap_or(node).content.as_text();
+        text.map(|text| histogram::beside(&self.name, text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
     pub fn typed(&self) -> Vec<Typed> {
         let mut found = Vec::new();
         self.document.root.each_value("", &mut |key, node| {
+            let text = || node.content.as_text().unwrap_or(&node.written).to_owned();
             found.push(Typed {
                 key: key.to_owned(),
-                value: match (&node.content, node.content.as_number()) {
-                    (_, Some(number)) => TypedValue::Number(number),
-                    (Content::Text(text), _) => TypedValue::Text(text.clone()),
-                    _ => TypedValue::Text(self.document.written(&node.span)),
-                },
-                source: self.document.source(&node.span).name.clone(),
+                value: node
+                    .content
+                    .as_number()
+                    .map_or_else(|| TypedValue::Text(text()), TypedValue::Number),
+                source: self.document.source(node).name.clone(),
             });
         });
         found
@@ -172,15 +161,9 @@ impl SceneFile {
 
     /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
     pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
-        let (node, true) = self.document.find(key) else {
-            return None;
-        };
-        let Content::Text(text) = &node.content else {
-            return None;
-        };
-        dimension
-            .unit_of(text)
-            .filter(|_| !self.document.source(&node.span).is_preset)
+        let (node, is_value) = self.document.find(key);
+        let is_typed = is_value && !self.document.source(node).is_preset;
+        dimension.unit_of(node.content.as_text().filter(|_| is_typed)?)
     }
 }
 
@@ -211,19 +194,11 @@ fn not_utf8(file: &str, error: &FromUtf8Error) -> SceneError {
     SceneError::NotUtf8(Location::new(file, &text, valid..valid, true))
 }
 
-/// The first value out of its range, with what was probably meant if it `is_bare`.
-fn out_of_range(keys: &SceneKeys, is_bare: impl Fn(&str) -> bool) -> Result<(), Box<Wrong>> {
-    let mut first = None;
-    let visit: &mut Visit = &mut |key, value, quantity| {
-        if first.is_none() && !quantity.contains(value) {
-            let meant = is_bare(key).then(|| quantity.bare_number_meant(value));
-            let allowed = quantity.allowed() + &meant.unwrap_or_default();
-            let found = quantity.written(value);
-            first = Some(Wrong::at(WrongKind::OutOfRange, key, found, allowed));
-        }
-    };
-    section::<SceneKeys>().each(keys, "", visit);
-    first.map_or(Ok(()), Err)
+/// The scene in a tree, each of whose values is in its range.
+fn stored(root: &Node) -> Result<Scene, SceneError> {
+    let content = checked(root, &SCENE, "")?;
+    // What suits the form can be stored.
+    Scene::read(&content).ok_or_else(|| SceneError::missing("", SCENE.allowed()))
 }
 
 impl Scene {
@@ -262,15 +237,11 @@ impl Scene {
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
     pub fn validate(&self) -> Result<(), SceneError> {
-        out_of_range(&self.keys(), |_| false)
-            .and_then(|()| rules::check(self))
-            .map_err(SceneError::Wrong)
+        checked(&self.write().into(), &SCENE, "")?;
+        rules::check(self)
     }
 
     /// The scene as a TOML file, all quantities in SI: [`Scene::from_toml`] reads the same scene from it.
-    ///
-    /// A time step that the method does not use is left out. The last layer on a rigid base is written as the depth of the base, so the
-    /// thickness that is read may differ in its last digit if a program chose it.
     ///
     /// ```
     /// use creepage_scene::Scene;
@@ -284,54 +255,6 @@ impl Scene {
     /// ```
     pub fn to_toml(&self) -> String {
         // Tables, lists, numbers and texts: there is nothing among them that TOML cannot write.
-        toml::to_string(&section().write(&self.keys())).unwrap_or_default()
-    }
-
-    /// The scene with these keys in the file `name`.
-    fn of(name: &str, keys: &SceneKeys) -> Result<Self, Box<Wrong>> {
-        let stem = || {
-            Path::new(name)
-                .file_stem()
-                .map(|stem| stem.to_string_lossy().into_owned())
-        };
-        let (vehicles, traffic) = traffic::traffic(name, keys)?;
-        Ok(Self {
-            title: keys.title.clone().or_else(stem).unwrap_or_default(),
-            duct: keys.duct,
-            ground: keys.ground.ground()?,
-            cable: keys.cable.cable(&keys.duct)?,
-            friction: keys.friction.friction()?,
-            ends: keys.ends,
-            restraints: keys.restraints.clone(),
-            vehicles,
-            traffic,
-            heat: keys.heat.clone(),
-            solver: keys.solver,
-        })
-    }
-
-    /// Its keys.
-    pub(crate) fn keys(&self) -> SceneKeys {
-        let in_sequence = matches!(self.traffic.order, cable_dem::Order::Sequence(_));
-        let vehicles = self
-            .vehicles
-            .iter()
-            .map(|vehicle| VehicleKeys::of(vehicle, in_sequence))
-            .collect();
-        let mut solver = self.solver;
-        solver.time_step = solver.time_step.filter(|_| solver.method.has_time_steps());
-        SceneKeys {
-            title: Some(self.title.clone()),
-            duct: self.duct,
-            ground: GroundKeys::of(&self.ground),
-            cable: CableKeys::of(&self.cable),
-            friction: FrictionKeys::of(&self.friction),
-            ends: self.ends,
-            restraints: self.restraints.clone(),
-            vehicles: Some(vehicles),
-            traffic: TrafficKeys::of(self),
-            heat: self.heat.clone(),
-            solver,
-        }
+        toml::to_string(&SCENE.in_file(&self.write())).unwrap_or_default()
     }
 }

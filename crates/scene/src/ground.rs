@@ -1,123 +1,148 @@
-//! `[ground]`: from its keys to layers on a base, and back.
+//! `[ground]`: layers, what they lie on, and how to model them.
 
-use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
+use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 
-use crate::data::{Ground, PeakScaling};
-use crate::error::{Wrong, WrongKind};
-use crate::keys::{GroundKeys, LAYERS, LayerKeys};
-use crate::range::{THICKNESS, shown};
+use crate::content::Content;
+use crate::key::Form::{Either, List, Number, Table};
+use crate::key::{Form, Key, keys};
+use crate::range::{
+    LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, VERTICAL_PEAK,
+};
+use crate::stored::{Stored, value};
+use crate::words::file_words;
 
-impl GroundKeys {
-    /// The ground with these keys, whose values are in their ranges.
-    pub fn ground(&self) -> Result<Ground, Box<Wrong>> {
-        let scaling = self.longitudinal_peak.map(PeakScaling::Longitudinal);
-        let scaling = scaling.or(self.vertical_peak.map(PeakScaling::Vertical));
-        let (model, profile) = (self.model, self.profile()?);
-        Ok(Ground {
-            model,
-            profile,
-            scaling,
-        })
-    }
-
-    fn profile(&self) -> Result<SoilProfile, Box<Wrong>> {
-        let rejected = |index: usize, error: ground_field::GroundError| {
-            Wrong::value(
-                format!("ground.layers.{index}"),
-                error.to_string(),
-                "another layer",
-            )
-        };
-        let soil_layer = |index: usize, thickness: f64, layer: &LayerKeys| {
-            let layer = SoilLayer::new(thickness, layer.young_modulus, layer.poisson_ratio);
-            layer.map_err(|error| rejected(index, error))
-        };
-        let empty = || Wrong::value("ground.layers", "an empty list", LAYERS);
-        let (last, upper) = self.layers.split_last().ok_or_else(empty)?;
-        let key = |name: &str| format!("ground.layers.{}.{name}", upper.len());
-        let mut layers = Vec::with_capacity(self.layers.len());
-        for (index, layer) in upper.iter().enumerate() {
-            let thickness = layer.thickness.ok_or_else(|| {
-                let key = format!("ground.layers.{index}.thickness");
-                Wrong::missing(key, THICKNESS.allowed())
-            })?;
-            layers.push(soil_layer(index, thickness, layer)?);
-        }
-        if let Some(thickness) = last.thickness {
-            let allowed = "no thickness in the last layer: it extends down to ground.rigid_base_depth, or to infinite depth";
-            let found = format!("{} m", shown(thickness));
-            return Err(Wrong::value(key("thickness"), found, allowed));
-        }
-        let base = if let Some(depth) = self.rigid_base_depth {
-            let above: f64 = layers.iter().map(SoilLayer::thickness).sum();
-            if !THICKNESS.contains(depth - above) {
-                let allowed = format!("a depth below the upper layers, greater than {} m", shown(above));
-                let found = shown(depth);
-                return Err(Wrong::at(
-                    WrongKind::OutOfRange,
-                    "ground.rigid_base_depth",
-                    found,
-                    allowed,
-                ));
-            }
-            layers.push(soil_layer(upper.len(), depth - above, last)?);
-            Base::Rigid
-        } else {
-            let Modulus::Uniform(modulus) = last.young_modulus else {
-                let found = "a modulus that varies with depth";
-                let allowed = "one value in the last layer, which extends to infinite depth; or set ground.rigid_base_depth";
-                return Err(Wrong::value(key("young_modulus"), found, allowed));
-            };
-            Base::HalfSpace(
-                Soil::new(modulus, last.poisson_ratio).map_err(|error| rejected(upper.len(), error))?,
-            )
-        };
-        SoilProfile::new(layers, base).map_err(|error| rejected(0, error))
-    }
-
-    /// The keys of a ground.
-    pub fn of(ground: &Ground) -> Self {
-        let layers = ground.profile.layers();
-        let mut keys = Self {
-            model: ground.model,
-            ..Self::default()
-        };
-        match ground.scaling {
-            Some(PeakScaling::Longitudinal(peak)) => keys.longitudinal_peak = Some(peak),
-            Some(PeakScaling::Vertical(peak)) => keys.vertical_peak = Some(peak),
-            None => {}
-        }
-        keys.layers.extend(layers.iter().map(|layer| LayerKeys {
-            thickness: Some(layer.thickness()),
-            young_modulus: layer.modulus(),
-            poisson_ratio: layer.poisson_ratio(),
-        }));
-        match (ground.profile.base(), keys.layers.last_mut()) {
-            (Base::HalfSpace(soil), _) => keys.layers.push(LayerKeys {
-                thickness: None,
-                young_modulus: Modulus::Uniform(soil.young_modulus()),
-                poisson_ratio: soil.poisson_ratio(),
-            }),
-            (Base::Rigid, Some(last)) => {
-                keys.rigid_base_depth = Some(base_depth(layers));
-                last.thickness = None;
-            }
-            (Base::Rigid, None) => {}
-        }
-        keys
+keys! {
+    /// The ground and how to model it, in SI.
+    #[derive(Default)]
+    pub struct Ground {
+        preset "A pavement by its name; keys beside it override its values.";
+        /// Model of the ground.
+        model: GroundModel = GroundModel::FORM, "\"auto\"";
+        /// Depth of rock that does not move.
+        rigid_base_depth: Option<f64> = Number(RIGID_BASE_DEPTH), "no rock";
+        /// Scales the ground so that each vehicle moves the duct so far along its axis.
+        longitudinal_peak: Option<f64> = Number(LONGITUDINAL_PEAK), "not scaled";
+        /// Measured deflection of the duct under the first vehicle, to which the ground is scaled.
+        vertical_peak: Option<f64> = Number(VERTICAL_PEAK), "not scaled";
+        /// Layers from the surface down.
+        layers: Vec<Layer> = List(&Table(Layer::KEYS), 1, LAYERS);
     }
 }
 
-/// The depth of the base \[m\] from which the last layer's thickness is computed to the last digit, if there is one.
-fn base_depth(layers: &[SoilLayer]) -> f64 {
-    let Some((last, upper)) = layers.split_last() else {
-        return 0.0;
-    };
-    let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
-    let sum = above + last.thickness();
-    let exact = |depth: &f64| depth - above == last.thickness();
-    [sum, sum.next_down(), sum.next_up()]
-        .into_iter()
-        .find(exact)
-        .unwrap_or(sum)
+const LAYERS: &str = "one [[ground.layers]] or more, from the top down";
+
+keys! {
+    /// A layer of the ground, in SI. The last one reaches down to the rigid base, or without end.
+    #[derive(Copy)]
+    pub struct Layer {
+        /// Thickness of the layer.
+        thickness: Option<f64> = Number(THICKNESS), "the last layer has none";
+        /// Young's modulus at small strains, several times that of a settlement test.
+        young_modulus: Modulus = LAYER_MODULUS;
+        /// Poisson's ratio.
+        poisson_ratio: f64 = Number(POISSON);
+    }
+}
+
+const TOP: &str = "Young's modulus at the top of a layer in which it varies.";
+const LAYER_MODULUS: Form = Either(
+    &Number(MODULUS),
+    &[
+        Key::required("top", TOP, Number(MODULUS_AT_AN_END)),
+        Key::required("bottom", "The same at the bottom.", Number(MODULUS_AT_AN_END)),
+    ],
+    None,
+);
+
+impl Stored for Modulus {
+    fn read(content: &Content) -> Option<Self> {
+        match content.as_number() {
+            Some(modulus) => Some(Self::Uniform(modulus)),
+            None => Some(Self::Linear {
+                top: value(content, "top", None)?,
+                bottom: value(content, "bottom", None)?,
+            }),
+        }
+    }
+
+    fn write(&self) -> Content {
+        match self {
+            Self::Uniform(modulus) => modulus.write(),
+            Self::Linear { top, bottom } => {
+                Content::table([("top", top.write()), ("bottom", bottom.write())])
+            }
+        }
+    }
+}
+
+/// Model of the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum GroundModel {
+    /// The cheapest that is accurate enough.
+    #[default]
+    Auto,
+    /// Homogeneous half-space, closed form.
+    Boussinesq,
+    /// Layers by Hankel transform.
+    Burmister,
+    /// Layers by axisymmetric finite elements.
+    FiniteElements,
+}
+
+file_words! {
+    GroundModel: Auto "auto", Boussinesq "boussinesq", Burmister "burmister", FiniteElements "fem";
+    but "odemark": "the exact \"burmister\" costs no more than this approximation, which is no longer there"
+}
+
+/// A measured peak displacement of the duct that the ground model is scaled to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PeakScaling {
+    /// `max|D_l|` of each vehicle \[m\], positive: each vehicle gets its own factor.
+    Longitudinal(f64),
+    /// `max|D_v|` of the first vehicle \[m\], positive: all vehicles get the factor of the first.
+    Vertical(f64),
+}
+
+impl Ground {
+    /// Its layers on what is below them.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError`] where a valid scene has none: a number out of its range, a layer without thickness above another.
+    pub fn profile(&self) -> Result<SoilProfile, GroundError> {
+        let layer =
+            |layer: &Layer, thickness| SoilLayer::new(thickness, layer.young_modulus, layer.poisson_ratio);
+        let Some((last, upper)) = self.layers.split_last() else {
+            return SoilProfile::new(Vec::new(), Base::Rigid);
+        };
+        let of_upper = |upper: &Layer| layer(upper, upper.thickness.unwrap_or_default());
+        let mut layers = upper.iter().map(of_upper).collect::<Result<Vec<_>, _>>()?;
+        let base = match (self.rigid_base_depth, last.young_modulus) {
+            (Some(depth), _) => {
+                layers.push(layer(last, depth - self.upper_thickness())?);
+                Base::Rigid
+            }
+            (None, Modulus::Uniform(modulus) | Modulus::Linear { bottom: modulus, .. }) => {
+                Base::HalfSpace(Soil::new(modulus, last.poisson_ratio)?)
+            }
+        };
+        SoilProfile::new(layers, base)
+    }
+
+    /// The thickness of all layers but the last \[m\].
+    pub(crate) fn upper_thickness(&self) -> f64 {
+        let upper = self.layers.split_last().map_or(&[][..], |(_, upper)| upper);
+        upper.iter().filter_map(|layer| layer.thickness).sum()
+    }
+
+    /// The thickness of all layers \[m\]; one without end has none.
+    pub fn thickness(&self) -> f64 {
+        self.rigid_base_depth.unwrap_or_else(|| self.upper_thickness())
+    }
+
+    /// What its displacements are scaled to, if they are.
+    pub fn scaling(&self) -> Option<PeakScaling> {
+        let longitudinal = self.longitudinal_peak.map(PeakScaling::Longitudinal);
+        longitudinal.or(self.vertical_peak.map(PeakScaling::Vertical))
+    }
 }

@@ -4,13 +4,49 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use creepage_tables::{Kind, Names, Options, Row, Table, TableError};
-use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle, Wheel};
 
-use crate::data::TrafficVehicle;
-use crate::either::HistogramKeys;
-use crate::error::Wrong;
-use crate::range::{AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
+use crate::error::SceneError;
+use crate::key::Form::{Either, Number, Text};
+use crate::key::{Form, Section, keys};
+use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
+use crate::stored::Stored;
 use crate::units::Dimension;
+use crate::vehicle::TrafficVehicle;
+
+keys! {
+    /// The name of a table of axle loads, and how it is to be read where that is not recognised.
+    pub struct Histogram {
+        /// The table, from the folder of the scene on.
+        file: String = FILE;
+        /// What stands between its cells.
+        separator: Option<String> = Text("comma, semicolon, tab, space or |, in quotes"), "recognised";
+        /// What stands before its decimals.
+        decimal: Option<String> = Text("\"point\" or \"comma\""), "recognised";
+        /// How its characters are written.
+        encoding: Option<String> = Text("utf-8, utf-16, latin-1, shift_jis, …, in quotes"), "recognised";
+        /// Its line with the names of the columns.
+        header_line: Option<u64> = Number(ANY_WHOLE), "recognised";
+        /// Rows below the names that hold no axles.
+        skip: Option<u64> = Number(ANY_WHOLE), "recognised";
+        /// Sheet of a workbook.
+        sheet: Option<String> = TEXT, "the first with rows";
+        /// Unit of the loads.
+        unit: Option<String> = Text("a unit of force, in quotes"), "that of the header";
+        /// Name of the column with the loads.
+        column_load: Option<String> = TEXT, "recognised";
+        /// Name of the column with the numbers of axles.
+        column_count: Option<String> = TEXT, "recognised";
+        /// Name of the column with the radii.
+        column_contact_radius: Option<String> = TEXT, "recognised";
+    }
+}
+
+const FILE: Form = Text("the name of a table, such as \"axles.csv\"");
+const TEXT: Form = Text("a text in quotes");
+/// The name of a table of axles, or a table that says how it is to be read.
+pub const HISTOGRAM: Form = Either(&FILE, Histogram::KEYS, Some(NAME_OR_TABLE));
+const NAME_OR_TABLE: &str = "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, or { file = \
+                             \"axles.csv\", decimal = \"comma\" }";
 
 /// Most classes of axles.
 const MOST: usize = 1000;
@@ -60,47 +96,40 @@ pub fn beside(name: &str, text: &str) -> PathBuf {
     Path::new(name).parent().unwrap_or(Path::new("")).join(text)
 }
 
-impl HistogramKeys {
-    fn options(&self) -> Result<Options, Box<Wrong>> {
+impl Histogram {
+    fn options(&self) -> Result<Options, SceneError> {
         let mut options = Options {
             header_line: self.header_line,
             skip: self.skip,
             ..Options::default()
         };
-        for (name, text) in [
-            ("separator", &self.separator),
-            ("decimal", &self.decimal),
-            ("encoding", &self.encoding),
-            ("sheet", &self.sheet),
-            ("unit", &self.unit),
-            ("column_count", &self.column_count),
-            ("column_load", &self.column_load),
-            ("column_contact_radius", &self.column_contact_radius),
-        ] {
-            if let Some(text) = text {
-                let set = options.set(name, text);
-                set.map_err(|why| Wrong::value(format!("{KEY}.{name}"), format!("\"{text}\""), why))?;
+        let stored = self.write();
+        for entry in stored.entries().iter().filter(|entry| entry.key != "file") {
+            if let Some(text) = entry.value.content.as_text() {
+                let (key, found) = (format!("{KEY}.{}", entry.key), format!("\"{text}\""));
+                let set = options.set(&entry.key, text);
+                set.map_err(|why| SceneError::value(&key, found, why))?;
             }
         }
         Ok(options)
     }
-}
 
-/// The classes of the table that `keys` name, each a vehicle of one wheel in the first lane, at `speed` \[m/s\].
-pub fn axles(name: &str, keys: &HistogramKeys, speed: f64) -> Result<Vec<TrafficVehicle>, Box<Wrong>> {
-    let options = keys.options()?;
-    classes(&beside(name, &keys.file), &options, speed).map_err(|error| match error {
-        TableError::Line {
-            file,
-            line,
-            found,
-            allowed,
-        } => Wrong::value(KEY, format!("{file}:{line}: {found}"), allowed),
-        error => {
-            let why = error.source().map_or_else(String::new, |why| format!(": {why}"));
-            Wrong::value(KEY, format!("{error}{why}"), NAMES.allowed)
-        }
-    })
+    /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\]; `scene` is the file that names it.
+    pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
+        let options = self.options()?;
+        classes(&beside(scene, &self.file), &options, speed).map_err(|error| match error {
+            TableError::Line {
+                file,
+                line,
+                found,
+                allowed,
+            } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
+            error => {
+                let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
+                SceneError::value(KEY, format!("{error}{why}"), NAMES.allowed)
+            }
+        })
+    }
 }
 
 fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehicle>, TableError> {
@@ -113,25 +142,25 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
     let (load, radius) = (load?.ok_or_else(|| missing(LOAD))?, radius?);
     let columns: Vec<usize> = [Some(count), Some(load), radius].into_iter().flatten().collect();
     table.decide(&columns)?;
-    let is_grouped = table.names.iter().any(|name| name.has(GROUP));
-    let axle = if is_grouped { AXLE_GROUP } else { AXLE };
     let is_sum = |row: &&Row| {
         let label = row.cells.iter().find(|cell| !cell.is_empty());
         label.is_some_and(|label| NAMES.name(label, options).has(TOTAL))
     };
-    let rows = || table.rows.iter().filter(|row| !is_sum(row));
-    let is_percent = |row: &&Row| row.cell(count).contains('%');
-    let bare = rows().find(|row| !is_percent(row));
-    if let Some(row) = bare.filter(|_| rows().any(|row| is_percent(&row))) {
+    let rows: Vec<&Row> = table.rows.iter().filter(|row| !is_sum(row)).collect();
+    let is_percent = |row: &&&Row| row.cell(count).contains('%');
+    let bare = rows.iter().find(|row| !is_percent(row));
+    if let (Some(row), Some(_)) = (bare, rows.iter().find(is_percent)) {
         let found = format!("count: found \"{}\" beside others in %", row.cell(count));
         return Err(table.wrong(row.line, found, "all in %, or none"));
     }
+    let is_grouped = table.names.iter().any(|name| name.has(GROUP));
+    let axle = if is_grouped { AXLE_GROUP } else { AXLE };
     let mut axles: Vec<TrafficVehicle> = Vec::new();
     let mut heaviest: Option<(f64, &Row)> = None;
-    for row in rows() {
+    for row in rows {
         let of = |column, kind, quantity| si(&table, row, column, kind, quantity);
         let (share, force) = (of(count, COUNT, AXLE_COUNT)?, of(load, LOAD, AXLE_LOAD)?);
-        let radius = radius.map_or(Ok(0.0), |column| of(column, RADIUS, CONTACT_RADIUS))?;
+        let contact_radius = radius.map_or(Ok(0.0), |column| of(column, RADIUS, CONTACT_RADIUS))?;
         // Classes that nothing was counted in are common.
         if share == 0.0 {
             continue;
@@ -139,16 +168,13 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
         if heaviest.is_none_or(|(most, _)| force > most) {
             heaviest = Some((force, row));
         }
-        let rejected = |error: GroundError| table.wrong(row.line, error.to_string(), NAMES.allowed);
-        let load = SurfaceLoad::new(force, radius).map_err(rejected)?;
-        let name = format!("{axle} {}", axles.len() + 1);
-        let wheels = vec![Wheel { x: 0.0, y: 0.0, load }];
-        let vehicle = Vehicle::new(name, wheels, speed, Direction::Forward).map_err(rejected)?;
-        axles.push(TrafficVehicle {
-            vehicle,
-            share,
-            lateral_offset: 0.0,
-        });
+        let mut vehicle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), force, speed);
+        if contact_radius > 0.0 {
+            vehicle.wheels = vehicle.wheels();
+            vehicle.wheels[0].contact_radius = contact_radius;
+            vehicle.load = None;
+        }
+        axles.push(TrafficVehicle { share, ..vehicle });
     }
     let Some((force, row)) = heaviest else {
         return Err(table.wrong(table.line, "no row with axles below the names", NAMES.allowed));

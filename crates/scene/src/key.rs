@@ -1,40 +1,13 @@
-//! One table of the file is one type: its keys, what may stand at each, and what each means.
-//!
-//! The macro [`keys!`] declares such a type. Reading, writing, checking ranges, `creepage explain` and the JSON Schema all follow from its
-//! rows: a key's documentation, its field, its [`Kind`], and what counts if it is left out.
+//! A section of the file is a type. The macro [`keys!`] declares it: each key with its meaning, its field, what may stand
+//! there, and what counts if it is left out. Reading, writing, `creepage explain` and the JSON Schema follow from that.
 
-use crate::document::{Content, Entry, joined, other_name};
-use crate::error::{SceneError, WrongKind};
+use crate::content::Content;
 use crate::range::Quantity;
-use crate::value::Value;
+use crate::stored::Stored;
 
-/// A table of the file.
-pub trait Keys: Sized {
-    /// What its keys hold.
-    fn read(table: &Table) -> Result<Self, SceneError>;
-    /// Its keys with their values, without those that need not be written.
-    fn write(&self) -> Vec<(&'static str, Content)>;
-    /// Calls `visit` with every quantity below the key `path`.
-    fn each(&self, path: &str, visit: &mut Visit);
-    /// Its keys.
-    fn keys() -> Vec<Key>;
-}
-
-/// What is called with a key, its value in SI and its quantity.
-pub type Visit<'v> = dyn FnMut(&str, f64, Quantity) + 'v;
-
-/// What may stand at a key.
-pub trait Kind {
-    type Value;
-    fn read(&self, value: &Value) -> Result<Self::Value, SceneError>;
-    /// The value as it is written; nothing for one that need not be.
-    fn write(&self, value: &Self::Value) -> Option<Content>;
-    fn each(&self, _value: &Self::Value, _path: &str, _visit: &mut Visit) {}
-    fn form(&self) -> Form;
-    /// What counts if the key is left out; nothing if it is required.
-    fn absent(&self) -> Option<Self::Value> {
-        None
-    }
+/// A type that is a table of the file.
+pub trait Section: Stored {
+    const KEYS: &'static [Key];
 }
 
 /// A key and what is to be said of it.
@@ -42,163 +15,190 @@ pub struct Key {
     pub name: &'static str,
     pub meaning: &'static str,
     pub form: Form,
-    /// What counts if it is left out; `None` if it is required.
-    pub default: Option<&'static str>,
+    /// What counts if it is left out, in words; `None` if it is required.
+    pub absent: Option<&'static str>,
 }
 
-/// The forms that a value may have.
+impl Key {
+    pub const fn required(name: &'static str, meaning: &'static str, form: Form) -> Self {
+        Self {
+            name,
+            meaning,
+            form,
+            absent: None,
+        }
+    }
+
+    pub const fn preset(meaning: &'static str) -> Self {
+        Self {
+            name: "preset",
+            meaning,
+            form: Form::Text("a name that `creepage presets` lists"),
+            absent: Some("none"),
+        }
+    }
+}
+
+/// What may stand at a key.
+#[derive(Clone, Copy)]
 pub enum Form {
-    Quantity(Quantity),
+    Number(Quantity),
     /// A text, and what is allowed in words.
     Text(&'static str),
-    Words(Vec<&'static str>, Option<&'static str>),
-    Table(Vec<Key>),
+    /// A text that is not blank, and what is allowed in words.
+    Name(&'static str),
+    Words {
+        words: &'static [&'static str],
+        /// What is allowed, if that is more than they say.
+        allowed: Option<&'static str>,
+        /// A word that once was one of them, and why it no longer is.
+        gone: Option<(&'static str, &'static str)>,
+    },
+    Table(&'static [Key]),
     /// A list of so many items at least, and what is allowed in words.
-    #[cfg_attr(
-        not(feature = "schema"),
-        allow(dead_code, reason = "the schema alone says how many")
-    )]
-    List(Box<Form>, usize, &'static str),
-    /// A value that is no table, or a table, and what is allowed in words; the second is not repeated by it.
-    Either(Box<Form>, Vec<Key>, Option<&'static str>),
+    List(&'static Form, usize, &'static str),
+    /// A pair of values, and what is allowed in words.
+    Pair([&'static Form; 2], &'static str),
+    /// A value that is no table, or a table, and what is allowed if that is more than for the value alone. A text stands for the
+    /// first key of the table.
+    Either(&'static Form, &'static [Key], Option<&'static str>),
 }
 
 impl Form {
     /// The keys of a table, or of the tables of a list.
-    pub fn keys(self) -> Vec<Key> {
+    pub fn keys(self) -> &'static [Key] {
         match self {
             Self::Table(keys) | Self::Either(_, keys, _) => keys,
             Self::List(form, ..) => form.keys(),
-            _ => Vec::new(),
+            _ => &[],
         }
     }
 
-    /// The SI unit of a number, if it has one.
-    pub fn unit(&self) -> Option<&'static str> {
+    /// The quantity of a number, alone or in place of a table.
+    pub fn quantity(self) -> Option<Quantity> {
         match self {
-            Self::Quantity(quantity) => quantity.dimension?.si(),
-            Self::Either(form, ..) => form.unit(),
+            Self::Number(quantity) => Some(quantity),
+            Self::Either(form, ..) => form.quantity(),
             _ => None,
         }
     }
 
     /// What is allowed, in words.
-    pub fn allowed(&self) -> String {
+    pub fn allowed(self) -> String {
         match self {
-            Self::Quantity(quantity) => quantity.allowed(),
+            Self::Number(quantity) => quantity.allowed(),
             Self::Text(allowed)
-            | Self::Words(_, Some(allowed))
+            | Self::Name(allowed)
             | Self::List(_, _, allowed)
-            | Self::Either(_, _, Some(allowed)) => (*allowed).to_owned(),
-            Self::Words(words, None) => listed(words.iter().copied()),
+            | Self::Pair(_, allowed) => allowed.to_owned(),
+            Self::Words { words, allowed, .. } => {
+                allowed.map_or_else(|| listed(words.iter().copied()), str::to_owned)
+            }
             Self::Table(keys) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
-                format!("a section with the keys {}", names.join(", "))
+                format!("a table with the keys {}", names.join(", "))
             }
-            Self::Either(form, _, None) => form.allowed(),
+            Self::Either(form, _, allowed) => allowed.map_or_else(|| form.allowed(), str::to_owned),
+        }
+    }
+
+    /// A value in SI as it is written in a file.
+    pub fn in_file(self, content: &Content) -> Content {
+        let entry = |key: &Key, content: &Content| {
+            let value = &content.entry(key.name)?.value.content;
+            Some((key.name, key.form.in_file(value)))
+        };
+        match (self, content) {
+            (Self::Number(quantity), Content::Number(value)) => match quantity.unit() {
+                Some(unit) => Content::Text(format!("{value:?} {unit}")),
+                None => content.clone(),
+            },
+            (Self::Table(keys) | Self::Either(_, keys, _), Content::Table(_)) => {
+                Content::table(keys.iter().filter_map(|key| entry(key, content)))
+            }
+            (Self::Either(form, ..), _) => form.in_file(content),
+            (Self::List(form, ..), Content::List(items)) => {
+                let items = items.iter().map(|item| form.in_file(&item.content).into());
+                Content::List(items.collect())
+            }
+            (Self::Pair(forms, _), Content::List(items)) => {
+                let pair = forms.iter().zip(items);
+                Content::List(
+                    pair.map(|(form, item)| form.in_file(&item.content).into())
+                        .collect(),
+                )
+            }
+            _ => content.clone(),
         }
     }
 }
 
 /// Words as they are typed, one after the other.
 pub fn listed<'w>(words: impl Iterator<Item = &'w str>) -> String {
-    words
-        .map(|word| format!("\"{word}\""))
-        .collect::<Vec<_>>()
-        .join(", ")
+    let quoted: Vec<String> = words.map(|word| format!("\"{word}\"")).collect();
+    quoted.join(", ")
 }
 
-/// A table of a document, which knows its keys when it is opened: a misspelt key is reported as such and not as the lack of the right one.
-pub struct Table<'d> {
-    value: Value<'d>,
-    entries: &'d [Entry],
+/// The value of a key that is left out: none if it is required, else its own or that of its type.
+macro_rules! absent {
+    () => {
+        None
+    };
+    ($words:literal) => {
+        Some(Default::default())
+    };
+    ($words:literal => $value:expr) => {
+        Some($value)
+    };
 }
+pub(crate) use absent;
 
-impl<'d> Table<'d> {
-    /// Opens a table, which may hold only the `known` keys.
-    pub fn open(value: &Value<'d>, known: &[Key]) -> Result<Self, SceneError> {
-        let names: Vec<&str> = known.iter().map(|key| key.name).collect();
-        let is_known = |entry: &Entry| {
-            let other = other_name(&entry.key);
-            names.contains(&&*entry.key) || other.is_some_and(|other| names.contains(&other))
-        };
-        let Content::Table(entries) = &value.node.content else {
-            return Err(value.wrong_type(format!("a table with the keys {}", names.join(", "))));
-        };
-        if let Some(entry) = entries.iter().find(|entry| !is_known(entry)) {
-            let key = joined(&value.path, &entry.key);
-            let known = names.join(", ");
-            return Err(value
-                .document
-                .wrong(WrongKind::UnknownKey, &entry.span, &key, "", known));
-        }
-        Ok(Self {
-            value: value.clone(),
-            entries,
-        })
-    }
-
-    /// What stands at `key`.
-    pub fn get<K: Kind>(&self, key: &str, kind: &K) -> Result<K::Value, SceneError> {
-        let is_meant = |entry: &&Entry| entry.key == key || Some(&*entry.key) == other_name(key);
-        if let Some(entry) = self.entries.iter().find(is_meant) {
-            return kind.read(&self.value.child(&entry.key, &entry.value));
-        }
-        kind.absent().ok_or_else(|| {
-            // The section that lacks it is shown.
-            let Value { document, path, node } = &self.value;
-            let (key, allowed) = (joined(path, key), kind.form().allowed());
-            document.wrong(WrongKind::MissingKey, &node.span, &key, "", allowed)
-        })
-    }
-}
-
-/// Declares a table of the file, or the keys of a type that is already there (`for TYPE`).
+/// Declares a section of the file, or the keys of a type that is already there (`for TYPE`). A value behind `=>` counts if a key is left
+/// out, where that is not the default of its type.
 macro_rules! keys {
     (
         $(#[$about:meta])*
-        $vis:vis struct $name:ident {
+        pub struct $name:ident {
             $(preset $preset:literal;)?
-            $($(#[doc = $meaning:literal])+ $key:ident: $type:ty = $kind:expr $(, $default:literal)?;)+
+            $($(#[doc = $meaning:literal])+ $key:ident: $type:ty = $form:expr $(, $absent:literal $(=> $value:expr)?)?;)+
         }
     ) => {
         $(#[$about])*
         #[derive(Debug, Clone, PartialEq)]
-        $vis struct $name {
+        pub struct $name {
             $($(#[doc = $meaning])+ pub $key: $type,)+
         }
-        $crate::key::keys!(for $name { $(preset $preset;)? $($(#[doc = $meaning])+ $key = $kind $(, $default)?;)+ });
+        $crate::key::keys!(for $name {
+            $(preset $preset;)?
+            $($(#[doc = $meaning])+ $key = $form $(, $absent $(=> $value)?)?;)+
+        });
     };
-    (for $name:ty { $(preset $preset:literal;)? $($(#[doc = $meaning:literal])+ $key:ident = $kind:expr $(, $default:literal)?;)+ }) => {
-        impl $crate::key::Keys for $name {
-            fn read(table: &$crate::key::Table) -> Result<Self, $crate::error::SceneError> {
-                Ok(Self { $($key: table.get(stringify!($key), &$kind)?,)+ })
-            }
-
-            fn write(&self) -> Vec<(&'static str, $crate::document::Content)> {
-                let all = [$((stringify!($key), $crate::key::Kind::write(&$kind, &self.$key)),)+];
-                all.into_iter().filter_map(|(key, content)| Some((key, content?))).collect()
-            }
-
-            fn each(&self, path: &str, visit: &mut $crate::key::Visit) {
-                $($crate::key::Kind::each(&$kind, &self.$key, &$crate::document::joined(path, stringify!($key)), visit);)+
-            }
-
-            fn keys() -> Vec<$crate::key::Key> {
-                // The name of a preset is no longer there when the table is read.
-                let preset: &[&str] = &[$($preset)?];
-                let preset = preset.first().map(|meaning| $crate::key::Key {
-                    name: "preset",
-                    meaning,
-                    form: $crate::key::Form::Text("a name that `creepage presets` lists"),
-                    default: Some("none"),
-                });
-                preset.into_iter().chain([$($crate::key::Key {
+    (for $name:ty {
+        $(preset $preset:literal;)?
+        $($(#[doc = $meaning:literal])+ $key:ident = $form:expr $(, $absent:literal $(=> $value:expr)?)?;)+
+    }) => {
+        impl $crate::key::Section for $name {
+            const KEYS: &'static [$crate::key::Key] = &[
+                $($crate::key::Key::preset($preset),)?
+                $($crate::key::Key {
                     name: stringify!($key),
                     meaning: concat!($($meaning),+).trim_ascii(),
-                    form: $crate::key::Kind::form(&$kind),
-                    default: [$($default)?].first().copied(),
-                },)+]).collect()
+                    form: $form,
+                    absent: [$($absent)?].first().copied(),
+                },)+
+            ];
+        }
+
+        impl $crate::stored::Stored for $name {
+            fn read(content: &$crate::content::Content) -> Option<Self> {
+                use $crate::stored::value;
+                Some(Self { $($key: value(content, stringify!($key), $crate::key::absent!($($absent $(=> $value)?)?))?,)+ })
+            }
+
+            fn write(&self) -> $crate::content::Content {
+                use $crate::stored::entry;
+                let entries = [$(entry(stringify!($key), &self.$key, $crate::key::absent!($($absent $(=> $value)?)?)),)+];
+                $crate::content::Content::table(entries.into_iter().flatten())
             }
         }
     };

@@ -27,10 +27,8 @@ pub struct Location {
 impl Location {
     /// The place of the bytes `span` in `text`. Every span is fine: what lies outside the text is cut off.
     pub(crate) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Self {
-        let start = (0..=span.start.min(text.len()))
-            .rev()
-            .find(|&at| text.is_char_boundary(at));
-        let start = start.unwrap_or(0);
+        let mut places = (0..=span.start.min(text.len())).rev();
+        let start = places.find(|&at| text.is_char_boundary(at)).unwrap_or(0);
         let (begin, line) = line_of(text, start);
         let start = (start - begin).min(line.len());
         // At least one character is marked, or the end of the line.
@@ -44,6 +42,12 @@ impl Location {
         }
     }
 
+    /// The same place, of which nothing is to be shown.
+    pub(crate) fn without_line(mut self) -> Self {
+        (self.text, self.marked) = (String::new(), 0..0);
+        self
+    }
+
     /// The line with its number and the faulty part underlined; it begins with a line break.
     pub fn excerpt(&self) -> String {
         if self.text.trim().is_empty() {
@@ -53,37 +57,29 @@ impl Location {
         let before = self
             .text
             .char_indices()
-            .take_while(|(offset, _)| *offset < self.marked.start)
+            .take_while(|(at, _)| *at < self.marked.start)
             .count();
-        let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
-            0
-        } else {
-            before - LONGEST_EXCERPT / 2
-        };
-        let (mut shown, mut marks) = (String::new(), String::new());
-        for (offset, c) in self.text.char_indices().skip(skipped).take(LONGEST_EXCERPT) {
-            shown.push(match c {
-                '\t' => ' ',
-                c if c.is_control() => '\u{fffd}',
-                c => c,
-            });
-            let mark = if self.marked.contains(&offset) { "^" } else { " " };
+        let is_far = before >= LONGEST_EXCERPT * 3 / 4;
+        let skipped = if is_far { before - LONGEST_EXCERPT / 2 } else { 0 };
+        let characters = || self.text.char_indices().skip(skipped).take(LONGEST_EXCERPT);
+        let shown: String = characters()
+            .map(|(_, c)| if c.is_control() { ' ' } else { c })
+            .collect();
+        let mark = |(at, c): (usize, char)| {
+            let mark = if self.marked.contains(&at) { "^" } else { " " };
             // Chinese, Japanese and Korean characters take two columns of a terminal.
             let wide = matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{d7a3}' | '\u{f900}'..='\u{ff60}' | '\u{ffe0}'..='\u{ffe6}');
-            marks += &mark.repeat(1 + usize::from(wide));
-        }
+            mark.repeat(1 + usize::from(wide))
+        };
+        let mut marks: String = characters().map(mark).collect();
         if self.marked.start == self.text.len() {
             marks.push('^');
         }
-        if self.text.chars().count() > skipped + LONGEST_EXCERPT {
-            shown.push('…');
-        }
+        let is_cut = self.text.chars().count() > skipped + LONGEST_EXCERPT;
+        let rest = if is_cut { "…" } else { "" };
         let number = self.line.map_or_else(String::new, |line| line.to_string());
-        let margin = " ".repeat(number.len());
-        format!(
-            "\n{margin} |\n{number} | {shown}\n{margin} | {}",
-            marks.trim_end()
-        )
+        let (margin, marks) = (" ".repeat(number.len()), marks.trim_end());
+        format!("\n{margin} |\n{number} | {shown}{rest}\n{margin} | {marks}")
     }
 }
 
@@ -91,14 +87,8 @@ impl Location {
 pub(crate) fn line_of(text: &str, at: usize) -> (usize, &str) {
     let before = &text.as_bytes()[..at.min(text.len())];
     let begin = before.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1);
-    (
-        begin,
-        text[begin..]
-            .lines()
-            .next()
-            .unwrap_or_default()
-            .trim_end_matches('\r'),
-    )
+    let line = text[begin..].lines().next().unwrap_or_default();
+    (begin, line.trim_end_matches('\r'))
 }
 
 impl fmt::Display for Location {
@@ -112,24 +102,19 @@ impl fmt::Display for Location {
 /// What stands behind a key with numbers from 0, counted from 1 as people do: ` (vehicle 1, wheel 2)` behind `vehicles.0.wheels.1.load`;
 /// nothing behind other keys.
 pub(crate) fn counted(key: &str) -> String {
-    let mut items = Vec::new();
-    let mut list = "";
-    for part in key.split('.') {
-        let item = match list {
+    let parts: Vec<&str> = key.split('.').collect();
+    let item = |pair: &[&str]| {
+        let name = match pair[0] {
             "layers" => "layer",
             "restraints" => "clamp",
             "vehicles" => "vehicle",
             "wheels" => "wheel",
-            _ => "",
+            _ => return None,
         };
-        if let (false, Some(number)) = (
-            item.is_empty(),
-            part.parse().ok().and_then(|i: usize| i.checked_add(1)),
-        ) {
-            items.push(format!("{item} {number}"));
-        }
-        list = part;
-    }
+        let number = pair[1].parse::<usize>().ok()?.checked_add(1)?;
+        Some(format!("{name} {number}"))
+    };
+    let items: Vec<String> = parts.windows(2).filter_map(item).collect();
     if items.is_empty() {
         String::new()
     } else {

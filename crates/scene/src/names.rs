@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use crate::document::{joined, other_name, without_numbers};
-use crate::error::{Wrong, WrongKind, did_you_mean};
-use crate::key::{Key, Keys};
-use crate::keys::SceneKeys;
+use crate::content::{joined, other_name, without_numbers};
+use crate::key::{Key, Section};
 use crate::nearest::nearest;
+use crate::range::Quantity;
+use crate::scene::Scene;
 
 /// Words and symbols of the field for what a scene calls otherwise.
 #[rustfmt::skip]
@@ -36,29 +36,23 @@ pub struct KeyMeaning {
 }
 
 /// The meanings of these keys and of all below them.
-fn meanings(path: &str, keys: Vec<Key>, found: &mut Vec<KeyMeaning>) {
-    for Key {
-        name,
-        meaning,
-        form,
-        default,
-    } in keys
-    {
-        let (key, allowed, unit) = (joined(path, name), form.allowed(), form.unit());
+fn meanings(path: &str, keys: &[Key], found: &mut Vec<KeyMeaning>) {
+    for key in keys {
+        let path = joined(path, key.name);
         found.push(KeyMeaning {
-            key: key.clone(),
-            meaning,
-            allowed,
-            unit,
-            default,
+            key: path.clone(),
+            meaning: key.meaning,
+            allowed: key.form.allowed(),
+            unit: key.form.quantity().and_then(Quantity::unit),
+            default: key.absent,
         });
-        meanings(&key, form.keys(), found);
+        meanings(&path, key.form.keys(), found);
     }
 }
 
 static MEANINGS: LazyLock<Vec<KeyMeaning>> = LazyLock::new(|| {
     let mut found = Vec::new();
-    meanings("", SceneKeys::keys(), &mut found);
+    meanings("", Scene::KEYS, &mut found);
     found
 });
 
@@ -72,49 +66,41 @@ pub fn key_meanings() -> Vec<KeyMeaning> {
     MEANINGS.clone()
 }
 
-/// The key nearest to `text`, by its last word if that has no section.
-pub fn nearest_key(text: &str) -> Option<String> {
-    let keys = || MEANINGS.iter().map(|meaning| &*meaning.key);
-    if text.contains('.') {
-        return nearest(text, keys()).map(str::to_owned);
-    }
-    let name = nearest(text, keys().map(last))?;
-    keys().find(|key| last(key) == name).map(str::to_owned)
+fn known() -> impl Iterator<Item = &'static str> {
+    MEANINGS.iter().map(|meaning| &*meaning.key)
 }
 
 fn last(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
+/// The key nearest to `text`, by its last word if that has no section.
+pub fn nearest_key(text: &str) -> Option<String> {
+    if text.contains('.') {
+        return nearest(text, known()).map(str::to_owned);
+    }
+    let name = nearest(text, known().map(last))?;
+    known().find(|key| last(key) == name).map(str::to_owned)
+}
+
 /// The SI unit of a key, `vehicles.0.speed`; none for what is no number or has no unit.
 pub fn si_unit(key: &str) -> Option<&'static str> {
     let path = without_numbers(key);
     let (section, name) = path.rsplit_once('.')?;
-    let is_meant = |meaning: &&KeyMeaning| {
-        let rest = meaning
-            .key
-            .strip_prefix(section)
-            .and_then(|rest| rest.strip_prefix('.'));
-        rest.is_some_and(|key| key == name || other_name(key) == Some(name))
-    };
-    MEANINGS.iter().find(is_meant)?.unit
+    let names = [Some(name), other_name(name)].into_iter().flatten();
+    let keys: Vec<String> = names.map(|name| joined(section, name)).collect();
+    MEANINGS.iter().find(|meaning| keys.contains(&meaning.key))?.unit
 }
 
-/// Says of an unknown key what was probably meant: a near miss of those allowed, another word for one, one with another beginning, or a key
-/// of another section.
-pub fn advise(wrong: &mut Wrong) {
-    if wrong.kind != WrongKind::UnknownKey {
-        return;
-    }
-    let key = last(&wrong.key);
-    let known: Vec<&str> = wrong.allowed.split(", ").collect();
+/// What was probably meant by an unknown key beside the `allowed` ones: another word for one of them, a near miss, one with another
+/// beginning, or a key of another section; and words if it belongs elsewhere.
+pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> (Option<&'k str>, String) {
     let word = key.to_lowercase();
-    let synonym = SYNONYMS
-        .iter()
-        .find(|(other, name)| *other == word && known.contains(name));
+    let is_synonym = |(other, name): &&(&str, &str)| *other == word && allowed.contains(name);
+    let synonym = SYNONYMS.iter().find(is_synonym).map(|(_, name)| *name);
     let ends = |long: &str, short: &str| long.strip_suffix(short).is_some_and(|head| head.ends_with('_'));
     let ends_alike = || {
-        known
+        allowed
             .iter()
             .copied()
             .find(|name| ends(name, key) || ends(key, name))
@@ -123,19 +109,16 @@ pub fn advise(wrong: &mut Wrong) {
     let of_section = |key: &str| {
         key.matches('.').count() == 1 || key.starts_with("ground.layers.") && key.matches('.').count() == 2
     };
-    let keys = || MEANINGS.iter().map(|meaning| &*meaning.key);
     let meant = synonym
-        .map(|(_, name)| *name)
-        .or_else(|| nearest(key, known.iter().copied()));
-    let meant = meant.or_else(ends_alike);
-    let meant = meant.or_else(|| keys().find(|other| of_section(other) && last(other) == key));
-    let where_else = match key {
+        .or_else(|| nearest(key, allowed.iter().copied()))
+        .or_else(ends_alike)
+        .or_else(|| known().find(|other| of_section(other) && last(other) == key));
+    let elsewhere = match key {
         "title" => "; `title` stands above the first section".to_owned(),
-        _ if keys().any(|other| other == key) => format!("; `{key}` stands for itself, not in a section"),
+        _ if known().any(|other| other == key) => format!("; `{key}` stands for itself, not in a section"),
         _ => String::new(),
     };
-    wrong.found = did_you_mean(meant);
-    wrong.allowed += &where_else;
+    (meant, elsewhere)
 }
 
 #[cfg(test)]

@@ -1,105 +1,132 @@
 //! `KEY=VALUE` on top of a scene file.
 
-use std::ops::Range;
+use toml::de::DeTable;
 
-use toml::de::DeValue;
-
-use crate::document::{Content, Document, Entry, Node, joined};
+use crate::content::{Content, Entry, Node, Place, joined};
+use crate::document::{Document, node};
 use crate::error::{SceneError, WrongKind};
 use crate::rivals::gives_way;
 
 /// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
 const DEEPEST: usize = 8;
 
+/// What was found, and what is allowed.
+type Refused = (String, String);
+
 /// Sets one key of the document, or removes it if the value is empty.
 pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
-    let start = document.add(format!("--set {text}"), text, false);
-    let Some((key, written)) = text.split_once('=') else {
+    let source = document.add(format!("--set {text}"), text, false);
+    let key = text.split('=').next().unwrap_or_default();
+    let bytes = 0..key.len();
+    let place = Place { source, bytes };
+    set_text(&mut document.root, text, &place).map_err(|(found, allowed)| {
+        let error = SceneError::wrong(WrongKind::Override, key.trim(), found, allowed);
+        error.at(document.locate(&place))
+    })
+}
+
+fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
+    let Some((key, value)) = text.split_once('=') else {
         let allowed = "KEY=VALUE, such as friction.dynamic_coefficient=0.3";
-        let span = start..start + text.len();
-        let found = format!("`{text}`, without `=`");
-        return Err(document.wrong(WrongKind::Override, &span, text.trim(), found, allowed));
+        return Err((format!("`{text}`, without `=`"), allowed.to_owned()));
     };
-    let span = start..start + key.len();
-    let value = value(written, start + text.len() - written.len());
-    let key = key.trim();
-    let segments: Vec<&str> = key.split('.').map(str::trim).collect();
-    let placed = if segments.len() > DEEPEST || segments.contains(&"") {
-        Err((
-            format!("`{key}`"),
-            "a key such as duct.length or vehicles.0.speed".to_owned(),
-        ))
-    } else if key.contains('[') && key.contains(']') {
-        let meant = key.replace('[', ".").replace(']', "");
-        Err((
-            format!("`{key}`"),
-            format!("`{meant}`: an item of a list by its number, from 0 on"),
-        ))
-    } else {
-        // The table of axles stands in place of `[[vehicles]]`.
-        let rival = match (&*segments.join("."), &value) {
-            ("vehicles", Some(_)) => Some("traffic.histogram"),
-            ("traffic.histogram", Some(_)) => Some("vehicles"),
-            _ => None,
-        };
-        if let Some(rival) = rival.filter(|rival| document.find(rival).1) {
-            let segments: Vec<&str> = rival.split('.').collect();
-            set(&mut document.root, "", &segments, None, &span).ok();
-        }
-        set(&mut document.root, "", &segments, value, &span)
-    };
-    placed.map_err(|(found, allowed)| document.wrong(WrongKind::Override, &span, key, found, allowed))
+    let keys: Vec<&str> = key.split('.').map(str::trim).collect();
+    let found = format!("`{}`", key.trim());
+    if keys.len() > DEEPEST || keys.contains(&"") {
+        return Err((found, "a key such as duct.length or vehicles.0.speed".to_owned()));
+    }
+    if key.contains('[') && key.contains(']') {
+        let meant = found.replace('[', ".").replace(']', "");
+        return Err((
+            found,
+            format!("{meant}: an item of a list by its number, from 0 on"),
+        ));
+    }
+    if value.trim().is_empty() {
+        return remove(root, &keys);
+    }
+    // The table of axles stands in place of `[[vehicles]]`.
+    match &keys[..] {
+        ["vehicles"] => remove(root, &["traffic", "histogram"]).unwrap_or_default(),
+        ["traffic", "histogram"] => remove(root, &["vehicles"]).unwrap_or_default(),
+        _ => {}
+    }
+    set(root, "", &keys, parsed(text, key.len() + 1, place.source), place)
 }
 
-/// The value as TOML, or as a text if it is not TOML; `None` if it is empty. It begins at `start` in the texts of the document.
-fn value(written: &str, start: usize) -> Option<Node> {
-    let trimmed = written.trim();
-    let start = start + written.len() - written.trim_start().len();
-    if let Ok(value) = DeValue::parse(trimmed) {
-        return Some(Node::of(&value, start));
+/// The value that begins at a byte of an override: TOML, or a text if it is not.
+fn parsed(text: &str, start: usize, source: usize) -> Node {
+    // Behind a key that is as long, so that all places are those in the override.
+    let line = format!("{:1$}={2}", "x", start - 1, &text[start..]);
+    if let Ok(table) = DeTable::parse(&line)
+        && let (Some(value), 1) = (table.get_ref().get("x"), table.get_ref().len())
+    {
+        return node(value, source, text);
     }
+    let value = text[start..].trim();
+    let start = text.len() - text[start..].trim_start().len();
     // Numbers that TOML does not write so: `.5`, `5.`
-    let numeric = trimmed.starts_with(|c: char| matches!(c, '0'..='9' | '.' | '+' | '-'));
-    let content = match trimmed.parse() {
+    let numeric = value.starts_with(|c: char| matches!(c, '0'..='9' | '.' | '+' | '-'));
+    let content = match value.parse() {
         Ok(value) if numeric => Content::number(value),
-        _ => Content::Text(trimmed.to_owned()),
+        _ => Content::Text(value.to_owned()),
     };
-    let span = start..start + trimmed.len();
-    (!trimmed.is_empty()).then_some(Node { span, content })
+    let bytes = start..start + value.len();
+    Node::new(Place { source, bytes }, text, content)
 }
 
-/// Sets or removes what stands at these `segments` below the node at `path`; what was found, and what is allowed, if there is no such place.
-fn set(
-    node: &mut Node,
-    path: &str,
-    segments: &[&str],
-    value: Option<Node>,
-    key_span: &Range<usize>,
-) -> Result<(), (String, String)> {
-    let [segment, rest @ ..] = segments else {
+/// The item of a list.
+fn item<'n>(items: &'n mut [Node], number: &str) -> Result<(usize, &'n mut Node), Refused> {
+    let allowed = match items.len() {
+        0 => "nothing: the list is empty".to_owned(),
+        1 => "the index 0, for the only item of the list".to_owned(),
+        count => format!("an index from 0 to {} of the list", count - 1),
+    };
+    let index = number.parse().unwrap_or(usize::MAX);
+    let item = items.get_mut(index).map(|item| (index, item));
+    item.ok_or_else(|| (format!("`{number}`"), allowed))
+}
+
+/// Removes what stands at these `keys` below the node.
+fn remove(node: &mut Node, keys: &[&str]) -> Result<(), Refused> {
+    let nothing = || {
+        let found = "an empty value, which removes the key".to_owned();
+        (found, "a value, or a key that the scene holds".to_owned())
+    };
+    let [key, below @ ..] = keys else {
         return Ok(());
     };
-    if let Content::List(items) = &mut node.content {
-        let count = items.len();
-        let Some(index) = segment.parse().ok().filter(|index: &usize| *index < count) else {
-            let allowed = match count {
-                0 => "nothing: the list is empty".to_owned(),
-                1 => "the index 0, for the only item of the list".to_owned(),
-                _ => format!("an index from 0 to {} of the list", count - 1),
-            };
-            return Err((format!("`{segment}`"), allowed));
-        };
-        match (rest, value) {
-            ([], None) => _ = items.remove(index),
-            ([], Some(value)) => items[index] = value,
-            (_, value) => return set(&mut items[index], &joined(path, segment), rest, value, key_span),
+    match &mut node.content {
+        Content::List(items) => match item(items, key)? {
+            (index, _) if below.is_empty() => _ = items.remove(index),
+            (_, item) => return remove(item, below),
+        },
+        Content::Table(entries) => {
+            let at = entries
+                .iter()
+                .position(|entry| entry.key == *key)
+                .ok_or_else(nothing)?;
+            if !below.is_empty() {
+                return remove(&mut entries[at].value, below);
+            }
+            entries.remove(at);
         }
-        return Ok(());
+        _ => return Err(nothing()),
     }
-    let table = || Node {
-        span: key_span.clone(),
-        content: Content::Table(Vec::new()),
+    Ok(())
+}
+
+/// Sets what stands at these `keys` below the node at `path`.
+fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -> Result<(), Refused> {
+    let [key, below @ ..] = keys else {
+        *node = value;
+        return Ok(());
     };
+    let inner = joined(path, key);
+    if let Content::List(items) = &mut node.content {
+        return set(item(items, key)?.1, &inner, below, value, place);
+    }
+    let table = || Node::new(place.clone(), "", Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
         // `ends.downstream.spring=…` on `downstream = "fixed"`
         *node = table();
@@ -107,39 +134,21 @@ fn set(
     let Content::Table(entries) = &mut node.content else {
         return Ok(());
     };
-    let place = entries.iter().position(|entry| entry.key == *segment);
-    let place = match (place, &value) {
-        (Some(place), _) => place,
-        (None, Some(_)) => {
-            entries.push(Entry {
-                key: (*segment).to_owned(),
-                span: key_span.clone(),
-                value: table(),
-            });
-            entries.len() - 1
-        }
-        (None, None) => {
-            let found = "an empty value, which removes the key".to_owned();
-            return Err((found, "a value, or a key that the scene holds".to_owned()));
-        }
+    let known = entries.iter().position(|entry| entry.key == *key);
+    let (key, place_of_key) = ((*key).to_owned(), place.clone());
+    let mut entry = match known {
+        Some(at) => entries.remove(at),
+        None => Entry {
+            key,
+            place: place_of_key,
+            value: table(),
+        },
     };
-    match (rest, value) {
-        ([], None) => _ = entries.remove(place),
-        ([], Some(value)) => {
-            let entry = &mut entries[place];
-            (entry.span, entry.value) = (key_span.clone(), value);
-            let set = entry.clone();
-            entries.retain(|present| !gives_way(path, present, &set));
-        }
-        (_, value) => {
-            return set(
-                &mut entries[place].value,
-                &joined(path, segment),
-                rest,
-                value,
-                key_span,
-            );
-        }
+    set(&mut entry.value, &inner, below, value, place)?;
+    if below.is_empty() {
+        entry.place = place.clone();
+        entries.retain(|present| !gives_way(path, present, &entry));
     }
+    entries.insert(known.unwrap_or(entries.len()).min(entries.len()), entry);
     Ok(())
 }

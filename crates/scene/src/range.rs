@@ -2,8 +2,6 @@
 //!
 //! The limits are those of what the models can mean, far outside what is built: beyond them numbers lose their digits, or a run its end.
 
-use std::ops::RangeInclusive;
-
 use crate::units::Dimension;
 
 /// A quantity of a scene.
@@ -23,12 +21,12 @@ pub struct Quantity {
     pub whole: bool,
 }
 
-/// Rows of name, dimension, least, most, range in words, example.
+/// Rows of name, dimension, least, most, range in words, example; `whole` for a whole number.
 macro_rules! quantities {
-    ($($name:ident: $dimension:expr, $least:expr, $most:expr, $words:literal, $example:literal;)+) => {
+    ($($name:ident: $dimension:expr, $least:expr, $most:expr, $words:literal, $example:literal $(, $whole:ident)?;)+) => {
         $(#[allow(missing_docs)]
         pub const $name: Quantity = Quantity {
-            dimension: $dimension, least: $least, most: $most, words: $words, example: $example, whole: false,
+            dimension: $dimension, least: $least, most: $most, words: $words, example: $example, whole: !stringify!($($whole)?).is_empty(),
         };)+
     };
 }
@@ -85,24 +83,9 @@ quantities! {
     LOAD_FACTOR: None, 1e-6, 1e6, "greater than 0, from 1e-6 to 1e6", "";
     AXLE_COUNT: None, 0.0, 1e12, "of at least 0 and at most 1e12", "";
     YEARS: None, 1e-9, 1e6, "greater than 0, from 1e-9 to 1e6", "";
+    PASSES: None, 1.0, 1e12, "from 1 to 1000000000000", "", whole;
+    ANY_WHOLE: None, 0.0, MAX, "of at least 0", "", whole;
     PER_DAY: None, 1e-6, 1e9, "greater than 0, from 1e-6 to 1e9", "";
-}
-
-/// Number of passes that can be computed, few of them simulated.
-pub const PASSES: Quantity = whole(1.0, 1e12, "from 1 to 1000000000000");
-/// Any whole number.
-pub const ANY_WHOLE: Quantity = whole(0.0, MAX, "of at least 0");
-
-const fn whole(least: f64, most: f64, words: &'static str) -> Quantity {
-    let (dimension, example, whole) = (None, "", true);
-    Quantity {
-        dimension,
-        least,
-        most,
-        words,
-        example,
-        whole,
-    }
 }
 
 impl Quantity {
@@ -125,9 +108,14 @@ impl Quantity {
         }
     }
 
+    /// The SI unit of its values, if they have one.
+    pub fn unit(self) -> Option<&'static str> {
+        self.dimension.and_then(Dimension::si)
+    }
+
     /// A value as a program has it: in SI.
     pub fn written(self, value: f64) -> String {
-        match self.dimension.and_then(Dimension::si) {
+        match self.unit() {
             Some(unit) => format!("\"{value:?} {unit}\""),
             None => shown(value),
         }
@@ -135,61 +123,26 @@ impl Quantity {
 
     /// What a bare number out of its range was probably meant in.
     pub fn bare_number_meant(self, value: f64) -> String {
-        let (dimension, unit, si) = match self.dimension {
+        let (unit, si) = match self.dimension {
             None if value > 1.0 && !self.whole && self.contains(value / 100.0) => {
                 return format!("; did you mean {}?", value / 100.0);
             }
             // Tables give it in millionths.
-            Some(dimension @ D::InverseTemperature) => (dimension, "e-6 1/K", "in 1/K"),
-            Some(dimension @ D::Length) => (dimension, " mm", "in m"),
-            Some(dimension @ D::Pressure) => (dimension, " MPa", "in Pa"),
-            Some(dimension @ D::Area) => (dimension, " mm2", "in m2"),
-            Some(dimension @ D::Ratio) => (dimension, " %", "a share of 1"),
-            Some(dimension @ D::Slope) => (dimension, " %", "the rise over a distance of 1"),
+            Some(D::InverseTemperature) => ("e-6 1/K", "in 1/K"),
+            Some(D::Length) => (" mm", "in m"),
+            Some(D::Pressure) => (" MPa", "in Pa"),
+            Some(D::Area) => (" mm2", "in m2"),
+            Some(D::Ratio) => (" %", "a share of 1"),
+            Some(D::Slope) => (" %", "the rise over a distance of 1"),
             _ => return String::new(),
         };
         let meant = format!("{value}{unit}");
-        match dimension.parse(&meant) {
-            Ok(value) if self.contains(value) => {
-                format!("; a bare number is {si}: did you mean \"{meant}\"?")
-            }
-            _ => String::new(),
-        }
+        let parsed = self.dimension.and_then(|dimension| dimension.parse(&meant).ok());
+        let words = || format!("; a bare number is {si}: did you mean \"{meant}\"?");
+        parsed
+            .filter(|&value| self.contains(value))
+            .map_or_else(String::new, |_| words())
     }
-}
-
-/// Most nodes, and most steps of a vehicle over the duct; if the scene gives no step, there are two to a node.
-const MOST_NODES: f64 = 5e6;
-const MOST_STEPS: f64 = 1e7;
-
-/// A range whose ends follow from the rest of the scene, with its words.
-pub type Follows = (RangeInclusive<f64>, String);
-
-/// Node spacings \[m\] in a duct of this length.
-pub fn node_spacings(length: f64) -> Follows {
-    let half = shown(length / 2.0);
-    let words = format!("at most half the duct's length, {half} m, and at least its five-millionth part");
-    (length / MOST_NODES..=length / 2.0, words)
-}
-
-/// Steps of a vehicle \[m\] over a duct of this length.
-pub fn vehicle_steps(length: f64) -> Follows {
-    let all = shown(length);
-    let words = format!("at most the duct's length, {all} m, and at least its ten-millionth part");
-    (length / MOST_STEPS..=length, words)
-}
-
-/// Diameters \[m\] of a cable alone in a duct of this inner diameter, or of one of three that fit while the duct is `closest` times as wide
-/// as each of them.
-pub fn diameters(inner_diameter: f64, closest: Option<f64>) -> Follows {
-    let inner = shown(inner_diameter);
-    let Some(closest) = closest else {
-        let words = format!("less than the duct's inner diameter, {inner} m");
-        return (0.0..=inner_diameter.next_down(), words);
-    };
-    let most = inner_diameter / closest;
-    let words = format!("at most {most:.4} m, so that three cables fit into the duct's {inner} m");
-    (0.0..=most, words)
 }
 
 /// A number of this program in a message, such as the end of a range.

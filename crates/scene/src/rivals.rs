@@ -1,10 +1,12 @@
 //! Keys that exclude each other: what an override sets drops what has no meaning beside it; what a file gives together is an error.
 
-use crate::document::{Content, Document, Entry, Node, joined, without_numbers};
-use crate::error::{SceneError, WrongKind};
+use crate::content::{Content, Entry, joined, without_numbers};
+use crate::error::SceneError;
 
 /// What is allowed of two rivals.
 const ONE: &str = "only one of the two";
+const AT_RANDOM: &str = "order = \"random\", or none: the axles of a histogram come at random";
+const SEED: &str = "`seed` only with order = \"random\"";
 const THREE: &[&str] = &[
     "trefoil-upper",
     "trefoil-lower",
@@ -37,81 +39,79 @@ const RULES: &[Rule] = &[
     ("traffic", "passes", &[], "years", ONE),
     ("heat", "daily_swing", &[], "profile", ONE),
     ("friction", "law", &["coulomb"], "shape_factor", "no `shape_factor` with the law \"coulomb\""),
-    ("traffic", "sequence", &[], "seed", "`seed` only with order = \"random\""),
-    ("traffic", "order", &["", "interleaved"], "seed", "`seed` only with order = \"random\""),
+    ("traffic", "sequence", &[], "histogram", AT_RANDOM),
+    ("traffic", "order", &["interleaved"], "histogram", AT_RANDOM),
+    ("traffic", "sequence", &[], "seed", SEED),
+    ("traffic", "order", &["", "interleaved"], "seed", SEED),
     ("traffic", "histogram", &[""], "speed", "no `speed`: every vehicle has its own"),
     ("solver", "method", &["quasi-static", "pass-law"], "time_step", "`time_step` only with the method \"auto\" or \"explicit\""),
 ];
 
+/// The rules of a table.
+fn rules(table: &str) -> impl Iterator<Item = &'static Rule> {
+    RULES.iter().filter(move |rule| rule.0 == table)
+}
+
 /// The rivals among the keys of a table.
 #[cfg(feature = "schema")]
 pub fn rivals(table: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let own = RULES
-        .iter()
-        .filter(move |rule| rule.0 == table && rule.2.is_empty());
+    let own = rules(table).filter(|rule| rule.2.is_empty());
     own.map(|(_, one, _, other, _)| (*one, *other))
 }
 
 /// Whether a rule holds for a key with this value; nothing if it is left out.
-fn holds((_, _, values, ..): &Rule, value: Option<&Node>) -> bool {
-    match value.map(|value| &value.content) {
+fn holds((_, _, values, ..): &Rule, value: Option<&Content>) -> bool {
+    match value {
         Some(_) if values.is_empty() => true,
-        Some(Content::Text(text)) => values.contains(&&**text),
-        Some(_) => false,
+        Some(value) => value.as_text().is_some_and(|text| values.contains(&text)),
         None => values.contains(&""),
     }
 }
 
 /// Whether the entry `present` of the table at `path` has no meaning beside `set`, which is given later.
 pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
-    let table = without_numbers(path);
-    RULES.iter().filter(|rule| rule.0 == table).any(|rule| {
+    rules(&without_numbers(path)).any(|rule| {
         let (_, key, _, other, allowed) = rule;
-        let drops = *key == set.key && *other == present.key && holds(rule, Some(&set.value));
-        let back = *key == present.key && *other == set.key && holds(rule, Some(&present.value));
-        drops || back && *allowed == ONE
+        let drops = *key == set.key && *other == present.key && holds(rule, Some(&set.value.content));
+        let back = *key == present.key && *other == set.key && holds(rule, Some(&present.value.content));
+        drops && *allowed != AT_RANDOM || back && *allowed == ONE
     })
 }
 
-/// The first two keys at or below `path` that exclude each other.
-pub fn contradiction(document: &Document, path: &str, node: &Node) -> Result<(), SceneError> {
-    let table = without_numbers(path);
-    let value_at = |key: &str| match &node.content {
-        Content::Table(entries) => Some(&entries.iter().find(|entry| entry.key == key)?.value),
-        _ => None,
+/// The first two keys of the table at `path` that exclude each other.
+pub fn contradiction(path: &str, table: &Content) -> Result<(), SceneError> {
+    let value_at = |key: &str| {
+        table
+            .entries()
+            .iter()
+            .find(|entry| entry.key == key)
+            .map(|entry| &entry.value)
     };
-    for rule @ (_, key, _, other, allowed) in RULES.iter().filter(|rule| rule.0 == table) {
+    for rule @ (_, key, _, other, allowed) in rules(&without_numbers(path)) {
         let (value, Some(rival)) = (value_at(key), value_at(other)) else {
             continue;
         };
         // The axles of a histogram come at random without a word, a sequence is an order.
         let random = *other == "seed" && value.is_none() && value_at("histogram").is_some();
-        if !holds(rule, value) || random {
+        if !holds(rule, value.map(|value| &value.content)) || random {
             continue;
         }
-        let written = document.written(&rival.span);
         let found = match value {
             Some(_) if *allowed == ONE => format!("both `{key}` and `{other}`"),
-            Some(value) => format!("{written} with `{key}` = {}", document.written(&value.span)),
-            None => format!("{written} with no `{key}`"),
+            Some(value) => format!("{} with `{key}` = {}", rival.written, value.written),
+            None => format!("{} with no `{key}`", rival.written),
         };
-        let key = joined(path, other);
-        return Err(document.wrong(WrongKind::Value, &rival.span, &key, found, *allowed));
+        return Err(SceneError::value(&joined(path, other), found, *allowed));
     }
-    match &node.content {
-        Content::List(items) => items
-            .iter()
-            .enumerate()
-            .try_for_each(|(index, item)| contradiction(document, &joined(path, &index.to_string()), item))?,
-        Content::Table(entries) => entries
-            .iter()
-            .try_for_each(|entry| contradiction(document, &joined(path, &entry.key), &entry.value))?,
-        _ => {}
-    }
-    let key = "traffic.histogram";
-    if let ("", (node, true), Some(_)) = (path, document.find(key), value_at("vehicles")) {
-        let found = "both `traffic.histogram` and [[vehicles]]";
-        return Err(document.wrong(WrongKind::Value, &node.span, key, found, ONE));
-    }
-    Ok(())
+    let histogram = value_at("traffic").and_then(|traffic| traffic.content.get("histogram"));
+    let scaled = value_at("ground").and_then(|ground| ground.content.get("longitudinal_peak"));
+    let (found, allowed) = match histogram {
+        Some(_) if value_at("vehicles").is_some() => ("both `traffic.histogram` and [[vehicles]]", ONE),
+        Some(_) if scaled.is_some() => (
+            "a histogram with `ground.longitudinal_peak`",
+            "`ground.vertical_peak`, which is that of the first row: one longitudinal peak for every load has no meaning",
+        ),
+        _ => return Ok(()),
+    };
+    Err(SceneError::value("traffic.histogram", found, allowed))
 }

@@ -2,23 +2,21 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::document::joined;
-use crate::key::{Form, Key, Keys};
-use crate::keys::SceneKeys;
+use crate::content::{joined, other_name};
+use crate::key::{Form, Key, Section};
 use crate::presets::{PresetKind, of};
 use crate::range::Quantity;
 use crate::rivals::rivals;
+use crate::scene::Scene;
 
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
 /// holds between several keys it says which of them exclude each other.
 pub fn schema() -> Value {
-    let Value::Object(mut root) = table(&SceneKeys::keys(), "") else {
+    let Value::Object(mut root) = table(Scene::KEYS, "") else {
         return Value::Null;
     };
-    root.insert(
-        "$schema".into(),
-        "https://json-schema.org/draft/2020-12/schema".into(),
-    );
+    let draft = "https://json-schema.org/draft/2020-12/schema";
+    root.insert("$schema".into(), draft.into());
     root.insert("title".into(), "Scene of creepage".into());
     Value::Object(root)
 }
@@ -29,29 +27,21 @@ fn table(keys: &[Key], path: &str) -> Value {
             "preset" => json!({ "enum": presets(path) }),
             name => form(&key.form, &joined(path, name)),
         };
-        if let Value::Object(property) = &mut property {
-            let default = key
-                .default
-                .map_or("required".to_owned(), |default| format!("if omitted: {default}"));
-            let words = format!("{} Allowed: {}; {default}.", key.meaning, key.form.allowed());
-            property.insert("description".into(), words.into());
-        }
+        let default = key.absent.map(|default| format!("if omitted: {default}"));
+        let default = default.unwrap_or("required".to_owned());
+        let words = format!("{} Allowed: {}; {default}.", key.meaning, key.form.allowed());
+        property["description"] = words.into();
         (key.name.to_owned(), property)
     };
     let mut properties: Map<String, Value> = keys.iter().map(property).collect();
-    let required: Vec<&str> = keys
-        .iter()
-        .filter(|key| key.default.is_none())
-        .map(|key| key.name)
-        .collect();
-    // Other names of keys.
-    for (name, other) in [("spring", "stiffness"), ("stiffness", "spring")] {
-        if let Some(property) = properties.get(name).cloned() {
-            properties.entry(other).or_insert(property);
+    // Keys that have another name.
+    for key in keys {
+        if let (Some(other), Some(property)) = (other_name(key.name), properties.get(key.name).cloned()) {
+            properties.insert(other.to_owned(), property);
         }
     }
-    let has_other_name = |name: &&&str| !matches!(**name, "spring" | "stiffness");
-    let required: Vec<&&str> = required.iter().filter(has_other_name).collect();
+    let is_required = |key: &&Key| key.absent.is_none() && other_name(key.name).is_none();
+    let required: Vec<&str> = keys.iter().filter(is_required).map(|key| key.name).collect();
     let mut table = json!({ "type": "object", "additionalProperties": false });
     // A preset may give what is required.
     if properties.contains_key("preset") {
@@ -60,9 +50,8 @@ fn table(keys: &[Key], path: &str) -> Value {
         table["required"] = json!(required);
     }
     table["properties"] = properties.into();
-    let rivals: Vec<Value> = rivals(path)
-        .map(|(one, other)| json!({ "required": [one, other] }))
-        .collect();
+    let rivals = rivals(path).map(|(one, other)| json!({ "required": [one, other] }));
+    let rivals: Vec<Value> = rivals.collect();
     if !rivals.is_empty() {
         table["not"] = json!({ "anyOf": rivals });
     }
@@ -71,31 +60,28 @@ fn table(keys: &[Key], path: &str) -> Value {
 
 fn form(form: &Form, path: &str) -> Value {
     match form {
-        Form::Quantity(quantity) => number(*quantity),
-        Form::Text(_) if path == "heat.profile" => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
+        Form::Number(quantity) => number(*quantity),
         Form::Text(_) => json!({ "type": "string" }),
-        Form::Words(words, _) => json!({ "enum": words }),
+        Form::Name(_) => json!({ "type": "string", "minLength": 1 }),
+        Form::Words { words, .. } => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List(item, least, _) => {
             json!({ "type": "array", "minItems": least, "items": self::form(item, path) })
         }
+        Form::Pair(..) => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
         Form::Either(one, keys, _) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
     }
 }
 
 fn number(quantity: Quantity) -> Value {
-    let Quantity { least, most, .. } = quantity;
-    let kind = if quantity.whole { "integer" } else { "number" };
-    let mut number = json!({ "type": kind, "minimum": least });
+    let Quantity {
+        least, most, whole, ..
+    } = quantity;
+    let limit = |value: f64| if whole { json!(value as u64) } else { json!(value) };
+    let kind = if whole { "integer" } else { "number" };
+    let mut number = json!({ "type": kind, "minimum": limit(least) });
     if most < f64::MAX {
-        number["maximum"] = if quantity.whole {
-            json!(most as u64)
-        } else {
-            json!(most)
-        };
-    }
-    if quantity.whole {
-        number["minimum"] = json!(least as u64);
+        number["maximum"] = limit(most);
     }
     let Some(dimension) = quantity.dimension else {
         return number;
@@ -126,11 +112,9 @@ fn unit(symbol: &str) -> String {
 }
 
 fn presets(section: &str) -> Vec<&'static str> {
-    let kind = match section {
-        "ground" => PresetKind::Pavement,
-        "cable" => PresetKind::Cable,
-        "friction" => PresetKind::Friction,
-        _ => PresetKind::Vehicle,
-    };
-    of(kind).map(|preset| &*preset.name).collect()
+    let kind = PresetKind::of_section(section);
+    kind.into_iter()
+        .flat_map(of)
+        .map(|preset| &*preset.name)
+        .collect()
 }

@@ -2,14 +2,14 @@
 
 use crate::nearest::nearest;
 
-/// Each dimension with its meaning and its name with an article.
+/// A dimension in a row: its name, its noun with an article, and its units, that of SI first: symbol, power of ten, factor.
 macro_rules! dimensions {
-    ($($(#[$about:meta])+ $name:ident $noun:literal;)+) => {
+    ($($name:ident $noun:literal: $($symbol:literal $exponent:literal $factor:tt $(/ $divisor:expr)?),+;)+) => {
         /// Physical dimension of a quantity in a scene.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Dimension {
-            $($(#[$about])+ $name,)+
+            $(#[doc = concat!("It is ", $noun, ".")] $name,)+
         }
 
         impl Dimension {
@@ -23,36 +23,31 @@ macro_rules! dimensions {
                 }
             }
         }
+
+        /// Every unit of a scene file, the SI unit of each dimension first.
+        pub const UNITS: &[Unit] =
+            &[$($(unit($symbol, Dimension::$name, $exponent, [$factor, [$($divisor,)? 1.0][0]])),+),+];
     };
 }
 
 dimensions! {
-    /// Length \[m\].
-    Length "a length";
-    /// Force \[N\].
-    Force "a force";
-    /// Pressure or modulus \[Pa\].
-    Pressure "a pressure or modulus";
-    /// Stiffness \[N/m\].
-    ForcePerLength "a force per length";
-    /// Weight per length \[N/m\]; a mass per length stands for its weight.
-    Weight "a weight per length";
-    /// Inverse length \[1/m\].
-    InverseLength "an inverse length";
-    /// Area \[m²\].
-    Area "an area";
-    /// Speed \[m/s\].
-    Speed "a speed";
-    /// Time \[s\].
-    Time "a time";
-    /// Difference of temperatures \[K\].
-    Temperature "a difference of temperatures";
-    /// Inverse temperature \[1/K\].
-    InverseTemperature "an expansion per degree";
-    /// A ratio, as a percentage.
-    Ratio "a ratio";
-    /// A slope: rise over horizontal distance as a ratio, or an angle, whose tangent it is.
-    Slope "a slope";
+    Length "a length": "m" 0 1.0, "cm" -2 1.0, "mm" -3 1.0, "um" -6 1.0, "nm" -9 1.0, "km" 3 1.0, "in" 0 INCH, "ft" 0 FOOT, "yd" 0 YARD, "mi" 0 MILE;
+    Force "a force": "N" 0 1.0, "kN" 3 1.0, "MN" 6 1.0, "GN" 9 1.0, "kgf" 0 STANDARD_GRAVITY, "tf" 3 STANDARD_GRAVITY,
+        "lbf" 0 POUND_FORCE, "kip" 3 POUND_FORCE;
+    Pressure "a pressure or modulus": "Pa" 0 1.0, "kPa" 3 1.0, "MPa" 6 1.0, "GPa" 9 1.0, "N/m2" 0 1.0, "kN/m2" 3 1.0, "MN/m2" 6 1.0,
+        "N/mm2" 6 1.0, "kgf/cm2" 4 STANDARD_GRAVITY, "kgf/mm2" 6 STANDARD_GRAVITY, "tf/m2" 3 STANDARD_GRAVITY,
+        "psi" 0 POUND_FORCE / SQUARE_INCH, "ksi" 3 POUND_FORCE / SQUARE_INCH;
+    ForcePerLength "a force per length": "N/m" 0 1.0, "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0, "N/mm" 3 1.0, "kN/mm" 6 1.0,
+        "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY, "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
+    Weight "a weight per length": "kg/m" 0 STANDARD_GRAVITY, "kg/km" -3 STANDARD_GRAVITY, "lb/1000ft" -3 POUND_FORCE / FOOT;
+    InverseLength "an inverse length": "1/m" 0 1.0, "1/cm" 2 1.0, "1/mm" 3 1.0, "1/um" 6 1.0;
+    Area "an area": "m2" 0 1.0, "cm2" -4 1.0, "mm2" -6 1.0, "in2" 0 SQUARE_INCH;
+    Speed "a speed": "m/s" 0 1.0, "cm/s" -2 1.0, "mm/s" -3 1.0, "km/h" 0 1.0 / 3.6, "ft/s" 0 FOOT, "mph" 0 MILE / 3600.0;
+    Time "a time": "s" 0 1.0, "ms" -3 1.0, "us" -6 1.0, "ns" -9 1.0, "min" 0 60.0, "h" 0 3600.0;
+    Temperature "a difference of temperatures": "K" 0 1.0;
+    InverseTemperature "an expansion per degree": "1/K" 0 1.0;
+    Ratio "a ratio": "%" -2 1.0;
+    Slope "a slope": "deg" 0 DEGREE;
 }
 
 impl Dimension {
@@ -94,10 +89,11 @@ impl Dimension {
 
     /// The unit that was probably meant by an unknown one.
     pub(crate) fn unit_meant_by(self, unknown: &str) -> Option<&'static str> {
-        let unknown_word = unknown.to_lowercase();
-        let mut in_words = IN_WORDS.iter().filter(|(word, _)| *word == unknown_word);
-        let meant = in_words.find_map(|(_, symbol)| self.units().find(|unit| unit == symbol));
-        meant.or_else(|| nearest(unknown, self.units()))
+        let word = unknown.to_lowercase();
+        let is_word = |unit: &&str| IN_WORDS.contains(&(&*word, *unit));
+        self.units()
+            .find(is_word)
+            .or_else(|| nearest(unknown, self.units()))
     }
 
     /// Whether it takes units of `dimension`: a slope may be a ratio, a weight per length is a force per length.
@@ -145,23 +141,23 @@ pub struct Unit {
 
 impl Unit {
     /// Newton.
-    pub const NEWTON: Self = unit("N", Dimension::Force, 0, 1.0, []);
+    pub const NEWTON: Self = unit("N", Dimension::Force, 0, [1.0, 1.0]);
     /// Metre.
-    pub const METRE: Self = unit("m", Dimension::Length, 0, 1.0, []);
+    pub const METRE: Self = unit("m", Dimension::Length, 0, [1.0, 1.0]);
     /// Millimetre.
-    pub const MILLIMETRE: Self = unit("mm", Dimension::Length, -3, 1.0, []);
+    pub const MILLIMETRE: Self = unit("mm", Dimension::Length, -3, [1.0, 1.0]);
     /// Micrometre.
-    pub const MICROMETRE: Self = unit("um", Dimension::Length, -6, 1.0, []);
+    pub const MICROMETRE: Self = unit("um", Dimension::Length, -6, [1.0, 1.0]);
     /// Foot.
-    pub const FOOT: Self = unit("ft", Dimension::Length, 0, FOOT, []);
+    pub const FOOT: Self = unit("ft", Dimension::Length, 0, [FOOT, 1.0]);
     /// Inch.
-    pub const INCH: Self = unit("in", Dimension::Length, 0, INCH, []);
+    pub const INCH: Self = unit("in", Dimension::Length, 0, [INCH, 1.0]);
     /// Newton per metre.
-    pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, 1.0, []);
+    pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, [1.0, 1.0]);
     /// Kilonewton per metre.
-    pub const KILONEWTON_PER_METRE: Self = unit("kN/m", Dimension::ForcePerLength, 3, 1.0, []);
+    pub const KILONEWTON_PER_METRE: Self = unit("kN/m", Dimension::ForcePerLength, 3, [1.0, 1.0]);
     /// Megapascal.
-    pub const MEGAPASCAL: Self = unit("MPa", Dimension::Pressure, 6, 1.0, []);
+    pub const MEGAPASCAL: Self = unit("MPa", Dimension::Pressure, 6, [1.0, 1.0]);
 
     /// The unit of this dimension that is written so.
     pub fn of(dimension: Dimension, symbol: &str) -> Option<Self> {
@@ -172,15 +168,9 @@ impl Unit {
 
     /// The stiffness that is this force per length: N/m, kN/m, tf/m, kip/in.
     pub fn per_length(&self) -> Option<Self> {
-        let begins = |unit: &&Self| {
-            unit.symbol
-                .split_once('/')
-                .is_some_and(|(force, _)| force == self.symbol)
-        };
-        let stiffnesses = UNITS
-            .iter()
-            .filter(|unit| unit.dimension == Dimension::ForcePerLength);
-        stiffnesses.into_iter().find(begins).copied()
+        let of_length = |unit: &&Self| unit.dimension == Dimension::ForcePerLength;
+        let mut stiffnesses = UNITS.iter().filter(of_length);
+        stiffnesses.find(|unit| unit.force() == Some(*self)).copied()
     }
 
     /// Of a force per length, the force.
@@ -206,11 +196,8 @@ impl Unit {
     /// assert_eq!(kip.of_si(2.0 * 4448.2216152605), 2.0);
     /// ```
     pub fn of_si(&self, si: f64) -> f64 {
-        let value = match self.dimension {
-            Dimension::Slope => si.atan(),
-            _ => si,
-        };
-        let value = value / self.factor * self.divisor;
+        let angle = self.dimension == Dimension::Slope;
+        let value = if angle { si.atan() } else { si } / self.factor * self.divisor;
         let power = 10_f64.powi(self.exponent.abs());
         if self.exponent < 0 {
             value * power
@@ -231,14 +218,8 @@ impl Unit {
     }
 }
 
-const fn unit<const N: usize>(
-    symbol: &'static str,
-    dimension: Dimension,
-    exponent: i32,
-    factor: f64,
-    divisor: [f64; N],
-) -> Unit {
-    let divisor = if N == 0 { 1.0 } else { divisor[0] };
+const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, scale: [f64; 2]) -> Unit {
+    let [factor, divisor] = scale;
     Unit {
         symbol,
         dimension,
@@ -246,34 +227,6 @@ const fn unit<const N: usize>(
         factor,
         divisor,
     }
-}
-
-/// The units of one dimension in a row: symbol, power of ten, factor.
-macro_rules! units {
-    ($($dimension:ident: $($symbol:literal $exponent:literal $factor:tt $(/ $divisor:expr)?),+;)+) => {
-        /// Every unit of a scene file, the SI unit of each dimension first.
-        pub const UNITS: &[Unit] = &[$($(unit($symbol, Dimension::$dimension, $exponent, $factor, [$($divisor)?])),+),+];
-    };
-}
-
-units! {
-    Length: "m" 0 1.0, "cm" -2 1.0, "mm" -3 1.0, "um" -6 1.0, "nm" -9 1.0, "km" 3 1.0, "in" 0 INCH, "ft" 0 FOOT, "yd" 0 YARD, "mi" 0 MILE;
-    Force: "N" 0 1.0, "kN" 3 1.0, "MN" 6 1.0, "GN" 9 1.0, "kgf" 0 STANDARD_GRAVITY, "tf" 3 STANDARD_GRAVITY,
-        "lbf" 0 POUND_FORCE, "kip" 3 POUND_FORCE;
-    Pressure: "Pa" 0 1.0, "kPa" 3 1.0, "MPa" 6 1.0, "GPa" 9 1.0, "N/m2" 0 1.0, "kN/m2" 3 1.0, "MN/m2" 6 1.0, "N/mm2" 6 1.0,
-        "kgf/cm2" 4 STANDARD_GRAVITY, "kgf/mm2" 6 STANDARD_GRAVITY, "tf/m2" 3 STANDARD_GRAVITY,
-        "psi" 0 POUND_FORCE / SQUARE_INCH, "ksi" 3 POUND_FORCE / SQUARE_INCH;
-    ForcePerLength: "N/m" 0 1.0, "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0, "N/mm" 3 1.0, "kN/mm" 6 1.0,
-        "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY, "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
-    Weight: "kg/m" 0 STANDARD_GRAVITY, "kg/km" -3 STANDARD_GRAVITY, "lb/1000ft" -3 POUND_FORCE / FOOT;
-    InverseLength: "1/m" 0 1.0, "1/cm" 2 1.0, "1/mm" 3 1.0, "1/um" 6 1.0;
-    Area: "m2" 0 1.0, "cm2" -4 1.0, "mm2" -6 1.0, "in2" 0 SQUARE_INCH;
-    Speed: "m/s" 0 1.0, "cm/s" -2 1.0, "mm/s" -3 1.0, "km/h" 0 1.0 / 3.6, "ft/s" 0 FOOT, "mph" 0 MILE / 3600.0;
-    Time: "s" 0 1.0, "ms" -3 1.0, "us" -6 1.0, "ns" -9 1.0, "min" 0 60.0, "h" 0 3600.0;
-    Temperature: "K" 0 1.0;
-    InverseTemperature: "1/K" 0 1.0;
-    Ratio: "%" -2 1.0;
-    Slope: "deg" 0 DEGREE;
 }
 
 /// The unit in the spelling of [`UNITS`].

@@ -2,17 +2,18 @@
 //!
 //! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are warnings.
 
-use cable_dem::FrictionLaw;
 use ground_field::{Base, Modulus};
 
-use crate::arrangement::may_jam;
-use crate::data::{PeakScaling, Scene, TrafficVehicle};
-use crate::document::{Content, Document, without_numbers};
+use crate::arrangement::JAMMING;
+use crate::cable::Law;
+use crate::content::{Content, Node, without_numbers};
 use crate::histogram::AXLE_GROUP;
-use crate::key::Keys;
-use crate::location::{Location, counted};
+use crate::location::counted;
 use crate::range::WEIGHT;
+use crate::scene::Scene;
 use crate::shown::four_digits;
+use crate::stored::Stored;
+use crate::vehicle::TrafficVehicle;
 
 /// A key, the usual range of its values \[SI\], the unit in which they are shown with its size, and what follows.
 type Usual = (&'static str, f64, f64, f64, &'static str, fn(f64) -> String);
@@ -42,10 +43,8 @@ fn softer_than_peat(modulus: f64) -> String {
     // A bare modulus up to this [Pa] may be one in MPa.
     const MEGAPASCALS: f64 = 1e5;
     let meant = format!("; a bare number is in Pa: did you mean \"{modulus} MPa\"?");
-    format!(
-        ", softer than peat{}",
-        if modulus <= MEGAPASCALS { &meant } else { "" }
-    )
+    let meant = if modulus <= MEGAPASCALS { &meant } else { "" };
+    format!(", softer than peat{meant}")
 }
 
 fn slow(shape_factor: f64) -> String {
@@ -64,17 +63,18 @@ fn holds_nothing(stiffness: f64) -> String {
 pub fn unusual(scene: &Scene) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut named: Vec<&str> = Vec::new();
-    scene.keys().each("", &mut |key, value, _| {
+    Node::from(scene.write()).each_value("", &mut |key, node| {
+        let Some(value) = node.content.as_number() else {
+            return;
+        };
         let name = without_numbers(key);
         let name = name.trim_end_matches(".top").trim_end_matches(".bottom");
         // Friction that forgets may build up slowly.
-        let forgets =
-            name.starts_with("friction") && !matches!(scene.friction.law, FrictionLaw::ElasticPlastic { .. });
+        let forgets = name == "friction.shape_factor" && scene.friction.law != Law::ElasticPlastic;
         for (key_of, least, most, size, unit, words) in USUAL.iter().filter(|usual| usual.0 == name) {
             // Of the wheels the first is named that is unusual.
             let again = named.contains(key_of) && key.contains(".wheels.");
-            let is_usual = (*least..=*most).contains(&value) || forgets && name.ends_with("factor");
-            if !is_usual && !again {
+            if !(*least..=*most).contains(&value) && !forgets && !again {
                 named.push(key_of);
                 let in_unit = four_digits(value / size);
                 warnings.push(of(key, &format!(" is {in_unit}{unit}{}", words(value))));
@@ -92,82 +92,42 @@ fn of(key: &str, words: &str) -> String {
     format!("`{key}`{}{words}", counted(key))
 }
 
-/// A warning for every number without a unit that was probably meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h,
-/// for decimals that may be thousands, `passes = 292.000`, and for masses that stand for weights; each with its place.
-pub fn slips(document: &Document) -> Vec<(Location, String)> {
-    let mut slips = Vec::new();
-    document.root.each_value("", &mut |key, node| {
-        let name = key.rsplit('.').next().unwrap_or(key);
-        let words = slip(name, &node.content, &document.written(&node.span));
-        slips.extend(words.map(|words| (document.locate(&node.span), of(key, &format!(": {words}")))));
-    });
-    slips
-}
-
-fn slip(key: &str, content: &Content, found: &str) -> Option<String> {
-    // Lighter than any vehicle [N], faster than any truck [m/s], and a weight per length that may be a mass [N/m].
-    const LIGHT: f64 = 1e3;
-    const FAST: f64 = 130.0 / 3.6;
-    const LIGHT_CABLE: f64 = 20.0;
-    if let (Content::Text(text), "weight") = (content, key)
-        && text.to_lowercase().replace("kgf", "").contains("kg")
-    {
-        let weight = four_digits(WEIGHT.dimension?.parse(text).ok()?);
-        return Some(format!(
-            "{found} is a mass per length: times g it weighs {weight} N/m"
-        ));
-    }
-    let value = content.as_number()?;
-    let thousands = || {
-        found
-            .split_once('.')
-            .is_some_and(|(_, digits)| digits.len() == 3 && digits.parse::<u16>().is_ok())
-    };
-    let (value, meant) = match key {
-        "load" if value > 0.0 && value < LIGHT => (
-            format!("{value} N, less than 1 kN"),
-            format!("\"{found} tf\" or \"{found} kN\""),
-        ),
-        "speed" if value > FAST => (
-            format!("{value} m/s, {:.0} km/h", 3.6 * value),
-            format!("\"{found} km/h\""),
-        ),
-        "weight" if value < LIGHT_CABLE => (format!("{value} N/m"), format!("\"{found} kg/m\"")),
-        "passes" if thousands() => (
-            format!("{value} passes, since decimals follow a point"),
-            found.replace('.', ""),
-        ),
-        _ => return None,
-    };
-    Some(format!(
-        "{found} without a unit is {value}: did you mean {meant}?"
-    ))
-}
-
 /// A duct that lies deeper than it is long.
 fn exchanged(scene: &Scene) -> Option<String> {
     let (depth, length) = (scene.duct.depth, scene.duct.length);
     let [deep, long] = [depth, length].map(four_digits);
-    (depth > length).then(|| {
-        format!("`duct.depth` is {deep} m, more than the duct is long, {long} m: were they exchanged?")
+    let words =
+        format!("`duct.depth` is {deep} m, more than the duct is long, {long} m: were they exchanged?");
+    (depth > length).then_some(words)
+}
+
+/// Three cables that may wedge themselves.
+fn may_jam(scene: &Scene) -> Option<String> {
+    let ratio = scene.duct.inner_diameter? / scene.cable.diameter?;
+    let jams = scene.cable.arrangement.is_of_three() && JAMMING.contains(&ratio);
+    let (from, to) = (JAMMING.start(), JAMMING.end());
+    jams.then(|| {
+        format!(
+            "`duct.inner_diameter` is {ratio:.2} times `cable.diameter`: from {from} to {to} times three cables may jam as they are pulled in"
+        )
     })
 }
 
 /// A vehicle too heavy for any road.
 fn too_heavy(scene: &Scene) -> Option<String> {
     const HEAVIEST: f64 = 5e6;
-    let weights = scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
+    let weights = scene.vehicles.iter().map(TrafficVehicle::weight);
     let (index, weight) = weights.enumerate().find(|(_, weight)| *weight > HEAVIEST)?;
-    let tonnes = weight / 9806.65;
-    Some(of(
-        &format!("vehicles.{index}"),
-        &format!(" weighs {tonnes:.0} t, more than any vehicle on a road"),
-    ))
+    let words = format!(
+        " weighs {:.0} t, more than any vehicle on a road",
+        weight / 9806.65
+    );
+    Some(of(&format!("vehicles.{index}"), &words))
 }
 
 /// A table of axles that were weighed in groups.
 fn grouped(scene: &Scene) -> Option<String> {
-    let mut names = scene.vehicles.iter().map(|traffic| traffic.vehicle.name());
+    let mut names = scene.vehicles.iter().map(|vehicle| &vehicle.name);
     names.any(|name| name.starts_with(AXLE_GROUP)).then(|| {
         "`traffic.histogram` has a column of groups of axles: each row is computed as one axle, which moves the cable more than a tandem or a \
          tridem of the same weight; divide their loads and multiply their numbers"
@@ -187,13 +147,13 @@ fn too_long(scene: &Scene) -> Option<String> {
 fn far(scene: &Scene) -> Option<String> {
     // Depths between the vehicle's axis and the duct's, beyond which a duct hardly moves.
     const FARTHEST: f64 = 10.0;
-    let is_far = |traffic: &&TrafficVehicle| scene.offset_from(traffic).abs() > FARTHEST * scene.duct.depth;
-    let traffic = scene.vehicles.iter().find(is_far)?;
-    let (name, offset) = (traffic.vehicle.name(), scene.offset_from(traffic).abs());
-    let subject = if traffic.lateral_offset == 0.0 {
-        format!("`duct.lateral_offset` is {offset} m")
-    } else {
-        format!("the lane of \"{name}\" is {offset} m from the duct")
+    let offset = |vehicle: &TrafficVehicle| scene.offset_from(vehicle).abs();
+    let is_far = |vehicle: &&TrafficVehicle| offset(vehicle) > FARTHEST * scene.duct.depth;
+    let vehicle = scene.vehicles.iter().find(is_far)?;
+    let (name, offset) = (&vehicle.name, offset(vehicle));
+    let subject = match vehicle.lateral_offset {
+        0.0 => format!("`duct.lateral_offset` is {offset} m"),
+        _ => format!("the lane of \"{name}\" is {offset} m from the duct"),
     };
     Some(format!(
         "{subject}, more than {FARTHEST} times the depth: the duct hardly moves there"
@@ -203,38 +163,38 @@ fn far(scene: &Scene) -> Option<String> {
 /// A shallow duct between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
 fn between_tracks(scene: &Scene) -> Option<String> {
     let depth = scene.duct.depth;
-    let traffic = scene.vehicles.iter().find(|traffic| {
-        let offset = scene.offset_from(traffic);
-        let wheels = || traffic.vehicle.wheels().iter().map(|wheel| wheel.y - offset);
-        wheels().any(|y| y > depth) && wheels().any(|y| y < -depth) && wheels().all(|y| y.abs() > depth)
+    let vehicle = scene.vehicles.iter().find(|vehicle| {
+        let offset = scene.offset_from(vehicle);
+        let aside: Vec<f64> = vehicle.wheels().iter().map(|wheel| wheel.y - offset).collect();
+        let (left, right) = (
+            aside.iter().any(|y| *y > depth),
+            aside.iter().any(|y| *y < -depth),
+        );
+        left && right && aside.iter().all(|y| y.abs() > depth)
     })?;
     Some(format!(
         "`duct.depth` is {} m between the wheels of \"{}\", which are farther to either side: so shallow, the ground moves toward a wheel \
          and not away from it, and the cable may creep backward",
         four_digits(depth),
-        traffic.vehicle.name()
+        vehicle.name
     ))
 }
 
 /// Lanes move a duct by different amounts, but a longitudinal peak is that of each vehicle.
 fn lanes_scaled_alike(scene: &Scene) -> Option<String> {
-    let first = scene.vehicles.first()?.lateral_offset;
-    let differ = scene
-        .vehicles
-        .iter()
-        .any(|traffic| traffic.lateral_offset != first);
-    let scaled = matches!(scene.ground.scaling, Some(PeakScaling::Longitudinal(_)));
+    scene.ground.longitudinal_peak?;
+    let lanes = || scene.vehicles.iter().map(|vehicle| vehicle.lateral_offset);
     let words = "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct \
                  as far; `ground.vertical_peak` keeps the lanes apart";
-    (scaled && differ).then(|| words.to_owned())
+    lanes()
+        .any(|lane| Some(lane) != lanes().next())
+        .then(|| words.to_owned())
 }
 
 /// Rock does not move, and so nothing in it does.
 fn rock(scene: &Scene) -> Option<String> {
-    let (profile, depth) = (&scene.ground.profile, scene.duct.depth);
-    // A sum of thicknesses, as it would be written.
-    let base = (1e6 * profile.base_depth()).round() / 1e6;
-    (profile.base() == Base::Rigid && base <= depth).then(|| {
+    let (base, depth) = (scene.ground.rigid_base_depth?, scene.duct.depth);
+    (base <= depth).then(|| {
         format!(
             "`ground.rigid_base_depth` is {base} m and the duct lies at {depth} m, within the rock: it does not move, and no force arises"
         )
@@ -248,7 +208,7 @@ fn contrast(scene: &Scene) -> Option<String> {
     const CONTRAST: f64 = 100.0;
     const INVERTED: f64 = 20.0;
     const PAVEMENT: f64 = 0.5;
-    let profile = &scene.ground.profile;
+    let profile = scene.ground.profile().ok()?;
     let layers = profile.layers();
     let ends = |modulus: Modulus| match modulus {
         Modulus::Uniform(modulus) => (modulus, modulus),
@@ -273,4 +233,44 @@ fn contrast(scene: &Scene) -> Option<String> {
         );
         of(&key(0), &words)
     })
+}
+
+/// The warning for a number without a unit that was meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h, for decimals
+/// that may be thousands, `passes = 292.000`, and for a mass that stands for a weight.
+pub fn slip(key: &str, node: &Node) -> Option<String> {
+    let words = meant(key.rsplit('.').next()?, &node.content, &node.written)?;
+    Some(of(key, &format!(": {words}")))
+}
+
+fn meant(key: &str, content: &Content, found: &str) -> Option<String> {
+    // Lighter than any vehicle [N], faster than any truck [m/s], and a weight per length that may be a mass [N/m].
+    const LIGHT: f64 = 1e3;
+    const FAST: f64 = 130.0 / 3.6;
+    const LIGHT_CABLE: f64 = 20.0;
+    if let (Some(text), "weight") = (content.as_text(), key) {
+        let is_mass = text.to_lowercase().replace("kgf", "").contains("kg");
+        let weight = four_digits(WEIGHT.dimension?.parse(text).ok()?);
+        return is_mass.then(|| format!("{found} is a mass per length: times g it weighs {weight} N/m"));
+    }
+    let value = content.as_number()?;
+    let is_thousands = |(_, digits): (&str, &str)| digits.len() == 3 && digits.parse::<u16>().is_ok();
+    let (value, meant) = match key {
+        "load" if value > 0.0 && value < LIGHT => (
+            format!("{value} N, less than 1 kN"),
+            format!("\"{found} tf\" or \"{found} kN\""),
+        ),
+        "speed" if value > FAST => (
+            format!("{value} m/s, {:.0} km/h", 3.6 * value),
+            format!("\"{found} km/h\""),
+        ),
+        "weight" if value < LIGHT_CABLE => (format!("{value} N/m"), format!("\"{found} kg/m\"")),
+        "passes" if found.split_once('.').is_some_and(is_thousands) => (
+            format!("{value} passes, since decimals follow a point"),
+            found.replace('.', ""),
+        ),
+        _ => return None,
+    };
+    Some(format!(
+        "{found} without a unit is {value}: did you mean {meant}?"
+    ))
 }

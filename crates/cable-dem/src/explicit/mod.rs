@@ -1,12 +1,11 @@
 //! The explicit solver.
 
 mod energy;
-mod lanes;
 mod leak;
 mod limits;
 mod moving_duct;
+mod nodes;
 mod pass;
-mod tanh;
 
 pub use energy::EnergyBalance;
 pub use leak::SigmoidLeak;
@@ -21,9 +20,8 @@ use crate::laid::laid;
 use crate::lumped::Lumped;
 use crate::outcome::Recorder;
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, StepView};
-use lanes::Lanes;
+use nodes::MovingNodes;
 use pass::pass;
-use tanh::tanh;
 
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 32;
@@ -215,10 +213,10 @@ impl Explicit {
                 });
             }
             let start = state.clone();
-            let look = |t: f64, lanes: &Lanes| {
+            let look = |t: f64, nodes: &MovingNodes| {
                 let state = || {
                     let mut state = start.clone();
-                    lanes.store(&mut state);
+                    nodes.store(&mut state);
                     state
                 };
                 observe(StepView {
@@ -244,7 +242,7 @@ fn rub(
     steps: usize,
     state: &mut CableState,
     recorder: &mut Recorder,
-    look: impl FnMut(f64, &Lanes),
+    look: impl FnMut(f64, &MovingNodes),
 ) -> Result<EnergyBalance, CableError> {
     let time_step = duct.duration() / steps as f64;
     let (q, per_mass) = (lumped.cable.friction().limit(), time_step / lumped.mass_per_metre);
@@ -273,41 +271,41 @@ fn rub(
         // f = q tanh(b Δs/2).
         FrictionLaw::Sigmoid { shape_factor } => {
             let half = 0.5 * shape_factor;
-            let law = move |velocity, duct, friction| {
+            let law = move |velocity: f64, duct: f64, friction: f64| {
                 let velocity = velocity + per_mass * friction;
-                (velocity, q * tanh(half * (duct - time_step * velocity)))
+                (velocity, q * (half * (duct - time_step * velocity)).tanh())
             };
             run(lumped, law, duct, steps, (state, recorder), look)
         }
     }
 }
 
-/// The same by one law: see [`Lanes::step`].
+/// The same by one law: see [`MovingNodes::step`].
 fn run(
     lumped: &Lumped,
     law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
     duct: &MovingDuct,
     steps: usize,
     (state, recorder): (&mut CableState, &mut Recorder),
-    mut look: impl FnMut(f64, &Lanes),
+    mut look: impl FnMut(f64, &MovingNodes),
 ) -> Result<EnergyBalance, CableError> {
-    let nodes = lumped.mesh.nodes();
+    let count = lumped.mesh.nodes();
     let time_step = duct.duration() / steps as f64;
-    let mut lanes = Lanes::new(state);
-    duct.displacement(0.0, &mut lanes.duct);
+    let mut nodes = MovingNodes::new(state);
+    duct.displacement(0.0, &mut nodes.duct);
     let mut peak_kinetic = 0.0_f64;
     for step in 1..=steps {
         let t = time_step * step as f64;
-        duct.at(t, nodes).advance(&mut lanes.duct, &mut lanes.increment);
-        lanes.step(lumped, law, time_step);
-        recorder.record(lanes.end_forces(lumped));
-        look(t, &lanes);
+        duct.at(t, count).advance(&mut nodes.duct, &mut nodes.increment);
+        nodes.step(lumped, law, time_step);
+        recorder.record(nodes.end_forces(lumped));
+        look(t, &nodes);
         if step % LOOK == 0 || step == steps {
-            let kinetic = lumped.kinetic_energy(&lanes.velocity);
+            let kinetic = lumped.kinetic_energy(&nodes.velocity);
             if !kinetic.is_finite() {
                 return Err(CableError::EnergyNotConserved {
                     unbalanced: 1.0,
-                    returned: lanes.energy(lumped, state, peak_kinetic).returned_share(),
+                    returned: nodes.energy(lumped, state, peak_kinetic).returned_share(),
                 });
             }
             peak_kinetic = peak_kinetic.max(kinetic);
@@ -315,11 +313,11 @@ fn run(
     }
     let energy = EnergyBalance {
         reference: lumped.reference_work(duct.peak()),
-        ..lanes.energy(lumped, state, peak_kinetic)
+        ..nodes.energy(lumped, state, peak_kinetic)
     };
     recorder.statistics.steps = steps;
-    recorder.statistics.node_updates += steps * nodes;
-    recorder.statistics.widest_window = nodes;
-    lanes.store(state);
+    recorder.statistics.node_updates += steps * count;
+    recorder.statistics.widest_window = count;
+    nodes.store(state);
     Ok(energy)
 }

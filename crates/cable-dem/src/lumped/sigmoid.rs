@@ -11,6 +11,7 @@
 
 use super::Lumped;
 use crate::step::{Chain, Stretch};
+use crate::tridiagonal::{self, Row};
 use crate::{FrictionLaw, Statistics};
 
 /// Halvings of one line search.
@@ -20,14 +21,16 @@ const HALVINGS: usize = 40;
 #[derive(Debug, Clone)]
 pub(super) struct Newton {
     half_shape: f64,
-    /// K + S, and the friction limit.
+    /// Friction limit \[N/m\].
+    limit: f64,
+    /// K + S.
     chain: Chain,
     /// Increments \[m\]: where the next step starts from, and its answer.
     pub r: Vec<f64>,
     direction: Vec<f64>,
     residual: Vec<f64>,
     slope: Vec<f64>,
-    upper: Vec<f64>,
+    factors: Vec<f64>,
 }
 
 impl Newton {
@@ -39,19 +42,20 @@ impl Newton {
         };
         Self {
             half_shape,
+            limit: lumped.cable.friction().limit(),
             chain: chain.clone(),
             r: zeros(),
             direction: zeros(),
             residual: zeros(),
             slope: zeros(),
-            upper: zeros(),
+            factors: zeros(),
         }
     }
 
     /// Writes the friction of the increments found to `f` \[N/m\].
     pub fn set_friction(&self, duct: &[f64], f: &mut [f64]) {
         for (f, (duct, r)) in f.iter_mut().zip(duct.iter().zip(&self.r)) {
-            *f = self.chain.limit * (self.half_shape * (duct - r)).tanh();
+            *f = self.limit * (self.half_shape * (duct - r)).tanh();
         }
     }
 
@@ -93,14 +97,14 @@ impl Newton {
             }
         }
         self.r.fill(0.0);
-        Err(worst / self.chain.limit)
+        Err(worst / self.limit)
     }
 
     /// Sets residual and slope at r + share · direction. Returns the largest residual per metre of cable \[N/m\] and the derivative of
     /// the energy along the direction.
     fn evaluate(&mut self, load: &[f64], duct: &[f64], share: f64) -> (f64, f64) {
         let (mut worst, mut along) = (0.0_f64, 0.0);
-        let (last, k, q) = (duct.len() - 1, self.chain.stiffness, self.chain.limit);
+        let (last, k, q) = (duct.len() - 1, self.chain.stiffness, self.limit);
         let at = |i: usize| {
             self.r[i]
                 + if share == 0.0 {
@@ -137,16 +141,13 @@ impl Newton {
     fn solve_direction(&mut self) {
         let (k, Stretch { lo, hi }) = (self.chain.stiffness, self.chain.free);
         self.direction.fill(0.0);
-        let (mut upper, mut before) = (0.0, 0.0);
-        for i in lo..=hi {
-            let inverse = 1.0 / (k * self.chain.nodes[i].diagonal + self.slope[i] - k * upper);
-            upper = k * inverse;
-            before = (k * before - self.residual[i]) * inverse;
-            self.upper[i] = upper;
-            self.direction[i] = before;
-        }
-        for i in (lo..hi).rev() {
-            self.direction[i] += self.upper[i] * self.direction[i + 1];
-        }
+        let row = |i: usize| {
+            let per_pivot = 1.0 / (k * self.chain.nodes[lo + i].diagonal + self.slope[lo + i]);
+            Row {
+                share: k * per_pivot,
+                value: -self.residual[lo + i] * per_pivot,
+            }
+        };
+        tridiagonal::solve([0.0, 0.0], row, &mut self.factors, &mut self.direction[lo..=hi]);
     }
 }

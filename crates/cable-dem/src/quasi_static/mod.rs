@@ -83,15 +83,6 @@ impl QuasiStatic {
         })
     }
 
-    /// The same solver, which takes the exact step (dynamic programming along the cable) in every window instead of
-    /// iterating first: the same answer at a higher cost, for tests of the iteration.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn without_iteration(mut self) -> Self {
-        self.forward.step.without_iteration = true;
-        self
-    }
-
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -158,14 +149,12 @@ impl QuasiStatic {
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
-        let without_iteration = self.forward.step.without_iteration;
         let solver = if mirrored {
             self.reverse
                 .get_or_insert_with(|| ForwardSolver::new(self.cable.mirrored(), &self.mesh))
         } else {
             &mut self.forward
         };
-        solver.step.without_iteration = without_iteration;
         let mut after = state.clone();
         if mirrored {
             after.mirror();

@@ -24,6 +24,7 @@ pub(super) struct ForwardSolver {
     /// State in the adherent frame: r \[m\] and g \[N/m\].
     r: Vec<f64>,
     g: Vec<f64>,
+    /// Where the duct held every node before the step, r + γ g \[m\].
     anchor: Vec<f64>,
     /// Of the cable in the current pass \[N\].
     thermal_force: f64,
@@ -48,7 +49,7 @@ impl ForwardSolver {
             supports: Supports::new(&cable, mesh, &chain, room, screening),
             ends: EndReader::new(&cable, mesh),
             room,
-            quiet: QUIET * UNBALANCED_SHARE * chain.limit * mesh.spacing() / chain.stiffness,
+            quiet: QUIET * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
@@ -74,6 +75,9 @@ impl ForwardSolver {
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.step.start(largest(&self.r, passage.peak));
+        for (anchor, (r, g)) in self.anchor.iter_mut().zip(self.r.iter().zip(&self.g)) {
+            *anchor = r + self.step.chain.compliance * g;
+        }
         self.step.trial.r.copy_from_slice(&self.r);
         self.supports.rest(state.thermal_force);
         self.thermal_force = state.thermal_force;
@@ -108,8 +112,8 @@ impl ForwardSolver {
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
         self.update_supports(snapshot, true);
-        self.anchor(self.room.free);
         self.solve(self.room.free, snapshot)?;
+        self.anchor(self.room.free);
         self.moving.clear();
         self.record_ends(snapshot);
         Ok(())
@@ -127,8 +131,7 @@ impl ForwardSolver {
         let mut windows = std::mem::take(&mut self.windows);
         self.collect(&mut windows, snapshot, watched);
         self.moving.clear();
-        for window in &windows {
-            self.anchor(window.stretch);
+        for window in &mut windows {
             if window.travels {
                 let contacts = &mut self.step.trial.contact;
                 self.prediction.read(first, window.stretch, contacts);
@@ -144,6 +147,10 @@ impl ForwardSolver {
             self.supports.remember(window.stretch, moves);
             let widest = &mut self.recorder.statistics.widest_window;
             *widest = solved.len().max(*widest);
+            window.stretch = solved;
+        }
+        for window in &windows {
+            self.anchor(window.stretch);
         }
         let touched = windows.iter().any(|window| self.room.near_an_end(window.stretch));
         if touched || self.supports.due().next().is_some() {
@@ -166,7 +173,7 @@ impl ForwardSolver {
         // Between them and beyond.
         let known = windows.len();
         let near = watched.lo..watched.hi + 1;
-        let limit = self.step.chain.limit * (1.0 + SLIPPING_SHARE);
+        let limit = self.step.chain.least_limit * (1.0 + SLIPPING_SHARE);
         let mut lo = near.start;
         for at in 0..=known {
             let (hi, next) = if at < known {
@@ -191,20 +198,24 @@ impl ForwardSolver {
         self.recorder.dissipated += self.supports.update(snapshot, all, chain, state, trial);
     }
 
-    /// Anchors of the nodes in `stretch`; their contact states stay those last solved.
+    /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
     fn anchor(&mut self, stretch: Stretch) {
-        let nodes = stretch.nodes();
+        let (chain, nodes) = (&self.step.chain, stretch.nodes());
         let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
-        for (anchor, (r, g)) in self.anchor[nodes].iter_mut().zip(state) {
-            *anchor = r + self.step.chain.compliance * g;
-        }
+        let anchors = self.anchor[nodes.clone()].iter_mut().zip(state);
+        let slips = anchors.zip(&chain.nodes[nodes]).map(|((anchor, (r, g)), node)| {
+            let now = r + chain.compliance * g;
+            let slip = std::mem::replace(anchor, now) - now;
+            node.tributary * node.limit * slip.abs()
+        });
+        self.recorder.dissipated += slips.sum::<f64>();
     }
 
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
     /// moves is appended to `moving`.
     fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
         let mut growth = self.room.margin;
-        let slip = loop {
+        loop {
             self.recorder.statistics.windows += 1;
             let load = Load {
                 adhesion: snapshot.adhesion,
@@ -212,36 +223,22 @@ impl ForwardSolver {
                 anchor: &self.anchor,
             };
             let solved = self.step.solve(&load, stretch);
-            let slip = solved.map_err(|violation| CableError::NoConvergence {
+            solved.map_err(|violation| CableError::NoConvergence {
                 vehicle_position: self.lattice_step * snapshot.position as f64,
                 violation,
             })?;
             let (grown, next) = window::grow(self.room, stretch, growth, |i| self.edge_disturbed(i));
             if grown == stretch {
-                break slip;
-            }
-            if grown.lo < stretch.lo {
-                self.anchor(Stretch {
-                    lo: grown.lo,
-                    hi: stretch.lo - 1,
-                });
-            }
-            if grown.hi > stretch.hi {
-                self.anchor(Stretch {
-                    lo: stretch.hi + 1,
-                    hi: grown.hi,
-                });
+                break;
             }
             (stretch, growth) = (grown, next);
-        };
-        let StepSolver { chain, trial, .. } = &self.step;
+        }
+        let trial = &self.step.trial;
         let moves = |node: usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();
-        let (r, g) = (&trial.r[nodes.clone()], &trial.g[nodes.clone()]);
-        self.recorder.dissipated += chain.limit * slip;
-        self.r[nodes.clone()].copy_from_slice(r);
-        self.g[nodes].copy_from_slice(g);
+        self.r[nodes.clone()].copy_from_slice(&trial.r[nodes.clone()]);
+        self.g[nodes.clone()].copy_from_slice(&trial.g[nodes]);
         Ok(stretch)
     }
 
@@ -249,7 +246,7 @@ impl ForwardSolver {
     fn edge_disturbed(&self, node: usize) -> bool {
         let chain = &self.step.chain;
         let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
-        (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.limit
+        (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes[node].limit
     }
 
     /// Records the force on each end with the vehicle at the snapshot's position.

@@ -4,6 +4,7 @@ use ground_field::{Direction, DuctMotion};
 
 use super::schedule::schedule;
 use crate::course::{Course, as_driven};
+use crate::tridiagonal::{self, Row};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
 /// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
@@ -241,16 +242,13 @@ impl Phase {
         let last = duct.len() - 1;
         let mut adherent = duct.to_vec();
         if screening > 0.0 {
-            let diagonal = 1.0 + 2.0 * screening;
-            let mut upper = vec![0.0; duct.len()];
-            for i in 1..last {
-                let pivot = diagonal - screening * upper[i - 1];
-                upper[i] = screening / pivot;
-                adherent[i] = (duct[i] + screening * adherent[i - 1]) / pivot;
-            }
-            for i in (1..last).rev() {
-                adherent[i] += upper[i] * adherent[i + 1];
-            }
+            let per_pivot = 1.0 / (1.0 + 2.0 * screening);
+            let row = |i: usize| Row {
+                share: screening * per_pivot,
+                value: per_pivot * duct[i + 1],
+            };
+            let mut factors = vec![0.0; duct.len()];
+            tridiagonal::solve([duct[0], duct[last]], row, &mut factors, &mut adherent[1..last]);
         }
         let mut adhesion = vec![0.0; duct.len()];
         for i in 1..last {

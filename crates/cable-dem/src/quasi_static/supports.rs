@@ -81,7 +81,7 @@ impl Supports {
             weight: [body[0], body[mesh.elements()]],
             load: body.clone(),
             body,
-            threshold: UNBALANCED_SHARE * chain.limit * mesh.spacing(),
+            threshold: UNBALANCED_SHARE * chain.least_limit * mesh.spacing(),
             last: mesh.elements(),
         }
     }

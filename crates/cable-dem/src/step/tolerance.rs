@@ -18,21 +18,14 @@ pub(crate) struct Tolerance {
     pub friction: f64,
     /// On slip \[m\].
     pub slip: f64,
-    /// Displacement that changes neither by more than a 64th of that \[m\].
-    pub negligible: f64,
 }
 
 impl Tolerance {
     /// For steps of `chain` in which displacements reach `largest` \[m\].
     pub fn new(chain: &Chain, largest: f64) -> Self {
-        let friction = (FRICTION_ACCURACY * chain.limit).max(16.0 * chain.rounding * largest);
+        let friction = (FRICTION_ACCURACY * chain.least_limit).max(16.0 * chain.rounding * largest);
         let slip = SLIP_ACCURACY * largest + chain.compliance * friction;
-        let stiffness = chain.rounding / (4.0 * f64::EPSILON);
-        Self {
-            friction,
-            slip,
-            negligible: (friction / stiffness).min(slip) / 64.0,
-        }
+        Self { friction, slip }
     }
 }
 

@@ -31,6 +31,7 @@ fn a_quasi_static_pass() -> Outcome {
             let near = 200.0 * step;
             let road = length + 2.0 * near + (APPROACH - near);
             let positions = (road / step).round() as usize;
+            let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
             for passes in [1, 10] {
                 let work = scene.quasi_static(passes)?.statistics;
                 assert_eq!(
@@ -42,12 +43,12 @@ fn a_quasi_static_pass() -> Outcome {
                 assert_at_most("windows a step", work.windows, 2.2, work.steps, work);
                 // Two linear solves a window: contact states are predicted from the step before, at the same distance from the vehicle.
                 assert_at_most("solves a step", work.sweeps, 4.0, work.steps, work);
-                // The zones that slip are some 6 m long, with what the sheath carries along 10 m, whatever the duct, all along the road.
-                let zone = if law == FrictionLaw::Coulomb { 9.3 } else { 14.0 } / spacing;
-                let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
+                // The zones that slip are some 6 m long, with what the sheath carries along 10 m, whatever the duct, all along the road; and
+                // where the iteration cycles, ten solves of them.
+                let zone = if law == FrictionLaw::Coulomb { 11.5 } else { 14.0 } / spacing;
                 assert_at_most("nodes a step", work.node_updates, zone, single_steps, work);
-                // The iteration is given up where contact begins.
-                assert_at_most("exact steps a step", work.exact_steps, 0.035, work.steps, work);
+                // The iteration cycles where contact begins.
+                assert_at_most("cycles a step", work.cycles, 0.035, work.steps, work);
             }
         }
     }
@@ -55,7 +56,7 @@ fn a_quasi_static_pass() -> Outcome {
 }
 
 /// A cable so stiff that it slides as a whole, under Coulomb's law: half the duct is one window, and the iteration cycles
-/// often. What it then costs is the failed iteration (8 solves) and the exact step.
+/// often. What it then costs is the failed iteration (8 solves), the exact step and one more.
 #[test]
 fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
     let size = (300.0, 0.2, 0.1);
@@ -68,7 +69,7 @@ fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
     )?;
     for passes in [1, 2, 3] {
         let work = scene.quasi_static(passes)?.statistics;
-        assert_at_most("exact steps a window", work.exact_steps, 0.08, work.windows, work);
+        assert_at_most("cycles a window", work.cycles, 0.08, work.windows, work);
         // One, and 8 and one more where it cycles.
         let solves = 1.25 + 9.0 * 0.08;
         assert_at_most("solves a window", work.sweeps, solves, work.windows, work);

@@ -6,6 +6,7 @@
 mod against_full_newton;
 mod approach;
 mod closed_forms;
+mod coulomb_chains;
 mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
@@ -16,4 +17,3 @@ mod robustness;
 mod scenes;
 mod slow_turn;
 mod windows;
-mod without_iteration;

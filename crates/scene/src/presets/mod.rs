@@ -14,8 +14,7 @@
 
 use std::sync::LazyLock;
 
-use serde::Serialize;
-use toml::{Table, Value};
+use serde::{Deserialize, Serialize};
 
 /// What a preset describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -29,6 +28,19 @@ pub enum PresetKind {
     Friction,
     /// `[ground]`
     Pavement,
+}
+
+impl PresetKind {
+    /// The kind of preset that a section takes.
+    pub(crate) fn of_section(section: &str) -> Option<Self> {
+        match section {
+            "cable" => Some(Self::Cable),
+            "friction" => Some(Self::Friction),
+            "ground" => Some(Self::Pavement),
+            "vehicles" => Some(Self::Vehicle),
+            _ => None,
+        }
+    }
 }
 
 /// A named set of values.
@@ -59,6 +71,19 @@ pub struct Source {
     pub assumed: bool,
 }
 
+/// A data file, or a preset of it. Presets without sources have those of their file.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Data {
+    name: String,
+    summary: String,
+    values: String,
+    /// Lines of `KEY: SOURCE`.
+    sources: String,
+    assumed: String,
+    presets: Vec<Data>,
+}
+
 const FILES: [(PresetKind, &str); 4] = [
     (PresetKind::Vehicle, include_str!("vehicles.toml")),
     (PresetKind::Cable, include_str!("cables.toml")),
@@ -80,36 +105,29 @@ pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
 
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
 fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
-    let file: Table = toml::from_str(text).unwrap_or_default();
-    let shared = sources(&file);
-    let rows = file.get("presets").and_then(Value::as_array);
-    let preset = |row: &Table| {
-        let own = sources(row);
+    let file: Data = toml::from_str(text).unwrap_or_default();
+    let shared = sources(&file.sources, &file.assumed);
+    let preset = |preset: Data| {
+        let own = sources(&preset.sources, &preset.assumed);
         Preset {
             kind,
-            name: text_at(row, "name").to_owned(),
-            summary: text_at(row, "summary").to_owned(),
-            toml: text_at(row, "values").to_owned(),
+            name: preset.name,
+            summary: preset.summary,
+            toml: preset.values,
             sources: if own.is_empty() { shared.clone() } else { own },
         }
     };
-    let rows = rows.into_iter().flatten().filter_map(Value::as_table);
-    rows.map(preset).collect()
+    file.presets.into_iter().map(preset).collect()
 }
 
-fn text_at<'t>(table: &'t Table, key: &str) -> &'t str {
-    table.get(key).and_then(Value::as_str).unwrap_or_default()
-}
-
-/// Lines of `KEY: SOURCE`: of a preset, or of all in a file that have none of their own.
-fn sources(table: &Table) -> Vec<Source> {
-    let lists = [("sources", false), ("assumed", true)].into_iter();
-    let lines =
-        lists.flat_map(|(list, assumed)| text_at(table, list).lines().map(move |line| (line, assumed)));
-    let source = |(line, assumed): (&str, bool)| {
+fn sources(documents: &str, assumed: &str) -> Vec<Source> {
+    let source = |line: &str, assumed| {
         let (key, source) = line.split_once(": ")?;
         let (key, source) = (key.to_owned(), source.to_owned());
         Some(Source { key, source, assumed })
     };
-    lines.filter_map(source).collect()
+    let documents = documents.lines().filter_map(|line| source(line, false));
+    documents
+        .chain(assumed.lines().filter_map(|line| source(line, true)))
+        .collect()
 }

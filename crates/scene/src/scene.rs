@@ -1,0 +1,209 @@
+//! A scene: the sections of its file.
+
+use std::path::Path;
+
+use cable_dem::{End, Order, Restraint};
+
+use crate::cable::{Cable, Friction};
+use crate::content::Content;
+use crate::error::SceneError;
+use crate::ground::Ground;
+use crate::heat::Heat;
+use crate::key::Form::{Either, List, Number, Table, Text, Words};
+use crate::key::{Form, Key, keys};
+use crate::range::{CLAMP, DEPTH, DUCT_LENGTH, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING};
+use crate::solver::Solver;
+use crate::stored::{Stored, value};
+use crate::traffic::{Following, Traffic};
+use crate::vehicle::TrafficVehicle;
+
+keys! {
+    /// A cable in a duct under traffic, as its file says it, in SI.
+    #[non_exhaustive]
+    pub struct Scene {
+        /// Name of the scene in tables and reports.
+        title: String = Text("a text in quotes"), "the file's name";
+        /// Where the duct lies: straight, and as deep everywhere below a road that may slope.
+        duct: Duct = Table(Duct::KEYS);
+        /// The ground around the duct.
+        ground: Ground = Table(Ground::KEYS);
+        /// The cable in the duct.
+        cable: Cable = Table(Cable::KEYS);
+        /// Friction between cable and duct.
+        friction: Friction = Table(Friction::KEYS);
+        /// What holds the cable's two ends.
+        ends: Ends = Table(Ends::KEYS);
+        /// Clamps along the cable.
+        restraints: Vec<Restraint> = List(&Table(Restraint::KEYS), 0, "a list of [[restraints]]"), "none";
+        /// Who drives above the duct.
+        vehicles: Vec<TrafficVehicle> = List(&Table(TrafficVehicle::KEYS), 1, VEHICLES), "traffic.histogram instead";
+        /// How much traffic, and in which order.
+        traffic: Traffic = Table(Traffic::KEYS);
+        /// How warm the cable gets every day; needs `traffic.per_day`.
+        heat: Option<Heat> = Table(Heat::KEYS), "none";
+        /// How to compute.
+        solver: Solver = Table(Solver::KEYS), "all is chosen";
+    }
+}
+
+/// Speed of the axles of a histogram if the file gives none \[m/s\]: 40 km/h, as for the presets.
+const AXLE_SPEED: f64 = 40.0 / 3.6;
+pub const VEHICLES: &str = "one [[vehicles]] or more, or traffic.histogram";
+
+keys! {
+    /// A straight duct at constant depth below a road that slopes as it does, from x = 0 to x = `length`; in SI.
+    #[derive(Copy)]
+    pub struct Duct {
+        /// Length of the duct, from manhole to manhole.
+        length: f64 = Number(DUCT_LENGTH);
+        /// Depth of the cable below the road surface.
+        depth: f64 = Number(DEPTH);
+        /// How far the duct lies to the left of the first lane's axis, seen along forward traffic.
+        lateral_offset: f64 = Number(LATERAL_OFFSET), "0 m";
+        /// How steeply the duct rises with x: tan θ.
+        slope: f64 = Number(SLOPE), "0";
+        /// Inner diameter of the duct; needed for several cables in it.
+        inner_diameter: Option<f64> = Number(INNER_DIAMETER), "none";
+    }
+}
+
+keys! {
+    /// What holds the cable's two ends.
+    #[derive(Copy)]
+    pub struct Ends {
+        /// What holds the end at x = 0, where forward vehicles come in.
+        upstream: End = END;
+        /// What holds the end at x = length.
+        downstream: End = END;
+    }
+}
+
+keys! {
+    for Restraint {
+        /// Where the clamp is along the duct, from x = 0.
+        position = Number(POSITION);
+        /// Stiffness of the clamp; `spring` is understood too.
+        stiffness = Number(CLAMP);
+    }
+}
+
+const HELD: Form = Words {
+    words: &["free", "fixed"],
+    allowed: Some("\"free\", \"fixed\" or { spring = \"3 MN/m\" }"),
+    gone: None,
+};
+const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is understood too.";
+const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))], None);
+
+impl Stored for End {
+    fn read(content: &Content) -> Option<Self> {
+        match content.as_text() {
+            Some("free") => Some(Self::Free),
+            Some(_) => Some(Self::Fixed),
+            None => value(content, "spring", None).map(Self::Spring),
+        }
+    }
+
+    fn write(&self) -> Content {
+        match self {
+            Self::Free => Content::Text("free".to_owned()),
+            Self::Fixed => Content::Text("fixed".to_owned()),
+            Self::Spring(stiffness) => Content::table([("spring", stiffness.write())]),
+        }
+    }
+}
+
+impl Duct {
+    /// sin θ of the slope.
+    pub fn sine(&self) -> f64 {
+        self.slope / 1.0_f64.hypot(self.slope)
+    }
+
+    /// cos θ of the slope.
+    pub fn cosine(&self) -> f64 {
+        1.0 / 1.0_f64.hypot(self.slope)
+    }
+}
+
+impl Scene {
+    /// Normal force on the duct as a multiple of the cable's weight: as it is given, or as the cable's arrangement and the diameters make
+    /// it; 1 where none of them is known.
+    pub fn normal_load_factor(&self) -> f64 {
+        let follows = || {
+            let (inner, outer) = (self.duct.inner_diameter?, self.cable.diameter?);
+            Some(self.cable.arrangement.normal_load_factor(inner, outer))
+        };
+        self.cable.normal_load_factor.or_else(follows).unwrap_or(1.0)
+    }
+
+    /// Normal force between cable and duct per length N' in a level duct \[N/m\].
+    pub fn normal_load(&self) -> f64 {
+        self.normal_load_factor() * self.cable.weight
+    }
+
+    /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\].
+    pub fn friction_limit(&self) -> f64 {
+        self.friction.dynamic_coefficient * self.normal_load() * self.duct.cosine()
+    }
+
+    /// Force of the cable's weight along the duct per length, p = −w sin θ \[N/m\], positive toward growing x.
+    pub fn body_force(&self) -> f64 {
+        -self.cable.weight * self.duct.sine()
+    }
+
+    /// The heat of its days, if it makes any force.
+    pub fn warming(&self) -> Option<&Heat> {
+        self.heat.as_ref().filter(|heat| heat.makes_force())
+    }
+
+    /// How far the duct's axis lies to the left of this vehicle's axis \[m\], seen in the direction of forward traffic.
+    pub fn offset_from(&self, vehicle: &TrafficVehicle) -> f64 {
+        self.duct.lateral_offset - vehicle.lateral_offset
+    }
+
+    /// Which vehicle drives when.
+    pub fn order(&self) -> Order {
+        let index = |name: &String| self.vehicles.iter().position(|vehicle| vehicle.name == *name);
+        match (&self.traffic.sequence[..], self.traffic.order) {
+            ([], Following::Interleaved) => Order::Interleaved,
+            ([], Following::Random) => Order::Random {
+                seed: self.traffic.seed,
+            },
+            (names, _) => Order::Sequence(names.iter().filter_map(index).collect()),
+        }
+    }
+
+    /// The share of each vehicle in the passes, or in the sequence; they sum to 1.
+    pub fn shares(&self) -> Vec<f64> {
+        let sequence = &self.traffic.sequence;
+        let count = |name: &str| sequence.iter().filter(|other| *other == name).count() as f64;
+        let share = |vehicle: &TrafficVehicle| match sequence[..] {
+            [] => vehicle.share,
+            _ => count(&vehicle.name),
+        };
+        let shares: Vec<f64> = self.vehicles.iter().map(share).collect();
+        let largest = shares.iter().fold(0.0, |largest: f64, share| largest.max(*share));
+        let sum: f64 = shares.iter().map(|share| share / largest).sum();
+        shares.iter().map(|share| share / largest / sum).collect()
+    }
+
+    /// Puts what is computed once in place of what it follows from; `file` is the scene's.
+    pub(crate) fn resolve(&mut self, file: &str) -> Result<(), SceneError> {
+        if self.title.is_empty() {
+            let stem = Path::new(file).file_stem().unwrap_or_default();
+            self.title = stem.to_string_lossy().into_owned();
+        }
+        self.cable.resolve()?;
+        self.traffic.resolve()?;
+        if let Some(histogram) = self.traffic.histogram.take() {
+            self.vehicles = histogram.axles(file, self.traffic.speed.take().unwrap_or(AXLE_SPEED))?;
+            self.traffic.order = Following::Random;
+        }
+        for (index, vehicle) in self.vehicles.iter_mut().enumerate() {
+            if vehicle.name.is_empty() {
+                vehicle.name = format!("vehicle {}", index + 1);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,114 @@
+//! `[[vehicles]]`: who drives above the duct.
+
+use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle};
+
+use crate::content::Content;
+use crate::key::Form::{List, Name, Number, Table, Words};
+use crate::key::{Form, keys};
+use crate::range::{CONTACT_RADIUS, LANE, LOAD, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y};
+use crate::stored::Stored;
+
+keys! {
+    /// A vehicle and how often it drives, in SI. It has a load or wheels.
+    pub struct TrafficVehicle {
+        preset "A vehicle by its name; keys beside it override its values.";
+        /// Name of the vehicle.
+        name: String = Name("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
+        /// Speed of the vehicle.
+        speed: f64 = Number(SPEED);
+        /// One concentrated load.
+        load: Option<f64> = Number(LOAD), "`wheels` instead";
+        /// Wheels of the vehicle.
+        wheels: Vec<Wheel> = List(&Table(Wheel::KEYS), 1, WHEELS), "`load` instead";
+        /// Its lane: how far its axis lies to the left of the first lane's, seen along forward traffic.
+        lateral_offset: f64 = Number(LANE), "0 m";
+        /// Forward is toward growing x.
+        direction: Direction = DIRECTION, "\"forward\"";
+        /// Its share of the passes, relative to those of the others.
+        share: f64 = Number(SHARE), "equal shares" => 1.0;
+    }
+}
+
+const WHEELS: &str = "a list of wheels, such as [ { x = \"0 m\", y = \"0.9 m\", load = \"50 kN\" } ]";
+
+keys! {
+    /// A wheel of a vehicle, in SI.
+    #[derive(Copy, Default)]
+    pub struct Wheel {
+        /// Where the wheel is ahead of the vehicle's origin, along the road.
+        x: f64 = Number(WHEEL_X), "0 m";
+        /// Where it is to the left of the vehicle's axis, seen along forward traffic.
+        y: f64 = Number(WHEEL_Y), "0 m";
+        /// Load of the wheel.
+        load: f64 = Number(WHEEL_LOAD);
+        /// Radius of the disc that it loads.
+        contact_radius: f64 = Number(CONTACT_RADIUS), "0 m, a point";
+    }
+}
+
+const DIRECTION: Form = Words {
+    words: &["forward", "reverse"],
+    allowed: Some("\"forward\", toward the downstream end, or \"reverse\""),
+    gone: None,
+};
+
+impl Stored for Direction {
+    fn read(content: &Content) -> Option<Self> {
+        let forward = content.as_text()? == "forward";
+        Some(if forward { Self::Forward } else { Self::Reverse })
+    }
+
+    fn write(&self) -> Content {
+        Content::Text(self.to_string())
+    }
+}
+
+impl TrafficVehicle {
+    /// A vehicle that is one concentrated `load` \[N\] at its origin, driving forward at `speed` \[m/s\].
+    pub fn point(name: &str, load: f64, speed: f64) -> Self {
+        let (lateral_offset, direction, share) = (0.0, Direction::Forward, 1.0);
+        Self {
+            name: name.to_owned(),
+            speed,
+            load: Some(load),
+            wheels: Vec::new(),
+            lateral_offset,
+            direction,
+            share,
+        }
+    }
+
+    /// Its wheels; a concentrated load is one at its origin.
+    pub fn wheels(&self) -> Vec<Wheel> {
+        let wheel = |load| Wheel {
+            load,
+            ..Wheel::default()
+        };
+        self.load
+            .map_or_else(|| self.wheels.clone(), |load| vec![wheel(load)])
+    }
+
+    /// Total load \[N\].
+    pub fn weight(&self) -> f64 {
+        self.wheels().iter().map(|wheel| wheel.load).sum()
+    }
+
+    /// The vehicle as the ground feels it.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError`] where a valid scene has none: no wheels, or a number out of its range.
+    pub fn vehicle(&self) -> Result<Vehicle, GroundError> {
+        let wheel = |wheel: Wheel| {
+            let load = SurfaceLoad::new(wheel.load, wheel.contact_radius)?;
+            let (x, y) = (wheel.x, wheel.y);
+            Ok(ground_field::Wheel { x, y, load })
+        };
+        let wheels = self
+            .wheels()
+            .into_iter()
+            .map(wheel)
+            .collect::<Result<_, GroundError>>()?;
+        Vehicle::new(&*self.name, wheels, self.speed, self.direction)
+    }
+}
