@@ -86,23 +86,22 @@ pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, 
         let wanted = passes.contains(&pass);
         let mut nearest = f64::INFINITY;
         let mut snapshot = None;
-        solver.pass_observed(&passage, &mut state, |view| {
-            let vehicle = view.vehicle_position();
+        solver.pass_observed(&passage, &mut state, |vehicle, state| {
             let distance = (vehicle - 0.5 * LENGTH).abs();
             if wanted && distance < nearest {
                 nearest = distance;
                 let place = |node: usize| node as f64 * mesh.spacing() - vehicle;
+                let state = state();
                 snapshot = Some(Snapshot {
                     axial_stiffness,
                     pass,
-                    friction: view
-                        .state()
+                    friction: state
                         .friction()
                         .iter()
                         .enumerate()
                         .map(|(node, friction)| (place(node), *friction))
                         .collect(),
-                    slip: view.slip_lengths(),
+                    slip: state.slip_lengths(LIMIT),
                 });
             }
         })?;

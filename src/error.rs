@@ -197,7 +197,7 @@ impl Error {
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
             | Self::Cable(
                 CableError::InvalidParameter { .. }
-                | CableError::UnsupportedLaw { .. }
+                | CableError::NoRest { .. }
                 | CableError::CoarseMesh { .. },
             ) => true,
             _ => false,

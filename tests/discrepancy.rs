@@ -2,14 +2,14 @@
 
 use creepage::calibration::Loss;
 use creepage::scene::Law;
-use creepage::{CalibrateOptions, Calibrated, Readings, Scene, calibrate};
+use creepage::{CalibrateOptions, Calibrated, ReadOptions, Readings, Scene, calibrate};
 
 /// An interval is as wide as the given discrepancy leaves it; where the law is not the true one, the fit is
 /// then believed.
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]
 fn a_discrepancy_makes_room_where_the_law_is_wrong() {
-    let data = Readings::from_file("examples/data/synthetic-upper.csv").unwrap();
+    let data = Readings::from_file("examples/data/synthetic-upper.csv", &ReadOptions::default()).unwrap();
     let upper = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let mut coulomb = upper.clone();
     (coulomb.friction.law, coulomb.friction.shape_factor) = (Law::Coulomb, None);

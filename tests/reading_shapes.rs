@@ -576,7 +576,7 @@ fn small_forces_without_a_unit_look_like_kilonewtons() {
 /// `tests/data/readings.xlsx` by `tests/data/readings_xlsx.py`: a workbook with a preamble, a unit in the header and a cell that failed.
 #[test]
 fn a_workbook_is_read() {
-    let data = Readings::from_file(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/readings.xlsx")).unwrap();
+    let data = Readings::from_file("tests/data/readings.xlsx", &ReadOptions::default()).unwrap();
     let found: Vec<(u64, f64, u64)> = data
         .readings()
         .iter()

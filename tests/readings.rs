@@ -1,6 +1,6 @@
 //! Readings from CSV: what is taken as it is meant, and what is refused, with its line.
 
-use creepage::{DataError, Readings};
+use creepage::{DataError, ReadOptions, Readings};
 
 fn read(text: &str) -> Result<Readings, DataError> {
     Readings::from_csv("cell.csv", text.as_bytes())
@@ -56,7 +56,7 @@ fn what_is_no_text_is_an_error() {
     assert!(matches!(&error, DataError::Line { line: 2, .. }), "{error}");
     let error = Readings::from_csv("cell.csv", b"pass,force_n\n1,\x01\x00\n").unwrap_err();
     assert!(matches!(&error, DataError::NoText { .. }), "{error}");
-    let missing = Readings::from_file(std::path::Path::new("no/such/file.csv")).unwrap_err();
+    let missing = Readings::from_file("no/such/file.csv", &ReadOptions::default()).unwrap_err();
     assert!(matches!(missing, DataError::Unreadable { .. }));
 }
 

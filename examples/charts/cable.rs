@@ -114,11 +114,11 @@ impl Case {
         let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
         let passage = solver.passage(&self.motion, APPROACH)?;
         let motion = self.motion.peak_longitudinal();
-        let jumps = Jumps::new(JUMP, depth, motion)?
-            .with_least(0.01 * cable.friction().limit(), 0.1 * motion)?
-            .with_most_passes(passes as u64, passes as u64);
+        let least = (0.01 * cable.friction().limit(), 0.1 * motion);
+        let jumps = Jumps::new(JUMP, depth, least)?.with_most_passes(passes as u64, passes as u64);
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
-        let request = Request::new(passes as u64, &[0])?.with_wanted(&wanted)?;
+        let mut request = Request::new(passes as u64, &[0])?;
+        request.wanted = &wanted;
         let mut node_updates = 0;
         let evolution = evolve(&cable, &mesh, &jumps, &request, |_: Next, state| {
             let outcome = solver.pass(&passage, state)?;

@@ -133,26 +133,24 @@ impl DayExtremes {
 
     pub(crate) fn new(day: u64, extremes: &Extremes) -> Self {
         let Extremes {
-            most,
-            least,
+            force: [upstream, downstream],
+            displacement: [upstream_end, downstream_end],
             compression,
             tension,
-            forward,
-            backward,
             ref restraints,
         } = *extremes;
         Self {
             day,
-            downstream_max_n: most.downstream,
-            downstream_min_n: least.downstream,
-            upstream_max_n: most.upstream,
-            upstream_min_n: least.upstream,
+            downstream_max_n: downstream[1],
+            downstream_min_n: downstream[0],
+            upstream_max_n: upstream[1],
+            upstream_min_n: upstream[0],
             max_compression_n: compression,
             max_tension_n: tension,
-            upstream_displacement_max_m: forward[0],
-            upstream_displacement_min_m: backward[0],
-            downstream_displacement_max_m: forward[1],
-            downstream_displacement_min_m: backward[1],
+            upstream_displacement_max_m: upstream_end[1],
+            upstream_displacement_min_m: upstream_end[0],
+            downstream_displacement_max_m: downstream_end[1],
+            downstream_displacement_min_m: downstream_end[0],
             restraints: restraints
                 .iter()
                 .map(|&[min_n, max_n]| RestraintRange { max_n, min_n })

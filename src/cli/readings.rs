@@ -45,7 +45,7 @@ pub type TableArguments = ReadArguments<false>;
 impl ReadArguments {
     /// The readings in `file`.
     pub fn read(&self, file: &Path) -> Result<Readings, Error> {
-        Ok(Readings::from_file_with(file, &self.0)?)
+        Ok(Readings::from_file(file, &self.0)?)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a column holds, by its name in the header, and in which units.
 
-use creepage_tables::{Kind, Name, Names};
+use creepage_tables::{Kind, Layout, Name};
 
 use super::reading::{Measured, Place};
 use crate::CableEnd;
@@ -31,28 +31,31 @@ const ENDS: [(CableEnd, Kind); 2] = [
     (CableEnd::Downstream, Kind("downstream down end")),
 ];
 
-pub const ALLOWED: &str = "a header `pass,force_n` or `pass,force_n,sigma_n`, names such as `Force [kN]`, or names chosen by --column-pass, \
-                           --column-vehicles, --column-force";
+/// Most vehicles of a pass or a count.
+const MOST: f64 = 1e15;
 
-/// The names of a table of readings.
-pub const NAMES: Names = Names {
+/// A table of readings.
+pub const LAYOUT: Layout = Layout {
     kinds: &[
         EXTREME, SIGMA, FORCE, MOVEMENT, STRAIN, DEFLECTION, PASS, VEHICLES, RUN, TIME, POSITION,
     ],
     measured: Some(FORCE),
-    is_header: |names| {
+    missing: |names| {
         let has = |kinds: &[Kind]| {
-            names
-                .iter()
-                .any(|name| name.kind.is_some_and(|kind| kinds.contains(&kind)))
+            let mut kinds_there = names.iter().filter_map(|name| name.kind);
+            kinds_there.any(|kind| kinds.contains(&kind))
         };
-        has(&[PASS, VEHICLES]) && has(&MEASURED)
+        let column = if has(&[PASS, VEHICLES]) { "force_n" } else { "pass" };
+        (column == "pass" || !has(&MEASURED)).then_some(column)
     },
+    is_number: |name| name.kind.is_some_and(|kind| ![RUN, TIME].contains(&kind)),
     unnamed: &["pass", "force_n", "sigma_n"],
     unit: Dimension::unit_by_word,
+    si,
     // A million readings many times over.
     most: 64 << 20,
-    allowed: ALLOWED,
+    allowed: "a header `pass,force_n` or `pass,force_n,sigma_n`, names such as `Force [kN]`, or names chosen by --column-pass, \
+              --column-vehicles, --column-force; times alone say nothing of passes",
 };
 
 /// The end that the name says.
@@ -72,19 +75,30 @@ pub fn measured(kind: Kind, at: Place) -> Measured {
     }
 }
 
-/// The value in SI of a number in a column of this kind, in a unit if any.
-pub fn si(kind: Kind, digits: &str, unit: &str) -> Option<f64> {
+/// The value in SI of a number in a column of this kind, in a unit if any; or what is allowed.
+pub fn si(kind: Kind, digits: &str, unit: &str) -> Result<f64, String> {
+    let bare = || digits.parse().ok();
     // A length per metre is a length in metres.
-    let (dimension, unit) = match (kind, &*unit.replace(['µ', 'μ'], "u")) {
-        (STRAIN, "-" | "1" | "m/m") | (_, "") => return digits.parse().ok(),
-        (STRAIN, "%") => (Dimension::Ratio, "%"),
-        (STRAIN, "mm/m" | "‰") => (Dimension::Length, "mm"),
-        (STRAIN, "um/m" | "ustrain" | "ue" | "1e-6" | "10^-6") => (Dimension::Length, "um"),
-        (STRAIN, _) => return None,
-        (MOVEMENT | DEFLECTION | POSITION, _) => (Dimension::Length, unit),
-        _ => (Dimension::Force, unit),
+    let value = match (kind, &*unit.replace(['µ', 'μ'], "u")) {
+        (PASS | VEHICLES, "") => {
+            bare().filter(|value: &f64| value.fract() == 0.0 && (0.0..=MOST).contains(value))
+        }
+        (PASS | VEHICLES, _) => None,
+        (STRAIN, "-" | "1" | "m/m") | (_, "") => bare(),
+        (STRAIN, "%") => Dimension::Ratio.in_table(digits, "%"),
+        (STRAIN, "mm/m" | "‰") => Dimension::Length.in_table(digits, "mm"),
+        (STRAIN, "um/m" | "ustrain" | "ue" | "1e-6" | "10^-6") => Dimension::Length.in_table(digits, "um"),
+        (STRAIN, _) => None,
+        (MOVEMENT | DEFLECTION | POSITION, unit) => Dimension::Length.in_table(digits, unit),
+        (_, unit) => Dimension::Force.in_table(digits, unit),
     };
-    dimension.in_table(digits, unit).filter(|value| value.is_finite())
+    let allowed = match kind {
+        PASS | VEHICLES => "a whole number, 0 for the reading before the first pass",
+        POSITION => "metres from the upstream end",
+        _ => "a finite number, with a unit if any",
+    };
+    let value = value.filter(|value| value.is_finite());
+    value.ok_or_else(|| allowed.to_owned())
 }
 
 #[cfg(test)]
@@ -94,7 +108,7 @@ mod tests {
     use super::*;
 
     fn name(text: &str) -> Name {
-        NAMES.name(text, &Options::default())
+        LAYOUT.name(text, &Options::default())
     }
 
     #[test]
@@ -130,16 +144,14 @@ mod tests {
 
     #[test]
     fn units_are_told_apart() {
-        let force = |unit| si(FORCE, "1", unit);
+        let si = |kind, unit| si(kind, "1", unit).ok();
+        let force = |unit| si(FORCE, unit);
         assert_eq!(
             (force("kn"), force("MN"), force("mN"), force("mV")),
             (Some(1e3), Some(1e6), Some(1e-3), None)
         );
         assert_eq!((force("daN"), force("kp")), (Some(10.0), Some(9.80665)));
-        assert_eq!(
-            (si(STRAIN, "1", "µm/m"), si(STRAIN, "1", "V")),
-            (Some(1e-6), None)
-        );
-        assert_eq!(si(POSITION, "1", "mm"), Some(1e-3));
+        assert_eq!((si(STRAIN, "µm/m"), si(STRAIN, "V")), (Some(1e-6), None));
+        assert_eq!(si(POSITION, "mm"), Some(1e-3));
     }
 }

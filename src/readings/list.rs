@@ -45,16 +45,20 @@ impl Readings {
         &self.list
     }
 
+    /// The index of the run of this name.
+    pub(super) fn run(&mut self, name: &str) -> usize {
+        let known = self.runs.iter().position(|run| run == name);
+        known.unwrap_or_else(|| {
+            self.runs.push(name.to_owned());
+            self.runs.len() - 1
+        })
+    }
+
     /// Those of the readings that are to be kept.
     pub(crate) fn keep(&self, keep: impl Fn(&Reading) -> bool) -> Self {
         let mut kept = self.clone();
         kept.list.retain(keep);
         kept
-    }
-
-    /// The file's name.
-    pub fn file(&self) -> &str {
-        &self.file
     }
 
     /// Names of the runs; one without a name where the file tells none apart.

@@ -8,7 +8,8 @@ use crate::scene::words;
 /// How to read a table of readings. What is `None` or empty is recognised.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadOptions {
-    /// How the file is written; which of its columns hold `pass`, `vehicles`, `force`, `run`, `movement`, `position`; the unit of the forces.
+    /// How the file is written; which of its columns hold `pass`, `vehicles`, `force`, `run`,
+    /// `movement`, `position`; the unit of the forces.
     pub table: Options,
     /// Columns of forces and movements by their names, and the ends at which they were measured.
     pub ends: Vec<(String, CableEnd)>,

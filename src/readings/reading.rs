@@ -5,7 +5,8 @@ use crate::CableEnd;
 /// Where along the duct something was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
-    /// The end that the scene holds, the downstream one if it holds both; of movements, the one that moves.
+    /// The end that the scene holds, the downstream one if it holds both; of movements, the one
+    /// that moves.
     Natural,
     /// This end.
     End(CableEnd),
@@ -58,7 +59,8 @@ impl Measured {
 pub struct Reading {
     /// Number of the pass after which it was taken, as the file has it; 0 for the zero reading.
     pub pass: u64,
-    /// Passes since the cable was at rest, those of runs before this one included where it goes on from them.
+    /// Passes since the cable was at rest, those of runs before this one included where it goes on
+    /// from them.
     pub passes: u64,
     /// What was measured.
     pub measured: Measured,

@@ -1,29 +1,32 @@
 //! Times, so far as their order goes.
 
-use creepage_tables::Table;
-
 use super::DataError;
+use super::columns::Columns;
 use crate::scene::shortened;
 
 /// Longest time that a message repeats \[characters\].
 const LONGEST: usize = 80;
 
-/// Refuses rows that are not in the order of the times in `column`: vehicles are counted from row to row.
-pub fn check_order(table: &Table, column: usize, run: Option<usize>) -> Result<(), DataError> {
-    for pair in table.rows.windows(2) {
-        let [before, after] = [&pair[0], &pair[1]];
-        let is_one_run = run.is_none_or(|run| before.cell(run) == after.cell(run));
-        let [earlier, later] = [before, after].map(|row| row.cell(column));
-        if is_one_run && is_earlier(later, earlier) {
-            let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
-            let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
-            return Err(table.wrong(after.line, found, "rows in the order of their times"));
+impl Columns<'_> {
+    /// Refuses rows that are not in the order of their times: vehicles are counted from row to row.
+    pub fn check_order_of_times(&self) -> Result<(), DataError> {
+        for pair in self.table.rows.windows(2) {
+            let [earlier, later] = [0, 1].map(|row| self.time.map_or("", |column| pair[row].cell(column)));
+            let is_one_run = self.run.is_none_or(|run| pair[0].cell(run) == pair[1].cell(run));
+            if is_one_run && is_earlier(later, earlier) {
+                let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
+                let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
+                return Err(self
+                    .table
+                    .wrong(pair[1].line, found, "rows in the order of their times"));
+            }
         }
+        Ok(())
     }
-    Ok(())
 }
 
-/// Whether a time is certainly earlier than another: by what the clock shows, and where the distance from UTC is said, as an instant too.
+/// Whether a time is certainly earlier than another: by what the clock shows, and where the
+/// distance from UTC is said, as an instant too.
 fn is_earlier(after: &str, before: &str) -> bool {
     let (Some((after, instant)), Some((before, first))) = (key(after), key(before)) else {
         return false;
@@ -31,8 +34,8 @@ fn is_earlier(after: &str, before: &str) -> bool {
     after < before && instant.zip(first).is_none_or(|(instant, first)| instant < first)
 }
 
-/// What orders a time: a number, or year, month, day and the rest; and an instant \[h\] if its distance from UTC is said. `None` where day and
-/// month may be either, or noon is counted apart.
+/// What orders a time: a number, or year, month, day and the rest; and an instant \[h\] if its
+/// distance from UTC is said. `None` where day and month may be either, or noon is counted apart.
 fn key(text: &str) -> Option<(Vec<f64>, Option<f64>)> {
     if let Ok(number) = text.replace(',', ".").parse() {
         return Some((vec![number], None));
@@ -42,13 +45,13 @@ fn key(text: &str) -> Option<(Vec<f64>, Option<f64>)> {
     }
     let parts = text.split(|c: char| !c.is_ascii_digit());
     let mut parts: Vec<f64> = parts.filter_map(|part| part.parse().ok()).collect();
-    let year_first = text.bytes().take_while(u8::is_ascii_digit).count() == 4;
-    let is_digit = |c: char| c.is_ascii_digit();
-    if !year_first && text.contains('.') && parts.len() > 2 && text.starts_with(is_digit) {
+    let first = text.bytes().take_while(u8::is_ascii_digit).count();
+    match parts[..] {
+        _ if first == 4 => {}
         // 24.12.2025 17:30
-        parts.swap(0, 2);
-    } else if !year_first && (text.contains('/') || !text.contains(':')) {
-        return None;
+        [_, _, _, ..] if first > 0 && text.contains('.') => parts.swap(0, 2),
+        _ if text.contains('/') || !text.contains(':') => return None,
+        _ => {}
     }
     // `+02:00` or `-05:30` behind the time; months are taken for 31 days, which keeps their order.
     let zone = text.rfind(['+', '-']).filter(|&sign| text[..sign].contains(':'));

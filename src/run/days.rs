@@ -143,7 +143,7 @@ impl Living<'_> {
             self.seldom(mesh, &finest.passes.state)?
         };
         Ok(Solved {
-            reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],
+            reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)?],
             shown: None,
             heat: Some(self.record(&finest)?),
             mesh,
@@ -275,8 +275,8 @@ impl Living<'_> {
 
     /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong.
     fn knots(&self, level: usize, statistics: &mut Statistics) -> Result<Found, Error> {
-        let all = self.day(u64::MAX).periods();
-        if self.every_pass || self.day(FIRST_KNOTS).is_simulated() {
+        let all = self.day(u64::MAX)?.periods();
+        if self.every_pass || self.day(FIRST_KNOTS)?.is_simulated() {
             return Ok(Found::exact(all));
         }
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
@@ -294,7 +294,7 @@ impl Living<'_> {
                 let coarse = Some((level, more));
                 return Ok(Found { knots, left, coarse });
             }
-            if self.day(2 * knots).is_simulated() {
+            if self.day(2 * knots)?.is_simulated() {
                 return Ok(Found::exact(all));
             }
             fewer = more;

@@ -153,14 +153,18 @@ impl<'a> Listing<'a> {
 
     /// The passes of the period in an `evolution` that show more than the `rows`.
     pub fn peaks(&self, evolution: &Evolution, rows: &[Record]) -> Vec<Record> {
-        let mut others = evolution.others.clone();
+        let mut others = evolution.records.clone();
         if self.is_drawn || self.own.is_some() {
-            // What is wanted is no row by itself. The first and the last passes of the period follow other vehicles, or precede them.
+            // The first and the last passes of the period follow other vehicles, or precede them.
             let (first, last) = self.one_by_one;
             let period = self.own.as_ref().map_or(0, |own| own.period.len() as u64);
-            let of_period = first + period..=self.count - last;
-            let wanted = evolution.records.iter();
-            others.extend(wanted.filter(|record| of_period.contains(&record.pass)).cloned());
+            let first = if first > 0 {
+                first.div_ceil(period) * period + period + 1
+            } else {
+                0
+            };
+            let of_period = first..=self.count - last;
+            others.retain(|record| of_period.contains(&record.pass));
         }
         peaks(rows, others)
     }

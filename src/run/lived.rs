@@ -1,8 +1,8 @@
 //! All days of a scene with heat on one mesh, and what two such runs differ in.
 
 use cable_dem::{CableState, Mesh};
-use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, live};
-use cycle_jump::{Guide, Next, Record};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, Extremes, evolve_days};
+use cycle_jump::{Guide, Jumps, Next, Record};
 
 use super::listing::listed_passes;
 use super::locked_law::locked_law;
@@ -21,6 +21,8 @@ const JUMPS_SHARE: f64 = 0.5;
 const MOST: f64 = 5e-3;
 /// Up to so many passes a day all are simulated on a day with real ones; and where a day has no whole sequence.
 const FEW: u64 = 100;
+/// Days simulated after the first one, before any is jumped over.
+const FIRST_DAYS: u64 = 3;
 /// Days simulated after which no more are jumped over, and after which the run gives up.
 const MOST_DAYS: (u64, u64) = (150, 1000);
 const SECONDS_A_DAY: f64 = 86_400.0;
@@ -89,7 +91,7 @@ impl<'a> Living<'a> {
     }
 
     /// A day of the plan with `knots` real periods.
-    pub fn day(&self, knots: u64) -> Day {
+    pub fn day(&self, knots: u64) -> Result<Day, Error> {
         let scene = self.plan.scene;
         let passes = a_day(scene);
         let per_kelvin = self.per_kelvin();
@@ -103,17 +105,17 @@ impl<'a> Living<'a> {
         };
         let sequence = self.period.len();
         let few = passes <= FEW.max(sequence as u64) || self.every_pass;
+        let knots = if few { passes } else { knots };
+        Ok(Day::new(passes, self.sequence_of_a_day(), heat, knots)?)
+    }
+
+    /// Vehicles after which the traffic of a day repeats.
+    fn sequence_of_a_day(&self) -> usize {
         // What only measures drives the vehicles of the sequence too.
-        let period = if self.every_pass {
+        if self.every_pass {
             1
         } else {
-            sequence.min(passes as usize)
-        };
-        Day {
-            passes,
-            period,
-            heat,
-            knots: if few { passes } else { knots },
+            self.period.len().min(a_day(self.plan.scene) as usize)
         }
     }
 
@@ -186,39 +188,38 @@ impl<'a> Living<'a> {
             progress,
         };
         let mut simulation = Simulation::new(&task)?;
-        let day = self.day(jumping.knots);
-        let (law, of_law) = locked_law(&task, period, day.period)?;
+        let day = self.day(jumping.knots)?;
+        let (law, of_law) = locked_law(&task, period, self.sequence_of_a_day())?;
         let count = scene.traffic.passes;
         let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
-        let days = count.div_ceil(day.passes);
+        let tolerance = (JUMPS_SHARE * scene.solver.tolerance).min(MOST);
+        let (finer, first_jump) = if jumping.finer { (0.25, 0.25) } else { (1.0, 0.5) };
+        let least = (scale.force, scale.movement);
+        let jumps = Jumps::new(finer * tolerance, levels.length_scale(), least)?
+            .with_start(FIRST_DAYS, first_jump)?
+            .with_most_passes(MOST_DAYS.0, MOST_DAYS.1);
         let request = DaysRequest {
             passes: count,
             wanted: &listed_passes(scene, self.period),
-            wanted_days: &listed(days),
-            tolerance: (JUMPS_SHARE * scene.solver.tolerance).min(MOST)
-                * if jumping.finer { 0.25 } else { 1.0 },
-            first_jump: if jumping.finer { 0.25 } else { 0.5 },
-            length_scale: levels.length_scale(),
-            least: (scale.force, scale.movement),
+            wanted_days: &listed(count.div_ceil(day.passes())),
             every_day: self.every_pass,
-            most_days: MOST_DAYS,
             guide: jumping.guide,
         };
         let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.
         let mut order = traffic(scene, scene.order())?;
         let cable = cable(scene)?;
-        let lived = live(
+        let lived = evolve_days(
             &cable,
             &mesh,
-            &day,
-            law,
+            (&day, law),
+            &jumps,
             &request,
             |next: Next, state: &mut CableState| {
                 let own = if self.every_pass { order.next() } else { None };
                 let of_day = next
                     .number
-                    .map_or(next.phase as u64, |number| (number - 1) % day.passes);
+                    .map_or(next.phase as u64, |number| (number - 1) % day.passes());
                 let place = (of_day + self.begin as u64) % vehicles.len() as u64;
                 let vehicle = own.unwrap_or(vehicles[place as usize]);
                 simulation.pass(vehicle, next.number, state)
@@ -251,24 +252,26 @@ impl<'a> Living<'a> {
     /// The same of days alone.
     pub fn difference_of_days(&self, one: &Lived, other: &Lived) -> Shares {
         let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
-        let of_day = |(a, b): (&DayRecord, &DayRecord)| {
-            let places = a.extremes.forward.into_iter().chain(a.extremes.backward);
-            let moved = places.fold(scale.movement, |most, place| most.max(place.abs()));
-            let (force, movement) = a.extremes.difference(&b.extremes, (scale.force, moved));
+        let of_day = |((_, a), (_, b)): (&(u64, Extremes), &(u64, Extremes))| {
+            let places = a.displacement.as_flattened();
+            let moved = places
+                .iter()
+                .fold(scale.movement, |most, place| most.max(place.abs()));
+            let (force, movement) = a.difference(b, (scale.force, moved));
             Shares { force, movement }
         };
         let days = one.days.days.iter().zip(&other.days.days);
         days.map(of_day).fold(Shares::default(), Shares::max)
     }
 
-    pub fn reason(&self, lived: &Lived, knots: u64) -> String {
-        let day = self.day(knots);
+    pub fn reason(&self, lived: &Lived, knots: u64) -> Result<String, Error> {
+        let day = self.day(knots)?;
         let Days {
             simulated_days,
             periodic_from,
             ..
         } = lived.days;
-        let days = self.plan.scene.traffic.passes.div_ceil(day.passes);
+        let days = self.plan.scene.traffic.passes.div_ceil(day.passes());
         let real = if day.is_simulated() {
             "all passes".to_owned()
         } else {
@@ -278,7 +281,9 @@ impl<'a> Living<'a> {
             format!("; from day {day} on every day is like the one before")
         });
         let others = words_if(simulated_days < days, ", the others follow from them");
-        format!("days: {simulated_days} of {days} were simulated with {real} each{others}{lasting}")
+        Ok(format!(
+            "days: {simulated_days} of {days} were simulated with {real} each{others}{lasting}"
+        ))
     }
 
     pub fn record(&self, lived: &Lived) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
@@ -295,10 +300,10 @@ impl<'a> Living<'a> {
         let count = self.plan.scene.traffic.passes.div_ceil(passes_per_day);
         let days = days
             .iter()
-            .map(|record| DayExtremes::new(record.day, &record.extremes))
+            .map(|(day, extremes)| DayExtremes::new(*day, extremes))
             .collect();
         let per_kelvin = self.per_kelvin();
-        let cycle = lived.days.last_day.iter().filter(|row| !row.heat).map(|row| {
+        let cycle = lived.days.last_day.iter().map(|row| {
             let outcome = &row.outcome;
             DayPoint {
                 hour: 24.0 * (row.passes as f64 - 0.5) / passes_per_day as f64,

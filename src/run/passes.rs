@@ -125,17 +125,15 @@ impl Task<'_> {
         let mut simulation = Simulation::new(self)?;
         simulation.jumps = true;
         simulation.foreseen = jumping.simulated;
-        let motion = peak(self.motions);
-        let scale = Scale::new(scene.friction_limit(), motion);
+        let scale = Scale::new(scene.friction_limit(), peak(self.motions));
         let length = jumping.period.len() as u64;
         let patience = (PATIENCE * length.min(FEW)).max(PATIENCE_WITH_MANY * length);
         let jumps = Jumps::new(
             jumping.tolerance,
             length_scale(self.motions, scene.duct.depth),
-            motion,
+            (scale.force, scale.movement),
         )?
         .with_start(jumping.first_periods, jumping.first_jump)?
-        .with_least(scale.force, scale.movement)?
         .with_most_passes(patience, jumping.most_passes.max(patience));
         let count = scene.traffic.passes;
         // The row of a stage may be shown by another pass: the stage itself is wanted too.
@@ -154,17 +152,26 @@ impl Task<'_> {
         let wanted = with_stages(listing.wanted());
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
         let (first, last) = listing.one_by_one;
-        let request = Request::new(count, &jumping.period.vehicles)?
-            .with_one_by_one(first, last)
-            .with_wanted(&wanted)?
-            .with_looked_at(self.stages)
-            .with_beyond(&beyond)?
-            .with_guide(jumping.guide);
+        // Jumps end before the last passes, in which the scene's own vehicles drive.
+        let mut request = Request::new(count - last, &jumping.period.vehicles)?;
+        (request.wanted, request.beyond) = (&wanted, &beyond);
+        (request.looked_at, request.first_passes) = (self.stages, first);
+        request.guide = jumping.guide;
         let cable = simulation.cable.clone();
-        let evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
+        let mut evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
             let vehicle = listing.vehicle(jumping.period, phase, number);
             simulation.pass(vehicle, number, state)
         })?;
+        for pass in count - last + 1..=count {
+            let vehicle = listing.vehicle(jumping.period, 0, Some(pass));
+            let outcome = simulation.pass(vehicle, Some(pass), &mut evolution.state)?;
+            evolution.simulated += 1;
+            evolution.records.push(Record {
+                pass,
+                outcome: outcome.moved(evolution.offset),
+                interpolated: false,
+            });
+        }
         let records = listing.records(&evolution);
         let doubtful = listing.doubtful(&evolution, &records, DOUBTFUL * scene.solver.tolerance);
         let is_shown = |record: &&Record| doubtful.binary_search(&record.pass).is_err();

@@ -1,8 +1,8 @@
 //! A scene's solver of the cable, and how it lets one vehicle pass.
 
 use cable_dem::{
-    CableError, CableState, Explicit, ExplicitOptions, Mesh, PassOutcome, QuasiStatic, SigmoidLeak, Solver,
-    SolverPassage,
+    CableError, CableState, Explicit, ExplicitOptions, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+    SigmoidLeak,
 };
 use ground_field::DuctMotion;
 
@@ -14,9 +14,9 @@ use crate::plan::CableMethod;
 use crate::scene::Scene;
 
 /// A solver with the scene's vehicles, ready to let them pass.
-pub struct PassSolver {
-    solver: Solver,
-    passages: Vec<SolverPassage>,
+pub enum PassSolver {
+    QuasiStatic(Box<QuasiStatic>, Vec<Passage>),
+    Explicit(Box<Explicit>, Vec<MovingDuct>),
 }
 
 impl PassSolver {
@@ -28,31 +28,55 @@ impl PassSolver {
     ) -> Result<Self, Error> {
         let cable = cable(scene)?;
         let approach = approach(scene, motions)?;
-        let solver: Solver = match method {
-            CableMethod::QuasiStatic => QuasiStatic::new(cable, mesh)?.into(),
+        let motions = motions.iter();
+        Ok(match method {
+            CableMethod::QuasiStatic => {
+                let solver = QuasiStatic::new(cable, mesh)?;
+                let passages = motions.map(|motion| solver.passage(motion, approach));
+                let passages = passages.collect::<Result<_, _>>()?;
+                Self::QuasiStatic(Box::new(solver), passages)
+            }
             CableMethod::Explicit => {
                 let options = ExplicitOptions {
                     time_step: scene.solver.time_step,
                     ..ExplicitOptions::default()
                 };
-                Explicit::new(cable, mesh, mass(scene), options)?.into()
+                let solver = Explicit::new(cable, mesh, mass(scene), options)?;
+                let ducts = motions.map(|motion| solver.passage(motion, approach));
+                let ducts = ducts.collect::<Result<_, _>>()?;
+                Self::Explicit(Box::new(solver), ducts)
             }
-        };
-        let passages = motions
-            .iter()
-            .map(|motion| solver.passage(motion, approach))
-            .collect::<Result<_, _>>()?;
-        Ok(Self { solver, passages })
+        })
     }
 
     /// The cable as laid.
     pub fn at_rest(&self) -> CableState {
-        self.solver.at_rest()
+        match self {
+            Self::QuasiStatic(solver, _) => solver.at_rest(),
+            Self::Explicit(solver, _) => solver.at_rest(),
+        }
+    }
+
+    /// Lets `vehicle` pass; `observe` looks at the cable at every step.
+    fn pass_observed(
+        &mut self,
+        vehicle: usize,
+        state: &mut CableState,
+        observe: impl FnMut(f64, &dyn Fn() -> CableState),
+    ) -> Result<PassOutcome, CableError> {
+        match self {
+            Self::QuasiStatic(solver, passages) => solver.pass_observed(&passages[vehicle], state, observe),
+            Self::Explicit(solver, ducts) => Ok(solver.pass_observed(&ducts[vehicle], state, observe)?.pass),
+        }
     }
 
     /// Lets `vehicle` pass.
     pub fn pass(&mut self, vehicle: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
-        self.solver.pass(&self.passages[vehicle], state)
+        // A pass with an observer is compiled with this crate, which is not optimised.
+        match self {
+            Self::QuasiStatic(solver, passages) => solver.pass(&passages[vehicle], state),
+            Self::Explicit(solver, ducts) => Ok(solver.pass(&ducts[vehicle], state)?.pass),
+        }
     }
 
     /// As [`PassSolver::pass`], and looks at the friction with the vehicle nearest to `position` \[m\], where the solver can be
@@ -63,37 +87,41 @@ impl PassSolver {
         state: &mut CableState,
         position: f64,
     ) -> Result<(PassOutcome, Option<FrictionProfile>), CableError> {
+        let (mesh, limit) = match self {
+            Self::QuasiStatic(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
+            Self::Explicit(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
+        };
         let mut nearest = f64::INFINITY;
         let mut seen = None;
-        let nodes = self.solver.mesh().nodes();
-        let (spacing, step) = (self.solver.mesh().spacing(), self.solver.mesh().vehicle_step());
-        let outcome = self
-            .solver
-            .pass_observed(&self.passages[vehicle], state, |view| {
-                let distance = (view.vehicle_position() - position).abs();
-                // A look at all nodes in every step would cost more than a pass of a long duct.
-                if distance <= step && distance < nearest {
-                    nearest = distance;
-                    seen = Some(FrictionProfile {
-                        vehicle,
-                        vehicle_position_m: view.vehicle_position(),
-                        positions_m: (0..nodes).map(|node| spacing * node as f64).collect(),
-                        friction_n_per_m: view.state().friction().to_vec(),
-                        slip_lengths: view.slip_lengths().into(),
-                    });
-                }
-            })?;
+        let outcome = self.pass_observed(vehicle, state, |vehicle_position_m, state| {
+            let distance = (vehicle_position_m - position).abs();
+            // A look at all nodes in every step would cost more than a pass of a long duct.
+            if distance <= mesh.vehicle_step() && distance < nearest {
+                nearest = distance;
+                let state = state();
+                seen = Some(FrictionProfile {
+                    vehicle,
+                    vehicle_position_m,
+                    positions_m: (0..mesh.nodes())
+                        .map(|node| mesh.spacing() * node as f64)
+                        .collect(),
+                    friction_n_per_m: state.friction().to_vec(),
+                    slip_lengths: state.slip_lengths(limit).into(),
+                });
+            }
+        })?;
         Ok((outcome, seen))
     }
 
     /// The time step of an explicit solver and what limits it.
     pub fn step_limits(&self) -> Option<String> {
-        let limits = self.solver.limits()?;
-        let step = self
-            .passages
+        let Self::Explicit(solver, ducts) = self else {
+            return None;
+        };
+        let limits = solver.limits();
+        let step = ducts
             .first()
-            .and_then(|passage| self.solver.time_step(passage))
-            .unwrap_or_else(|| limits.advised());
+            .map_or(limits.advised(), |duct| solver.time_step(duct));
         Some(format!(
             "time step {step:.3e} s, a margin of {:.2} to the limit: {limits}",
             limits.margin(step)
@@ -102,7 +130,10 @@ impl PassSolver {
 
     /// What a law without memory loses in each vehicle's pass.
     pub fn leaks(&self) -> Vec<SigmoidLeak> {
-        let leaks = self.passages.iter().map(|passage| self.solver.leak(passage));
-        leaks.flatten().collect()
+        let Self::Explicit(solver, ducts) = self else {
+            return Vec::new();
+        };
+        let leak = |duct| SigmoidLeak::new(solver.cable(), solver.time_step(duct), duct);
+        ducts.iter().filter_map(leak).collect()
     }
 }

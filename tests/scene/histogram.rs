@@ -228,7 +228,7 @@ fn a_bad_table_is_refused_with_its_line() {
         ),
         (
             "class,load [kN],count\n1,50,3\n,,3\n",
-            &["axles.csv:3: load: found \"\""],
+            &["axles.csv:3: load [kN]: found \"\""],
         ),
         (
             "load from [kN],load to [kN],count\n40,50,3\n",
@@ -238,7 +238,7 @@ fn a_bad_table_is_refused_with_its_line() {
             "load [kN];count\n50;75 %\n100;25\n",
             &["axles.csv:3: count: found \"25\"", "beside others in %"],
         ),
-        ("load [m],count\n40,3\n", &["load: found \"40 m\"", "a force"]),
+        ("load [m],count\n40,3\n", &["load [m]: found \"40\"", "a force"]),
         (
             "load,count,contact_radius\n5 kN,1,1 km\n",
             &["contact_radius: found \"1 km\""],

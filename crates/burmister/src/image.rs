@@ -13,6 +13,9 @@ use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
 /// Rounding error of the closed form, as a share of the vertical displacement.
 const ROUNDING: f64 = 2e-14;
 
+/// A displacement with its error.
+pub(crate) type Bounded = (Displacement, Displacement);
+
 /// A weighted half-space.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Image {
@@ -47,11 +50,7 @@ impl Image {
     /// # Errors
     ///
     /// [`GroundError::Singular`] where a point load acts.
-    pub fn displacement(
-        &self,
-        load: SurfaceLoad,
-        radius: f64,
-    ) -> Result<(Displacement, Displacement), GroundError> {
+    pub fn displacement(&self, load: SurfaceLoad, radius: f64) -> Result<Bounded, GroundError> {
         let value = self.half_space.displacement(load, radius, self.depth)? * self.weight;
         let size = ROUNDING * value.vertical.abs();
         // Deep below the load nothing moves aside, and the rounding is that of the small motion.

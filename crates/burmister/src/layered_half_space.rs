@@ -61,9 +61,8 @@ impl LayeredHalfSpace {
     ///
     /// [`GroundError::InvalidParameter`] unless it lies between 1e-15 and 0.1.
     pub fn with_accuracy(mut self, accuracy: f64) -> Result<Self, GroundError> {
-        self.accuracy = checked("accuracy", accuracy, "between 1e-15 and 0.1", |v| {
-            (1e-15..=0.1).contains(&v)
-        })?;
+        let is_possible = |accuracy| (1e-15..=0.1).contains(&accuracy);
+        self.accuracy = checked("accuracy", accuracy, "between 1e-15 and 0.1", is_possible)?;
         Ok(self)
     }
 
@@ -120,8 +119,7 @@ impl LayeredHalfSpace {
 
 impl GroundField for LayeredHalfSpace {
     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
-        let (values, _) = self.displacements_with_statistics(load, &[radius], depth)?;
-        Ok(values.first().copied().unwrap_or_default())
+        Ok(self.displacements(load, &[radius], depth)?[0])
     }
 
     fn displacements(

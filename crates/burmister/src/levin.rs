@@ -31,10 +31,8 @@ pub(crate) fn antiderivative(
         let q: Series = std::array::from_fn(|i| (f[i] - slope[i]) / radius);
         let slope = derivative(&q);
         let next: Series = std::array::from_fn(|i| (slope[i] - q[i] / wavenumbers[i] - g[i]) / radius);
-        let lack = next
-            .iter()
-            .zip(&p)
-            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        let gaps = next.iter().zip(&p).map(|(a, b)| (a - b).abs());
+        let lack = gaps.fold(0.0, f64::max);
         // Twice the half width, |J| ≤ 1; another factor for values between the nodes.
         let error = 4.0 * lack * radius * half;
         if error <= tolerance {

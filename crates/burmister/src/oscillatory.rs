@@ -164,10 +164,8 @@ fn reach(panel: &Panel, terms: usize, tolerance: Displacement) -> [f64; SIZES.le
         let alpha = 0.03 * 1.2_f64.powi(step);
         let growth = alpha.exp();
         let on_ellipse = |series: &Series| {
-            series[..terms]
-                .iter()
-                .rev()
-                .fold(0.0, |sum, c| sum * growth + c.abs())
+            let coefficients = series[..terms].iter().rev();
+            coefficients.fold(0.0, |sum, c| sum * growth + c.abs())
         };
         let excess = (on_ellipse(&panel.radial) / tolerance.radial)
             .max(on_ellipse(&panel.vertical) / tolerance.vertical);
@@ -183,15 +181,12 @@ fn reach(panel: &Panel, terms: usize, tolerance: Displacement) -> [f64; SIZES.le
 /// Wavenumbers and weighted transforms of the panel's series at the Gauss nodes of [from, to].
 fn weighted_nodes(panel: &Panel, terms: usize, from: f64, to: f64, class: usize) -> Vec<[f64; 3]> {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    rule_of_class(class)
-        .iter()
-        .map(|&(t, weight)| {
-            let m = middle + half * t;
-            let weight = weight * half;
-            let value = panel.at(m, terms) * weight;
-            [m, value.radial, value.vertical]
-        })
-        .collect()
+    let weighted = |&(t, weight): &(f64, f64)| {
+        let m = middle + half * t;
+        let value = panel.at(m, terms) * (weight * half);
+        [m, value.radial, value.vertical]
+    };
+    rule_of_class(class).iter().map(weighted).collect()
 }
 
 fn sum(nodes: &[[f64; 3]], radius: f64, tolerance: Displacement) -> Integrals {

@@ -13,7 +13,7 @@
 use ground_field::{Displacement, GroundError, SurfaceLoad};
 
 use crate::bessel::disc_factor;
-use crate::image::Image;
+use crate::image::{Bounded, Image};
 use crate::lamina::Lamina;
 use crate::stack::{Ground, Stack};
 
@@ -97,11 +97,7 @@ impl Remainder {
     /// # Errors
     ///
     /// [`GroundError::Singular`] where it has no finite value.
-    pub fn closed_form(
-        &self,
-        load: SurfaceLoad,
-        radius: f64,
-    ) -> Result<(Displacement, Displacement), GroundError> {
+    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> Result<Bounded, GroundError> {
         let (mut sum, mut rounding) = (Displacement::ZERO, Displacement::ZERO);
         for image in &self.images {
             let (part, error) = image.displacement(load, radius)?;

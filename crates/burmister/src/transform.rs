@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use ground_field::{Displacement, GroundError, SurfaceLoad};
 
 use crate::MODEL;
+use crate::image::Bounded;
 use crate::oscillatory::{Integrals, Prepared};
 use crate::panel::{NODES, Panel, Panels, is_within};
 use crate::remainder::Remainder;
@@ -34,9 +35,6 @@ pub(crate) struct Transform<'a> {
     /// Radii at which the peak is looked for.
     pub probes: Vec<f64>,
 }
-
-/// A displacement with its error.
-type Bounded = (Displacement, Displacement);
 
 impl Transform<'_> {
     /// Displacements at `radii`, in their order.
@@ -89,7 +87,6 @@ impl Transform<'_> {
                 }
             }
             statistics.wavenumbers = panels.solved;
-            statistics.panels = panels.list.len();
             statistics.estimated_error = worst.0;
             if worst.0 <= self.accuracy {
                 return match round.iter().position(|(value, _)| !value.is_finite()) {

@@ -4,12 +4,11 @@ use ground_field::DuctMotion;
 
 use crate::CableError;
 use crate::error::checked;
+use crate::tuning::NEGLIGIBLE_TURN;
 
 /// How far beyond the last turn of D_l, as a multiple of its distance, the parts of the duct no longer change the order in which they
 /// lead: tails that are a sum of two powers, −a/ξᵐ + b/ξⁿ, have their steepest slope within 1.5 of the distance of their turn.
-pub(crate) const SETTLED: f64 = 1.5;
-/// Turns of D_l by less than this share of its peak do not count.
-const NEGLIGIBLE_TURN: f64 = 1e-5;
+const SETTLED: f64 = 1.5;
 /// Ratio of two neighbouring distances at which D_l is read.
 const GROWTH: f64 = 1.01;
 /// A vehicle is followed to this many depths from its wheels at least.

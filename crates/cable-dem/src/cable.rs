@@ -138,6 +138,14 @@ impl DuctedCable {
         Ok(self)
     }
 
+    /// The same cable with a law that remembers slip: in the place of the sigmoid the
+    /// elastic-plastic one with its slope.
+    pub(crate) fn with_memory(&self) -> Self {
+        let mut cable = self.clone();
+        cable.friction = self.friction.with_memory();
+        cable
+    }
+
     /// The cable seen in a mirror across the duct's middle.
     #[must_use]
     pub fn mirrored(&self) -> Self {
@@ -185,10 +193,14 @@ impl DuctedCable {
         self.body_force
     }
 
-    /// The force along the duct on every node of `mesh` \[N\].
-    pub(crate) fn body_loads(&self, mesh: &Mesh) -> Vec<f64> {
-        let load = |node| self.body_force * mesh.tributary_length(node);
-        (0..mesh.nodes()).map(load).collect()
+    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, and the `thermal_force` \[N\],
+    /// which pushes the two ends apart and nothing between them.
+    pub(crate) fn loads(&self, mesh: &Mesh, thermal_force: f64) -> Vec<f64> {
+        let body = |node| self.body_force * mesh.tributary_length(node);
+        let mut loads: Vec<f64> = (0..mesh.nodes()).map(body).collect();
+        loads[0] -= thermal_force;
+        loads[mesh.elements()] += thermal_force;
+        loads
     }
 
     /// Length \[m\] over which a stuck cable smooths the motion of its duct: λ = √(EA γ), with γ the shear compliance

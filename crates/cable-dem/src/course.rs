@@ -3,13 +3,13 @@
 use ground_field::{Direction, DuctMotion};
 
 use crate::error::checked;
+use crate::tuning::MAX_LEFT_OUT;
 use crate::{CableError, Mesh};
 
-/// Largest share of the duct's peak displacement that an element may leave out.
-const MOST_LEFT_OUT: f64 = 0.65;
-/// The bend is evaluated at this many points per element, and per length over which the motion changes; out to this many of the shorter of both
-/// from the wheels.
+/// Two lengths matter: an element, and the length over which the duct's motion changes. The bend is
+/// evaluated at so many points in the shorter of both,
 const POINTS: usize = 4;
+/// and out to so many of it from the wheels.
 const ELEMENTS: usize = 8;
 
 /// A shape of the duct's displacement that travels along the duct.
@@ -35,7 +35,7 @@ pub(crate) fn as_driven(
     }
     let longest = mesh.spacing().max(mesh.vehicle_step());
     let left_out = left_out(motion, longest);
-    if left_out > MOST_LEFT_OUT {
+    if left_out > MAX_LEFT_OUT {
         return Err(CableError::CoarseMesh { longest, left_out });
     }
     let direction = if motion.velocity() < 0.0 {
@@ -78,9 +78,6 @@ fn checked_approach(approach: f64) -> Result<f64, CableError> {
 
 /// Share of the duct's peak displacement that elements of `length` s \[m\] leave out: the cable's nodes see nothing of the bend
 /// max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))| between them.
-///
-/// Under one wheel at depth z it is 28 % of the peak for s = z/3, 45 % for z/2 and 90 % for z, where the force after fifty passes was
-/// off by 1.4, 3 and 14 %; a mesh of 5 m in a duct at 1.2 m gave a force of the other sign.
 fn left_out(motion: &DuctMotion, length: f64) -> f64 {
     // Elements that are far longer than the motion would step over its peak.
     let step = length.min(motion.length_scale()) / POINTS as f64;

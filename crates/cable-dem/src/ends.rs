@@ -5,7 +5,8 @@ use crate::{DuctedCable, End, Mesh};
 
 /// Forces at both ends \[N\], compression positive: what load cells there read.
 ///
-/// The half element beyond the middle of the last one balances
+/// The half element beyond the middle of the last one balances, with both displacements, friction
+/// and body force counted toward the end,
 ///
 /// F = k (u_inner − u_end) + Θ + w (f + p),  w = h/2,
 ///
@@ -27,13 +28,6 @@ pub struct EndForces {
     pub downstream: f64,
 }
 
-/// Whether inertia takes part in the balance of the end nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Balance {
-    AtRest,
-    Moving,
-}
-
 /// Reads the ends of one cable on one mesh.
 #[derive(Debug, Clone)]
 pub(crate) struct EndReader {
@@ -42,61 +36,50 @@ pub(crate) struct EndReader {
     /// w = h/2 \[m\].
     tributary: f64,
     last: usize,
-    ends: [Reading; 2],
-    /// Body force on either end node \[N\], as it stands upstream and downstream.
+    /// s/(s + c) of a spring that clamps share its node with, 1 of a fixed end, 0 of a free one;
+    /// upstream and downstream.
+    shares: [f64; 2],
+    /// Body force on either end node \[N\].
     body: [f64; 2],
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Reading {
-    end: End,
-    /// s/(s + c) of a spring, beside clamps on the same node.
-    share: f64,
 }
 
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
         let supports = Support::of(cable, mesh);
-        let body = cable.body_loads(mesh);
-        let reading = |node: usize, end: End| {
-            let all = supports.iter().find(|support| support.node == node);
-            let all = all.and_then(|support| support.stiffness).unwrap_or(0.0);
-            let share = match end {
-                End::Spring(spring) if spring > 0.0 => spring / all,
-                End::Free | End::Spring(_) => 0.0,
-                End::Fixed => 1.0,
-            };
-            Reading { end, share }
+        let body = cable.loads(mesh, 0.0);
+        let share = |node: usize, end: End| {
+            let on_node = supports.iter().filter(|support| support.node == node);
+            let all: f64 = on_node.filter_map(|support| support.stiffness).sum();
+            match end.stiffness() {
+                Some(spring) if spring > 0.0 => spring / all,
+                Some(_) => 0.0,
+                None => 1.0,
+            }
         };
         Self {
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             tributary: mesh.tributary_length(0),
             last,
             body: [body[0], body[last]],
-            ends: [reading(0, cable.upstream()), reading(last, cable.downstream())],
+            shares: [share(0, cable.upstream()), share(last, cable.downstream())],
         }
     }
 
     /// Force on each end of a cable whose heat has the force `thermal` \[N\], from the displacement \[m\] and friction \[N/m\] of any node.
     pub fn read(
         &self,
-        balance: Balance,
         thermal: f64,
         displacement: impl Fn(usize) -> f64,
         friction: impl Fn(usize) -> f64,
     ) -> EndForces {
         let force = |side: usize, node: usize, inner: usize, outward: f64| {
-            let Reading { end, share } = self.ends[side];
-            match end {
-                End::Free => 0.0,
-                End::Spring(spring) if balance == Balance::Moving => outward * spring * displacement(node),
-                End::Spring(_) | End::Fixed => {
-                    let chain = self.stiffness * (displacement(inner) - displacement(node));
-                    let inward = chain + self.tributary * friction(node) + self.body[side];
-                    share * (outward * inward + thermal)
-                }
+            if self.shares[side] == 0.0 {
+                return 0.0;
             }
+            let chain = self.stiffness * (displacement(inner) - displacement(node));
+            let inward = chain + self.tributary * friction(node) + self.body[side];
+            self.shares[side] * (outward * inward + thermal)
         };
         EndForces {
             upstream: force(0, 0, 1, -1.0),

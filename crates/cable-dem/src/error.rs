@@ -14,15 +14,15 @@ pub enum CableError {
         /// The allowed range, in words.
         allowed: &'static str,
     },
-    /// The solver does not handle this friction law.
-    #[error("the {solver} solver does not handle the {law} law: {reason}")]
-    UnsupportedLaw {
+    /// The solver's steps begin and end at rest, which this friction law does not have.
+    #[error(
+        "the {solver} solver does not handle the {law} law: its friction depends on the time step and fades at rest"
+    )]
+    NoRest {
         /// The solver.
         solver: &'static str,
         /// The friction law.
         law: &'static str,
-        /// Why not.
-        reason: &'static str,
     },
     /// A step did not reach equilibrium within the friction bounds; no state is returned in its place.
     #[error(

@@ -112,11 +112,17 @@ impl Friction {
         if self.law.has_memory() {
             return Ok(());
         }
-        Err(CableError::UnsupportedLaw {
-            solver,
-            law: self.law.name(),
-            reason: "its friction depends on the time step and fades at rest",
-        })
+        let law = self.law.name();
+        Err(CableError::NoRest { solver, law })
+    }
+
+    /// The same with memory: the sigmoid becomes the elastic-plastic law with its slope and limit.
+    pub(crate) fn with_memory(self) -> Self {
+        let law = match self.law {
+            FrictionLaw::Sigmoid { shape_factor } => FrictionLaw::ElasticPlastic { shape_factor },
+            law => law,
+        };
+        Self { law, ..self }
     }
 
     /// Shear compliance γ = 2/(q b) \[m²/N\] of the stuck contact: slip per friction. 0 for Coulomb's law, infinite

@@ -37,7 +37,7 @@ impl PassOutcome {
     /// [`CableError::InvalidParameter`] unless the cable is as long as the state's mesh.
     pub fn at_rest(cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
         let force = state.end_forces(cable)?;
-        Ok(Recorder::new(force).outcome(cable, state, force))
+        Recorder::new(force).outcome(cable, state, force)
     }
 
     /// The same with the cable moved as a whole by `distance` \[m\].
@@ -118,14 +118,19 @@ impl Recorder {
     }
 
     /// The outcome of a pass that left the cable in `state` with `force` on its ends.
-    pub fn outcome(mut self, cable: &DuctedCable, state: &CableState, force: EndForces) -> PassOutcome {
+    pub fn outcome(
+        mut self,
+        cable: &DuctedCable,
+        state: &CableState,
+        force: EndForces,
+    ) -> Result<PassOutcome, CableError> {
         self.record(force);
         let (least, largest) = [force.upstream, force.downstream]
             .into_iter()
             .fold(state.extremes(cable), |(least, largest), force| {
                 (least.min(force), largest.max(force))
             });
-        PassOutcome {
+        Ok(PassOutcome {
             force,
             peak: self.peak,
             lowest: self.lowest,
@@ -133,10 +138,10 @@ impl Recorder {
             max_tension: -least,
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[state.displacement().len() - 1],
-            restraints: state.clamps(cable),
+            restraints: state.restraint_forces(cable)?,
             dissipated: self.dissipated,
             statistics: self.statistics,
-        }
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! The cable between two passes, when duct and cable are at rest.
 
 use crate::error::checked;
-use crate::step::{Chain, Load, StepSolver, Stretch, Support, largest};
+use crate::step::{Chain, FixedEndFriction, Load, StepSolver, Stretch, largest};
 use crate::tridiagonal::{self, Row};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
@@ -32,13 +32,12 @@ use crate::{CableError, CableState, DuctedCable, Mesh};
 pub struct RestingCable {
     step: StepSolver,
     cable: DuctedCable,
-    supports: Vec<Support>,
+    held: FixedEndFriction,
     anchor: Vec<f64>,
     nothing: Vec<f64>,
     /// Body force w p of every node, and what heat does to the ends \[N\].
     load: Vec<f64>,
-    /// Without heat that of both end nodes.
-    weight: [f64; 2],
+    mesh: Mesh,
     /// Storage of [`Self::diffuse`].
     factor: Vec<f64>,
     given: Vec<f64>,
@@ -49,24 +48,30 @@ impl RestingCable {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
-    /// without memory, which has no state of rest.
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable,
+    /// [`CableError::NoRest`] for a law without memory, which has no state of rest.
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("resting")?;
         mesh.check_length(cable.length())?;
+        Ok(Self::with_memory(cable, mesh))
+    }
+
+    /// The same on a mesh that is known to be as long as the cable, and for any law: in the place
+    /// of the sigmoid stands the elastic-plastic law with its slope.
+    pub(crate) fn with_memory(cable: &DuctedCable, mesh: &Mesh) -> Self {
+        let cable = cable.with_memory();
         let zeros = || vec![0.0; mesh.nodes()];
-        let load = cable.body_loads(mesh);
-        Ok(Self {
-            step: StepSolver::new(Chain::new(cable, mesh)),
-            cable: cable.clone(),
-            supports: Support::of(cable, mesh),
+        Self {
+            step: StepSolver::new(Chain::new(&cable, mesh)),
+            held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
-            weight: [load[0], load[mesh.elements()]],
-            load,
+            load: cable.loads(mesh, 0.0),
+            mesh: *mesh,
             factor: zeros(),
             given: zeros(),
-        })
+            cable,
+        }
     }
 
     /// The cable.
@@ -112,10 +117,7 @@ impl RestingCable {
         let elements = u
             .windows(2)
             .map(|pair| chain.stiffness * (pair[0] - pair[1]).abs());
-        let springs = self.supports.iter().map(|support| {
-            let stiffness = support.stiffness.unwrap_or(0.0);
-            stiffness * u[support.node].abs()
-        });
+        let springs = chain.free.nodes().map(|i| chain.spring(i) * u[i].abs());
         elements.chain(springs).fold(0.0, f64::max)
     }
 
@@ -142,9 +144,11 @@ impl RestingCable {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state of another mesh; [`CableError::NoConvergence`] where no equilibrium is found.
+    /// [`CableError::StateMismatch`] and [`CableError::InvalidParameter`] for a state of another
+    /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
-        self.take(state, state.thermal_force)?;
+        state.check(&self.mesh)?;
+        self.heat(state.thermal_force);
         let StepSolver { chain, .. } = &self.step;
         let mut at_rest = true;
         for i in chain.free.nodes() {
@@ -153,7 +157,10 @@ impl RestingCable {
             at_rest &= needed.abs() <= limit;
             state.friction[i] = needed.clamp(-limit, limit);
         }
-        if at_rest { Ok(()) } else { self.step(state, 0.0) }
+        if !at_rest {
+            self.follow(state, None, state.thermal_force, 0.0)?;
+        }
+        Ok(())
     }
 
     /// Brings the cable to another temperature, at which its heat has the force `thermal_force` Θ = EA α T \[N\], in one step with the
@@ -185,54 +192,66 @@ impl RestingCable {
     /// As for [`RestingCable::settle`], and [`CableError::InvalidParameter`] for a force that is not finite.
     pub fn warm(&mut self, state: &mut CableState, thermal_force: f64) -> Result<(), CableError> {
         checked("thermal_force", thermal_force, "finite", |_| true)?;
-        self.take(state, thermal_force)?;
+        state.check(&self.mesh)?;
         let stretch = self.cable.length() / self.cable.axial_stiffness();
-        self.step(state, (thermal_force - state.thermal_force).abs() * stretch)?;
-        state.thermal_force = thermal_force;
-        Ok(())
-    }
-
-    /// Takes on a state whose heat has the force `thermal` \[N\].
-    fn take(&mut self, state: &CableState, thermal: f64) -> Result<(), CableError> {
-        let (found, expected) = (state.displacement.len(), self.anchor.len());
-        if found != expected {
-            return Err(CableError::StateMismatch { found, expected });
-        }
-        self.heat(thermal);
+        let movement = (thermal_force - state.thermal_force).abs() * stretch;
+        self.follow(state, None, thermal_force, movement)?;
         Ok(())
     }
 
     /// Heat pushes the two ends apart and nothing between them.
-    fn heat(&mut self, thermal: f64) {
-        self.load[0] = self.weight[0] - thermal;
-        if let Some(last) = self.load.last_mut() {
-            *last = self.weight[1] + thermal;
+    fn heat(&mut self, thermal_force: f64) {
+        let (last, weight) = (self.mesh.elements(), self.cable.body_force());
+        for (node, outward) in [(0, -thermal_force), (last, thermal_force)] {
+            self.load[node] = weight * self.mesh.tributary_length(node) + outward;
         }
     }
 
-    /// One step of the whole cable from `state`, by `movement` \[m\] at most.
-    fn step(&mut self, state: &mut CableState, movement: f64) -> Result<(), CableError> {
+    /// One step of the whole cable from `state` to the heat `thermal_force` \[N\], in which the
+    /// duct at every node moves by `duct` \[m\], if at all, and the cable by `movement` \[m\] at
+    /// most. Returns the heat of the slip \[J\]; when it fails, `state` is as it was.
+    pub(crate) fn follow(
+        &mut self,
+        state: &mut CableState,
+        duct: Option<&[f64]>,
+        thermal_force: f64,
+        movement: f64,
+    ) -> Result<f64, CableError> {
+        self.heat(thermal_force);
+        let duct = duct.unwrap_or(&self.nothing);
         let StepSolver { chain, trial, .. } = &mut self.step;
-        let free = chain.free;
-        for i in free.nodes() {
-            self.anchor[i] = state.displacement[i] + chain.compliance * state.friction[i];
+        let compliance = chain.compliance;
+        let (u, f) = (&mut state.displacement, &mut state.friction);
+        for (i, anchor) in self.anchor.iter_mut().enumerate() {
+            *anchor = u[i] + duct[i] + compliance * f[i];
         }
-        trial.r.copy_from_slice(&state.displacement);
-        self.step.start(largest(&state.displacement, movement));
+        trial.r.copy_from_slice(u);
+        self.step.start(largest(u, movement));
         let load = Load {
             adhesion: &self.nothing,
             support: &self.load,
             anchor: &self.anchor,
         };
-        let solved = self.step.solve(&load, free);
+        let solved = self.step.solve(&load, self.step.chain.free);
         solved.map_err(|violation| CableError::NoConvergence {
             vehicle_position: f64::INFINITY,
             violation,
         })?;
-        let trial = &self.step.trial;
-        state.displacement[free.nodes()].copy_from_slice(&trial.r[free.nodes()]);
-        state.friction[free.nodes()].copy_from_slice(&trial.g[free.nodes()]);
-        Ok(())
+        let StepSolver { chain, trial, .. } = &self.step;
+        let mut heat = 0.0;
+        for (i, node) in chain.nodes.iter().enumerate() {
+            let is_free = chain.free.nodes().contains(&i);
+            let after = if is_free {
+                trial.g[i]
+            } else {
+                self.held.after_slip(f[i], duct[i])
+            };
+            let slip = duct[i] - (trial.r[i] - u[i]) - compliance * (after - f[i]);
+            heat += node.tributary * after * slip;
+            (u[i], f[i]) = (trial.r[i], after);
+        }
+        state.thermal_force = thermal_force;
+        Ok(heat)
     }
 }
 

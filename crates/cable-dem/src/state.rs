@@ -1,12 +1,25 @@
 //! What the cable keeps from one pass to the next.
 
-use crate::ends::{Balance, EndReader};
+use crate::ends::EndReader;
 use crate::error::checked;
-use crate::step::Support;
+use crate::step::Chain;
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
 /// A clamp nearer to a node than this share of the spacing counts as on it.
 const AT_NODE: f64 = 1e-6;
+
+/// Friction within this share of its limit counts as slipping.
+const AT_LIMIT: f64 = 1e-6;
+
+/// Lengths of cable over which the duct slips past it (Kashiro et al., Figure 7).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct SlipLengths {
+    /// Friction at its limit toward growing x \[m\].
+    pub forward: f64,
+    /// Friction at its limit toward falling x \[m\].
+    pub backward: f64,
+}
 
 /// The cable at rest: displacement and friction of every node of its mesh, with no vehicle near.
 ///
@@ -146,7 +159,9 @@ impl CableState {
         cable: &DuctedCable,
     ) -> Result<impl Iterator<Item = f64> + 'a, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(self.elements(cable))
+        let stiffness = cable.axial_stiffness() / self.mesh.spacing();
+        let force = move |pair: &[f64]| stiffness * (pair[0] - pair[1]) + self.thermal_force;
+        Ok(self.displacement.windows(2).map(force))
     }
 
     /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there. What clamps on the same
@@ -157,7 +172,11 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(self.ends(cable))
+        Ok(EndReader::new(cable, &self.mesh).read(
+            self.thermal_force,
+            |i| self.displacement[i],
+            |i| self.friction[i],
+        ))
     }
 
     /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
@@ -168,7 +187,30 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(self.clamps(cable))
+        let on = |restraint: &Restraint| {
+            let springs = restraint.by_node(&self.mesh).into_iter();
+            springs
+                .map(|(node, stiffness)| stiffness * self.displacement[node])
+                .sum()
+        };
+        Ok(cable.restraints().iter().map(on).collect())
+    }
+
+    /// Lengths of cable whose friction is at its `limit` \[N/m\]; none without friction.
+    pub fn slip_lengths(&self, limit: f64) -> SlipLengths {
+        let at_limit = (1.0 - AT_LIMIT) * limit;
+        let mut lengths = SlipLengths::default();
+        if limit <= 0.0 {
+            return lengths;
+        }
+        for (node, &friction) in self.friction.iter().enumerate() {
+            if friction >= at_limit {
+                lengths.forward += self.mesh.tributary_length(node);
+            } else if friction <= -at_limit {
+                lengths.backward += self.mesh.tributary_length(node);
+            }
+        }
+        lengths
     }
 
     /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
@@ -179,20 +221,10 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
         self.mesh.check_length(cable.length())?;
-        let body = cable.body_loads(&self.mesh);
-        let mut springs = vec![Some(0.0); self.mesh.nodes()];
-        for support in Support::of(cable, &self.mesh) {
-            springs[support.node] = support.stiffness;
-        }
-        let (mut before, mut worst) = (0.0, 0.0_f64);
-        for (node, after) in self.elements(cable).chain([0.0]).enumerate() {
-            if let Some(spring) = springs[node] {
-                let carried = after - before + spring * self.displacement[node] - body[node];
-                worst = worst.max((carried / self.mesh.tributary_length(node)).abs());
-            }
-            before = after;
-        }
-        Ok(worst)
+        let chain = Chain::new(cable, &self.mesh);
+        let load = cable.loads(&self.mesh, self.thermal_force);
+        let needed = |i| chain.balancing_friction(&self.displacement, &load, i).abs();
+        Ok(chain.free.nodes().map(needed).fold(0.0, f64::max))
     }
 
     /// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
@@ -205,7 +237,7 @@ impl CableState {
         let force = |element: usize| {
             stiffness * (self.displacement[element] - self.displacement[element + 1]) + self.thermal_force
         };
-        let body = cable.body_loads(mesh);
+        let body = cable.loads(mesh, 0.0);
         let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
         let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
         let after = |node: usize| force(node) - 0.5 * h * drag(node);
@@ -238,49 +270,6 @@ impl CableState {
             }
         }
         (least, largest)
-    }
-
-    /// [`CableState::element_forces`] of a cable that is known to be as long as the mesh.
-    fn elements<'a>(&'a self, cable: &DuctedCable) -> impl Iterator<Item = f64> + 'a {
-        let stiffness = cable.axial_stiffness() / self.mesh.spacing();
-        self.displacement
-            .windows(2)
-            .map(move |pair| stiffness * (pair[0] - pair[1]) + self.thermal_force)
-    }
-
-    /// [`CableState::end_forces`] of a cable that is known to be as long as the mesh.
-    pub(crate) fn ends(&self, cable: &DuctedCable) -> EndForces {
-        let reader = EndReader::new(cable, &self.mesh);
-        reader.read(
-            Balance::AtRest,
-            self.thermal_force,
-            |i| self.displacement[i],
-            |i| self.friction[i],
-        )
-    }
-
-    /// [`CableState::restraint_forces`] of a cable that is known to be as long as the mesh.
-    pub(crate) fn clamps(&self, cable: &DuctedCable) -> Vec<f64> {
-        let on = |restraint: &Restraint| {
-            let springs = restraint.by_node(&self.mesh).into_iter();
-            springs
-                .map(|(node, stiffness)| stiffness * self.displacement[node])
-                .sum()
-        };
-        cable.restraints().iter().map(on).collect()
-    }
-
-    /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.
-    pub(crate) fn release(&mut self, cable: &DuctedCable) {
-        let supports = Support::of(cable, &self.mesh);
-        let held = supports.iter().any(|support| support.stiffness != Some(0.0));
-        let rest = if held {
-            0.0
-        } else {
-            self.displacement.iter().sum::<f64>() / self.displacement.len() as f64
-        };
-        self.displacement.fill(rest);
-        self.friction.fill(0.0);
     }
 
     /// Refuses a state of another mesh.

@@ -3,8 +3,8 @@
 use boussinesq::HalfSpace;
 use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 use criterion::{Criterion, criterion_group, criterion_main};
-use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, LockedLaw, live};
-use cycle_jump::{Guide, JumpError};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, LockedLaw, evolve_days};
+use cycle_jump::{Guide, JumpError, Jumps};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 
 const STIFFNESS: f64 = 8.01e6;
@@ -68,27 +68,23 @@ fn days(criterion: &mut Criterion) {
             lowest: 0.0,
             highest: SWING,
         };
-        let day = Day {
-            passes: PER_DAY,
-            period: 1,
-            heat,
-            knots,
-        };
+        let day = Day::new(PER_DAY, 1, heat, knots)?;
+        let jumps = Jumps::new(5e-3, 1.2, (0.01 * LIMIT, 1e-6))?.with_start(3, 0.5)?;
         let request = DaysRequest {
             passes: days * PER_DAY,
             wanted: &[1],
             wanted_days: &[days],
-            tolerance: 5e-3,
-            least: (0.01 * LIMIT, 1e-6),
             every_day: false,
-            first_jump: 0.5,
-            length_scale: 1.2,
-            most_days: (150, 1000),
             guide: Guide::Free,
         };
-        live(&cable, &mesh, &day, law.clone(), &request, |_, state| {
-            solver.pass(&passage, state).map_err(JumpError::from)
-        })
+        evolve_days(
+            &cable,
+            &mesh,
+            (&day, law.clone()),
+            &jumps,
+            &request,
+            |_, state| solver.pass(&passage, state).map_err(JumpError::from),
+        )
     };
     let mut group = criterion.benchmark_group("days");
     group.sample_size(10);

@@ -17,35 +17,37 @@ pub enum JumpError {
         /// What it may be.
         allowed: &'static str,
     },
-    /// No day becomes like the one before.
+    /// No day repeats the one before.
     #[error(
-        "after {days} days of heat and traffic they still differ from day to day: nothing can be said of later ones"
+        "after {days} days of heat and traffic they still differ from day to day; later days cannot be predicted"
     )]
     NeverPeriodic {
         /// Days done.
         days: u64,
     },
-    /// The jumps do not get on.
+    /// Jumps make no progress.
     #[error(
-        "after {periods} of {wanted} periods of the traffic {simulated} passes are simulated, and jumps are no longer than at the start"
+        "jumps make no progress: {simulated} passes simulated for {periods} of {wanted} periods of traffic"
     )]
     Stuck {
         /// Periods done.
         periods: u64,
-        /// Periods asked.
+        /// Periods wanted.
         wanted: u64,
         /// Passes simulated.
         simulated: u64,
-    },
-    /// A wanted pass lies on no day that was lived.
-    #[error("pass {pass} follows from no pass that was simulated")]
-    UnknownPass {
-        /// Number of the pass.
-        pass: u64,
     },
 }
 
 /// The cable's error as that of a caller.
 pub(crate) fn wrap<E: From<JumpError>>(error: CableError) -> E {
     JumpError::from(error).into()
+}
+
+/// # Errors
+///
+/// [`JumpError::InvalidParameter`] unless `is_valid`.
+pub(crate) fn check(name: &'static str, is_valid: bool, allowed: &'static str) -> Result<(), JumpError> {
+    let error = JumpError::InvalidParameter { name, allowed };
+    if is_valid { Ok(()) } else { Err(error) }
 }

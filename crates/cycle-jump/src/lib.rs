@@ -1,22 +1,22 @@
 #![doc = include_str!("../README.md")]
 
 pub mod days;
-mod drive;
 mod error;
+mod evolve;
 mod flow;
-mod jumped;
-mod knowledge;
 mod peaks;
 mod period;
 mod record;
 mod request;
+mod rounds;
 mod scale;
+mod simulation;
 mod slope;
-mod stretches;
-mod walk;
+mod tuning;
+mod within_jump;
 
 pub use error::JumpError;
+pub use evolve::evolve;
 pub use peaks::peaks;
 pub use record::{Beyond, Evolution, Record};
 pub use request::{Guide, Jumps, Next, Request};
-pub use walk::evolve;

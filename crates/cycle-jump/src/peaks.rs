@@ -1,6 +1,9 @@
-//! Passes that show larger forces or movements than those that are recorded before and soon after them.
+//! Passes that show larger forces or movements than the recorded ones around them.
 //!
-//! In a long period of the traffic few passes are wanted, and a heavy vehicle that comes seldom is rarely among them.
+//! In a long period of the traffic few passes are wanted, and a heavy vehicle that comes seldom is
+//! rarely among them.
+
+use std::collections::BTreeSet;
 
 use cable_dem::PassOutcome;
 
@@ -10,101 +13,86 @@ use crate::record::Record;
 /// What is larger by this share of the largest of its kind counts as larger.
 const NOTICEABLE: f64 = 1e-3;
 
-/// Those of the `others` that show a larger force or movement than all `records` up to the first after them, and than each other before,
-/// ascending.
-pub fn peaks(records: &[Record], mut others: Vec<Record>) -> Vec<Record> {
-    others.sort_by_key(|record| record.pass);
-    let all = || records.iter().chain(&others);
-    let largest = all().fold(Extent::default(), |extent, record| extent.with(&record.outcome));
-    let mut seen = Extent::default();
-    let mut next = 0;
-    let mut peaks = Vec::new();
-    for record in &others {
-        let until = records.partition_point(|other| other.pass < record.pass) + 1;
-        for other in records.iter().take(until).skip(next) {
-            seen = seen.with(&other.outcome);
-        }
-        next = next.max(until);
-        let with = seen.clone().with(&record.outcome);
-        if with.exceeds(&seen, &largest) {
-            seen = with;
-            peaks.push(record.clone());
-        }
-    }
-    peaks
-}
-
-/// The places of a period whose passes show the largest of some force or movement.
-pub fn largest_places(period: &Period) -> Vec<usize> {
-    let outcomes: Vec<Vec<f64>> = period.outcomes().map(values).collect();
-    let count = outcomes.first().map_or(0, Vec::len);
-    let mut places: Vec<usize> = (0..count)
-        .filter_map(|value| {
-            (0..outcomes.len()).max_by(|&a, &b| outcomes[a][value].total_cmp(&outcomes[b][value]))
-        })
-        .collect();
-    places.sort_unstable();
-    places.dedup();
-    places
-}
-
-/// The largest of every force and movement so far.
-#[derive(Debug, Clone, Default)]
-struct Extent(Vec<f64>);
-
-impl Extent {
-    fn with(mut self, outcome: &PassOutcome) -> Self {
-        let values = values(outcome);
-        self.0.resize(values.len(), 0.0);
-        for (most, value) in self.0.iter_mut().zip(values) {
-            *most = most.max(value);
-        }
-        self
-    }
-
-    /// Whether anything in it is noticeably larger than in `other`, where the `largest` of all is this.
-    fn exceeds(&self, other: &Self, largest: &Self) -> bool {
-        let scale = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(*value));
-        let (movements, forces) = largest.0.split_at(MOVEMENTS.min(largest.0.len()));
-        let scales = [scale(movements), scale(forces)];
-        let at = |other: &Self, place: usize| other.0.get(place).copied().unwrap_or(0.0);
-        self.0.iter().enumerate().any(|(place, value)| {
-            value - at(other, place) > NOTICEABLE * scales[usize::from(place >= MOVEMENTS)]
-        })
-    }
-}
-
 /// Number of movements among the [`values`], which come first.
 const MOVEMENTS: usize = 4;
 
-/// Movements and forces of which the largest counts.
+/// Those of the `others` that show a noticeably larger force or movement than all `records` up to
+/// the first after them, and than each other before; in ascending order.
+pub fn peaks(records: &[Record], mut others: Vec<Record>) -> Vec<Record> {
+    others.sort_by_key(|record| record.pass);
+    let mut all = Vec::new();
+    for record in records.iter().chain(&others) {
+        raise(&mut all, &values(&record.outcome));
+    }
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(*value));
+    let (movements, forces) = all.split_at(MOVEMENTS.min(all.len()));
+    let noticeable = [movements, forces].map(|values| NOTICEABLE * largest(values));
+    let mut most = vec![0.0; all.len()];
+    let mut next = 0;
+    others.retain(|record| {
+        let until = records.partition_point(|other| other.pass < record.pass) + 1;
+        for other in records.iter().take(until).skip(next) {
+            raise(&mut most, &values(&other.outcome));
+        }
+        next = next.max(until);
+        let values = values(&record.outcome);
+        let is_peak = values
+            .iter()
+            .zip(&most)
+            .enumerate()
+            .any(|(k, (value, most))| value - most > noticeable[usize::from(k >= MOVEMENTS)]);
+        if is_peak {
+            raise(&mut most, &values);
+        }
+        is_peak
+    });
+    others
+}
+
+/// The places of a `period` whose passes show the largest of some force or movement.
+pub fn largest_places(period: &Period) -> BTreeSet<usize> {
+    let mut largest: Vec<(f64, usize)> = Vec::new();
+    for (place, outcome) in period.outcomes().iter().enumerate() {
+        let values = values(outcome);
+        largest.resize(values.len(), (f64::NEG_INFINITY, place));
+        for (largest, value) in largest.iter_mut().zip(values) {
+            *largest = if value >= largest.0 {
+                (value, place)
+            } else {
+                *largest
+            };
+        }
+    }
+    largest.into_iter().map(|(_, place)| place).collect()
+}
+
+/// Raises each of `most` to the one of `values`; what is missing begins with zero.
+fn raise(most: &mut Vec<f64>, values: &[f64]) {
+    most.resize(most.len().max(values.len()), 0.0);
+    for (most, value) in most.iter_mut().zip(values) {
+        *most = most.max(*value);
+    }
+}
+
+/// Movements and forces of which the largest counts, each with both signs.
 fn values(outcome: &PassOutcome) -> Vec<f64> {
-    let PassOutcome {
-        force,
-        peak,
-        lowest,
-        upstream_displacement,
-        downstream_displacement,
-        ..
-    } = outcome;
-    let movements = [
-        *upstream_displacement,
-        -upstream_displacement,
-        *downstream_displacement,
-        -downstream_displacement,
-    ];
-    let forces = [
+    let (force, peak, lowest) = (outcome.force, outcome.peak, outcome.lowest);
+    let ends = [outcome.upstream_displacement, outcome.downstream_displacement];
+    let rest = [force.upstream, force.downstream];
+    let signed = ends
+        .into_iter()
+        .chain(rest)
+        .chain(outcome.restraints.iter().copied());
+    let during = [
         peak.upstream,
         peak.downstream,
         -lowest.upstream,
         -lowest.downstream,
-        force.upstream,
-        force.downstream,
-        -force.upstream,
-        -force.downstream,
-        outcome.max_compression,
-        outcome.max_tension,
     ];
-    let clamps = outcome.restraints.iter().flat_map(|force| [*force, -force]);
-    movements.into_iter().chain(forces).chain(clamps).collect()
+    let inside = [outcome.max_compression, outcome.max_tension];
+    signed
+        .flat_map(|value| [value, -value])
+        .chain(during)
+        .chain(inside)
+        .collect()
 }

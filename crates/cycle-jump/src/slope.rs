@@ -1,21 +1,19 @@
-//! How the advance per period answers to the locked friction: g = −∂v/∂f̄, learned from the passes themselves.
+//! How the advance per period answers to the locked friction: g = −∂v/∂f̄, learned from the passes
+//! themselves.
 //!
-//! Two measured periods differ in their advance by dv and in the friction between their middles by df. A least-squares slope
-//! of the one over the other, over a stretch of cable, is all the law there is. Too small a slope makes a jump overshoot, too large a one
-//! only makes it cautious; so it rises at once and falls slowly.
+//! Two simulated periods differ in their advance by dv and in the friction between their middles by
+//! df. A least-squares slope of the one over the other, over some length of cable, is all the law
+//! there is. Too small a slope makes a jump overshoot, too large a one only makes it cautious; so
+//! it rises at once and falls slowly.
 
-/// Share of the last slope that counts where friction hardly changed.
-const INERTIA: f64 = 0.02;
-/// Change of friction that counts as large, as a share of its limit: near saturation smaller ones are noise.
-const LARGE: f64 = 0.05;
-/// Least of the last slope, and of the typical one, that is kept.
-const FALL: f64 = 0.8;
-const LEAST: f64 = 0.3;
-/// Largest growth where a jump overshot, and the overshoot from which on there is any.
-const MOST_GROWTH: f64 = 3.0;
-const OVERSHOT: f64 = 1.3;
-/// Least of the typical slope that one measurement keeps.
-const TYPICAL_FALL: f64 = 0.7;
+use cable_dem::RestingCable;
+
+use crate::period::{Period, difference};
+use crate::tuning::{OVERSHOOT, REGULARISATION, SLOPE_FALL};
+
+/// Growth of the slope at most where a jump overshot: any bound does, against a prediction of
+/// nothing.
+const MAX_GROWTH: f64 = 3.0;
 /// Slope before anything is known \[m²/N\].
 const UNKNOWN: f64 = 1e-9;
 
@@ -23,36 +21,20 @@ const UNKNOWN: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Slope {
     values: Vec<f64>,
-    /// One number for the whole cable.
-    typical: f64,
     /// Nodes in the sliding mean.
     width: usize,
-    /// Friction limit \[N/m\].
-    limit: f64,
-}
-
-/// What changed from one measured period to another.
-#[derive(Debug, Clone, Copy)]
-pub struct Change<'a> {
-    /// Of the advance per period \[m\].
-    pub rate: &'a [f64],
-    /// Of the friction between them \[N/m\].
-    pub friction: &'a [f64],
-    /// What the slope had said of the advance; `None` where nothing was jumped.
-    pub predicted: Option<&'a [f64]>,
 }
 
 impl Slope {
-    /// Of a cable with the friction `limit` \[N/m\], as `change` shows it; means run over `width` nodes.
-    pub fn new(change: Change<'_>, width: usize, limit: f64) -> Self {
-        let typical = secant(change);
+    /// As the change between two periods shows it; means run over `width` nodes.
+    pub fn new(from: &Period, to: &Period, width: usize, cable: &RestingCable) -> Self {
+        let (rate, friction) = changes(from, to, cable);
+        let secant = -dot(&rate, &friction) / dot(&friction, &friction).max(f64::MIN_POSITIVE);
         let mut slope = Self {
-            values: vec![if typical > 0.0 { typical } else { UNKNOWN }; change.rate.len()],
-            typical,
+            values: vec![if secant > 0.0 { secant } else { UNKNOWN }; rate.len()],
             width: width.max(3) | 1,
-            limit,
         };
-        slope.learn(change);
+        slope.learn(from, to, None, cable);
         slope
     }
 
@@ -61,56 +43,67 @@ impl Slope {
         &self.values
     }
 
-    /// Takes a change into account.
-    pub fn learn(&mut self, change: Change<'_>) {
-        let secant = secant(change);
-        let largest = change.friction.iter().fold(0.0_f64, |a, f| a.max(f * f));
-        let large = (LARGE * self.limit).powi(2);
-        if largest > large && secant > 0.0 {
-            self.typical = secant.max(TYPICAL_FALL * self.typical);
+    /// Spreads `values` along the cable as so many `periods` do.
+    pub fn spread(&self, cable: &mut RestingCable, periods: f64, values: &mut [f64]) {
+        cable.diffuse(|i| periods * self.values[i], values);
+    }
+
+    /// By how much the advance of one period differs from that of an earlier one \[m\].
+    pub fn predict(&self, from: &Period, to: &Period, cable: &mut RestingCable) -> Vec<f64> {
+        let (_, mut change) = changes(from, to, cable);
+        for (f, g) in change.iter_mut().zip(&self.values) {
+            *f *= -g;
         }
-        let products = change.rate.iter().zip(change.friction);
-        let mut above = sliding_mean(products.map(|(v, f)| -v * f), self.width);
-        let below = sliding_mean(change.friction.iter().map(|f| f * f), self.width);
-        let weight = INERTIA * largest.max(large);
-        let overshoot = change.predicted.map_or(0.0, |predicted| {
-            let seen: f64 = change.rate.iter().zip(predicted).map(|(v, p)| v * p).sum();
-            seen / predicted
-                .iter()
-                .map(|p| p * p)
-                .sum::<f64>()
-                .max(f64::MIN_POSITIVE)
+        self.spread(cable, 0.5, &mut change);
+        change
+    }
+
+    /// Learns from two periods, between which it had `predicted` the change of the advance where
+    /// there was a jump.
+    pub fn learn(&mut self, from: &Period, to: &Period, predicted: Option<&[f64]>, cable: &RestingCable) {
+        let (rate, friction) = changes(from, to, cable);
+        let largest = friction.iter().fold(0.0_f64, |a, f| a.max(f * f));
+        let products = rate.iter().zip(&friction).map(|(v, f)| -v * f);
+        let mut values = sliding_mean(products, self.width);
+        let squares = sliding_mean(friction.iter().map(|f| f * f), self.width);
+        let weight = REGULARISATION * largest.max(f64::MIN_POSITIVE);
+        let overshoot = predicted.map_or(0.0, |predicted| {
+            dot(&rate, predicted) / dot(predicted, predicted).max(f64::MIN_POSITIVE)
         });
-        for ((value, last), below) in above.iter_mut().zip(&self.values).zip(below) {
-            *value = (*value + weight * last) / (below + weight);
-            if overshoot > OVERSHOT {
-                *value = value.max(last * overshoot.min(MOST_GROWTH));
+        for ((value, last), square) in values.iter_mut().zip(&self.values).zip(squares) {
+            *value = (*value + weight * last) / (square + weight);
+            if overshoot > OVERSHOOT {
+                *value = value.max(last * overshoot.min(MAX_GROWTH));
             }
-            *value = value.max(FALL * last).max(LEAST * self.typical);
+            *value = value.max(SLOPE_FALL * last);
         }
-        self.values = sliding_mean(above.into_iter(), self.width);
+        self.values = sliding_mean(values.into_iter(), self.width);
     }
 }
 
-/// −Σ dv df/Σ df², at least 0.
-fn secant(change: Change<'_>) -> f64 {
-    let pairs = || change.rate.iter().zip(change.friction);
-    let above: f64 = pairs().map(|(v, f)| -v * f).sum();
-    let below: f64 = pairs().map(|(_, f)| f * f).sum();
-    (above / below.max(f64::MIN_POSITIVE)).max(0.0)
+/// By how much one period differs from an earlier one: its advance \[m\], and the friction K Δu/w
+/// in its middle \[N/m\].
+fn changes(from: &Period, to: &Period, cable: &RestingCable) -> (Vec<f64>, Vec<f64>) {
+    let rate = difference(&to.rate, &from.rate);
+    let mut friction = vec![0.0; rate.len()];
+    cable.balance(&difference(&to.middle, &from.middle), &mut friction);
+    (rate, friction)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Mean over `width` neighbours, the first and the last value repeated beyond the ends.
 fn sliding_mean(values: impl Iterator<Item = f64>, width: usize) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
-    let last = values.len() - 1;
-    let half = width / 2;
-    let at = |i: isize| values[i.clamp(0, last as isize) as usize];
-    let mut sum: f64 = (-(half as isize)..=half as isize).map(at).sum();
+    let (last, half) = (values.len() as isize - 1, (width / 2) as isize);
+    let at = |i: isize| values[i.clamp(0, last) as usize];
+    let mut sum: f64 = (-half..=half).map(at).sum();
     let mut means = Vec::with_capacity(values.len());
-    for i in 0..=last as isize {
+    for i in 0..=last {
         means.push(sum / (2 * half + 1) as f64);
-        sum += at(i + half as isize + 1) - at(i - half as isize);
+        sum += at(i + half + 1) - at(i - half);
     }
     means
 }

@@ -2,11 +2,10 @@
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
-    Restraint,
+    CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic, Restraint,
 };
-use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, LockedLaw, live};
-use cycle_jump::{Guide, JumpError, Next};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, Extremes, LockedLaw, evolve_days};
+use cycle_jump::{Guide, JumpError, Jumps, Next};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -118,30 +117,29 @@ impl Scene {
                     .collect(),
             )
         };
-        let day = Day {
-            passes: self.per_day,
-            period: motions.len(),
-            heat,
-            knots,
-        };
+        let day = Day::new(self.per_day, motions.len(), heat, knots)?;
         let all: Vec<u64> = (1..=self.days).collect();
         let wanted: Vec<u64> = (1..=self.per_day).collect();
         let request = DaysRequest {
             passes: self.per_day * self.days,
             wanted: &wanted,
             wanted_days: &all,
-            tolerance: 5e-3,
-            least: (0.01 * limit, 1e-6),
             every_day,
-            first_jump: 0.5,
-            length_scale: 1.2,
-            most_days: self.most_days,
             guide: Guide::Free,
         };
         let one_pass = |next: Next, state: &mut CableState| {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
         };
-        Ok(live(&cable, &mesh, &day, law, &request, one_pass)?)
+        let jumps = Jumps::new(5e-3, 1.2, (0.01 * limit, 1e-6))?.with_start(3, 0.5)?;
+        let jumps = jumps.with_most_passes(self.most_days.0, self.most_days.1);
+        Ok(evolve_days(
+            &cable,
+            &mesh,
+            (&day, law),
+            &jumps,
+            &request,
+            one_pass,
+        )?)
     }
 }
 
@@ -172,12 +170,12 @@ fn measured_law(motions: &[DuctMotion], friction: Friction) -> Outcome<LockedLaw
 }
 
 /// Largest error of a force, as a share of the largest that day, and of a movement, as a share of its range, on any day.
-fn error(right: &[DayRecord], found: &[DayRecord]) -> (f64, f64) {
+fn error(right: &[(u64, Extremes)], found: &[(u64, Extremes)]) -> (f64, f64) {
     assert_eq!(right.len(), found.len());
     let days = right.iter().zip(found);
     days.fold((0.0, 0.0), |worst: (f64, f64), (right, found)| {
-        assert_eq!(right.day, found.day);
-        let (force, movement) = right.extremes.difference(&found.extremes, (1.0, 1e-6));
+        assert_eq!(right.0, found.0);
+        let (force, movement) = right.1.difference(&found.1, (1.0, 1e-6));
         (worst.0.max(force), worst.1.max(movement))
     })
 }
@@ -298,7 +296,7 @@ fn days_repeat_in_the_end_but_for_a_drift() -> Outcome {
     let places: Vec<f64> = right
         .days
         .iter()
-        .map(|record| record.extremes.forward[0])
+        .map(|(_, extremes)| extremes.displacement[0][1])
         .collect();
     scene.days = 7305;
     let years = scene.live(scene.knots, false)?;
@@ -310,11 +308,11 @@ fn days_repeat_in_the_end_but_for_a_drift() -> Outcome {
         years.drift
     );
     // Forces stay those of the fourth day, and the ends are as far as the drift has brought them.
-    let (force, _) = right.days[3].extremes.difference(&last.extremes, (1.0, 1.0));
+    let (force, _) = right.days[3].1.difference(&last.1, (1.0, 1.0));
     assert!(force < 0.015, "{force}");
     let expected = places[3] + years.drift * 7301.0;
-    assert!((last.extremes.forward[0] / expected - 1.0).abs() < 1e-3);
-    assert!((years.extremes.forward[0] - last.extremes.forward[0]).abs() < 1e-9);
+    assert!((last.1.displacement[0][1] / expected - 1.0).abs() < 1e-3);
+    assert!((years.extremes.displacement[0][1] - last.1.displacement[0][1]).abs() < 1e-9);
     Ok(())
 }
 
@@ -333,22 +331,22 @@ fn without_traffic_only_heat_moves_the_cable() -> Outcome {
     let lived = scene.live(24, false)?;
     let force = STIFFNESS * EXPANSION * 10.0;
     let moved = force * force / (2.0 * 0.25 * WEIGHT * STIFFNESS);
-    for DayRecord { day, extremes } in &lived.days {
+    for (day, extremes) in &lived.days {
         assert!(
             (extremes.compression / force - 1.0).abs() < 1e-2,
             "day {day}: {} N",
             extremes.compression
         );
         assert!(
-            (extremes.forward[1] / moved - 1.0).abs() < 1e-2,
+            (extremes.displacement[1][1] / moved - 1.0).abs() < 1e-2,
             "day {day}: {} m",
-            extremes.forward[1]
+            extremes.displacement[1][1]
         );
         let stays = if *day == 1 { 0.0 } else { 0.5 };
         assert!(
-            (extremes.backward[1] / moved - stays).abs() < 1e-2,
+            (extremes.displacement[1][0] / moved - stays).abs() < 1e-2,
             "day {day}: {} m",
-            extremes.backward[1]
+            extremes.displacement[1][0]
         );
     }
     Ok(())
@@ -372,61 +370,45 @@ fn what_is_no_day_is_refused() -> Outcome {
     let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * WEIGHT)?;
     let mesh = Mesh::new(6.0, 0.3, 0.15)?;
     let cable = DuctedCable::new(6.0, STIFFNESS, friction)?;
-    let good = Day {
-        passes: 10,
-        period: 2,
-        heat: DailyHeat::Cosine {
-            lowest: 0.0,
-            highest: 1.0,
-        },
-        knots: 2,
-    };
     let request = DaysRequest {
         passes: 20,
         wanted: &[20],
         wanted_days: &[1, 2],
-        tolerance: 5e-3,
-        least: (1.0, 1e-6),
         every_day: false,
-        first_jump: 0.5,
-        length_scale: 1.2,
-        most_days: (150, 1000),
         guide: Guide::Free,
     };
-    let lived = |day: &Day| {
+    let jumps = Jumps::new(5e-3, 1.2, (1.0, 1e-6))?;
+    let noon = || DailyHeat::Cosine {
+        lowest: 0.0,
+        highest: 1.0,
+    };
+    let is_refused = |error: JumpError| matches!(error, JumpError::InvalidParameter { .. });
+    for (passes, period, heat, knots) in [
+        (1, 2, noon(), 2),
+        (10, 0, noon(), 2),
+        (10, 2, noon(), 0),
+        (10, 2, DailyHeat::Profile(Vec::new()), 2),
+    ] {
+        let bad = Day::new(passes, period, heat, knots);
+        assert!(bad.is_err_and(is_refused), "{passes} {period} {knots}");
+    }
+    let day = Day::new(10, 2, noon(), 2)?;
+    let days = |request: &DaysRequest<'_>| {
         let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], friction.limit());
         // No vehicle moves this cable.
         let pass =
             |_: Next, state: &mut CableState| PassOutcome::at_rest(&cable, state).map_err(JumpError::from);
-        live(&cable, &mesh, day, law, &request, pass)
+        evolve_days(&cable, &mesh, (&day, law), &jumps, request, pass)
     };
-    assert!(lived(&good).is_ok());
-    for bad in [
-        Day {
-            passes: 1,
-            ..good.clone()
-        },
-        Day {
-            period: 0,
-            ..good.clone()
-        },
-        Day {
-            knots: 0,
-            ..good.clone()
-        },
-        Day {
-            heat: DailyHeat::Profile(Vec::new()),
-            ..good.clone()
-        },
-    ] {
-        let refused = lived(&bad);
-        assert!(
-            matches!(
-                refused,
-                Err(JumpError::Cable(CableError::InvalidParameter { .. }))
-            ),
-            "{bad:?}"
-        );
-    }
+    assert!(days(&request).is_ok());
+    let none = DaysRequest { passes: 0, ..request };
+    assert!(days(&none).is_err_and(is_refused));
+    // What does not come is not known.
+    let other = DaysRequest {
+        wanted: &[0, 21, 20],
+        ..request
+    };
+    let passes: Vec<u64> = days(&other)?.records.iter().map(|record| record.pass).collect();
+    assert_eq!(passes, [20]);
     Ok(())
 }

@@ -86,11 +86,8 @@ impl Factor {
         for front in self.fronts.iter().rev() {
             front.gather(right, &mut local);
             for (k, column) in front.columns.chunks_exact(local.len()).enumerate().rev() {
-                let known: f64 = local[k + 1..]
-                    .iter()
-                    .zip(&column[k + 1..])
-                    .map(|(x, l)| x * l)
-                    .sum();
+                let pairs = local[k + 1..].iter().zip(&column[k + 1..]);
+                let known: f64 = pairs.map(|(x, l)| x * l).sum();
                 local[k] = (local[k] - known) / column[k];
             }
             for (&unknown, &value) in front.unknowns.iter().zip(&local).take(front.count()) {
@@ -138,11 +135,9 @@ impl Dissection<'_> {
             let parts: Vec<Part> = columns.zip(rows).map(element).collect();
             return self.join(&parts);
         };
-        let parts = [
-            self.eliminate(first.0, first.1)?,
-            self.eliminate(second.0, second.1)?,
-        ];
-        self.join(&parts)
+        let first = self.eliminate(first.0, first.1)?;
+        let second = self.eliminate(second.0, second.1)?;
+        self.join(&[first, second])
     }
 
     /// The stiffness of one element over its unknowns.
@@ -150,12 +145,10 @@ impl Dissection<'_> {
         let dofs = dofs(&self.mesh.elements[element]).map(|dof| self.unknown[dof]);
         let free: Vec<usize> = (0..DOFS).filter(|&k| dofs[k] != FIXED).collect();
         let matrix = &self.matrices[element];
+        let column = |&b: &usize| free.iter().map(move |&a| matrix[a][b]);
         Part {
             unknowns: free.iter().map(|&k| (dofs[k], 1)).collect(),
-            matrix: free
-                .iter()
-                .flat_map(|&b| free.iter().map(move |&a| matrix[a][b]))
-                .collect(),
+            matrix: free.iter().flat_map(column).collect(),
         }
     }
 
@@ -176,36 +169,27 @@ impl Dissection<'_> {
         }
         let mut matrix = vec![0.0; order * order];
         for part in parts {
-            let places: Vec<usize> = part
-                .unknowns
-                .iter()
-                .map(|&(unknown, _)| self.place[unknown])
-                .collect();
-            for (b, (&column, entries)) in places
-                .iter()
-                .zip(part.matrix.chunks_exact(places.len().max(1)))
-                .enumerate()
-            {
+            let places = part.unknowns.iter().map(|&(unknown, _)| self.place[unknown]);
+            let places: Vec<usize> = places.collect();
+            let columns = part.matrix.chunks_exact(places.len().max(1));
+            for (b, (&column, entries)) in places.iter().zip(columns).enumerate() {
                 for (&row, entry) in places.iter().zip(entries).skip(b) {
                     matrix[row.max(column) + order * row.min(column)] += entry;
                 }
             }
         }
         eliminate(&mut matrix, order, count)?;
+        let column = |column: usize| &matrix[order * column + count..order * (column + 1)];
         let rest = Part {
-            matrix: (count..order)
-                .flat_map(|column| &matrix[order * column + count..order * (column + 1)])
-                .copied()
-                .collect(),
+            matrix: (count..order).flat_map(column).copied().collect(),
             unknowns: unknowns[count..].to_vec(),
         };
         if count > 0 {
             matrix.truncate(order * count);
             matrix.shrink_to_fit();
-            self.factor.fronts.push(Front {
-                unknowns: unknowns.into_iter().map(|(unknown, _)| unknown).collect(),
-                columns: matrix,
-            });
+            let unknowns = unknowns.into_iter().map(|(unknown, _)| unknown).collect();
+            let columns = matrix;
+            self.factor.fronts.push(Front { unknowns, columns });
         }
         Some(rest)
     }

@@ -101,11 +101,8 @@ impl Shape {
         let d_xi = PLACES.map(|(i, j)| dx[i] * e[j]);
         let d_eta = PLACES.map(|(i, j)| x[i] * de[j]);
         let sum = |weights: &[f64; NODES], c: usize| -> f64 {
-            weights
-                .iter()
-                .zip(nodes)
-                .map(|(weight, node)| weight * node[c])
-                .sum()
+            let pairs = weights.iter().zip(nodes);
+            pairs.map(|(weight, node)| weight * node[c]).sum()
         };
         let [r_xi, z_xi, r_eta, z_eta] = [sum(&d_xi, 0), sum(&d_xi, 1), sum(&d_eta, 0), sum(&d_eta, 1)];
         let determinant = r_xi * z_eta - z_xi * r_eta;
@@ -132,11 +129,8 @@ impl Shape {
     /// Adds `scale` × (2 ε:ε without the shear's doubling), the G term, to the lower triangle.
     fn add_shear(&self, scale: f64, matrix: &mut ElementMatrix) {
         for a in 0..NODES {
-            let (ra, za, ha) = (
-                scale * self.d_r[a],
-                scale * self.d_z[a],
-                2.0 * scale * self.value[a] / (self.radius * self.radius),
-            );
+            let (ra, za) = (scale * self.d_r[a], scale * self.d_z[a]);
+            let ha = 2.0 * scale * self.value[a] / (self.radius * self.radius);
             for b in 0..=a {
                 let (rb, zb, nb) = (self.d_r[b], self.d_z[b], self.value[b]);
                 let (rr, zz) = (ra * rb, za * zb);
@@ -166,13 +160,12 @@ pub(crate) fn stiffness(
     for (eta, weight_eta) in GAUSS_3 {
         for (xi, weight_xi) in GAUSS_3 {
             let shape = Shape::at(nodes, xi, eta);
-            if shape.determinant.is_nan() || shape.determinant <= 0.0 {
-                return Err(FemError::Degenerate {
-                    determinant: shape.determinant,
-                });
+            let determinant = shape.determinant;
+            if determinant.is_nan() || determinant <= 0.0 {
+                return Err(FemError::Degenerate { determinant });
             }
             let moduli = elasticity(shape.radius, shape.depth);
-            let weight = weight_eta * weight_xi * shape.determinant * shape.radius;
+            let weight = weight_eta * weight_xi * determinant * shape.radius;
             shape.add_shear(moduli.shear * weight, &mut matrix);
             let dilatation = shape.dilatation();
             let phi = [1.0, xi, eta];

@@ -144,13 +144,11 @@ impl Level {
         let distance = |row: &usize| (rows[*row] - depth).abs();
         let nearest = (first..=last).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let start = nearest.map_or(first, |nearest| nearest.saturating_sub(count / 2));
-        let stencil = start.clamp(first, last + 1 - count)..;
-        let stencil = stencil.take(count);
+        let stencil = (start.clamp(first, last + 1 - count)..).take(count);
         let weight = |row: usize| {
             let others = stencil.clone().filter(|&other| other != row);
-            others
-                .map(|other| (depth - rows[other]) / (rows[row] - rows[other]))
-                .product()
+            let factor = |other: usize| (depth - rows[other]) / (rows[row] - rows[other]);
+            others.map(factor).product()
         };
         stencil.clone().map(|row| (row, weight(row))).collect()
     }

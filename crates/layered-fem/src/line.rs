@@ -50,9 +50,8 @@ impl DepthLine {
 
     /// Displacement at radius `r` \[m/N\]; not finite at a point load.
     pub(crate) fn at(&self, r: f64) -> Displacement {
-        let outside = |soil: Option<HalfSpace>| {
-            soil.map_or(Displacement::ZERO, |soil| soil.displacement(r, self.depth))
-        };
+        let closed_form = |soil: HalfSpace| soil.displacement(r, self.depth);
+        let outside = |soil: Option<HalfSpace>| soil.map_or(Displacement::ZERO, closed_form);
         if r >= self.reach {
             return outside(self.far);
         }

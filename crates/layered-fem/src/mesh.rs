@@ -22,19 +22,14 @@ impl Mesh {
         let (columns, rows) = (with_midpoints(radii), with_midpoints(depths));
         let width = columns.len();
         let (across, down) = (width / 2, rows.len() / 2);
-        let nodes = rows
-            .iter()
-            .flat_map(|&z| columns.iter().map(move |&r| [r, z]))
-            .collect();
-        let elements = (0..across * down)
-            .map(|element| {
-                let first = 2 * (element % across + element / across * width);
-                PLACES.map(|(i, j)| first + i + j * width)
-            })
-            .collect();
+        let row = |&z: &f64| columns.iter().map(move |&r| [r, z]);
+        let element = |element: usize| {
+            let first = 2 * (element % across + element / across * width);
+            PLACES.map(|(i, j)| first + i + j * width)
+        };
         Self {
-            nodes,
-            elements,
+            nodes: rows.iter().flat_map(row).collect(),
+            elements: (0..across * down).map(element).collect(),
             across,
         }
     }

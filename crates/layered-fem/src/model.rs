@@ -128,9 +128,8 @@ impl LayeredFem {
         accuracy: f64,
         max_unknowns: usize,
     ) -> Result<Self, GroundError> {
-        checked("accuracy", accuracy, "between 1e-6 and 0.1", |v| {
-            (1e-6..=0.1).contains(&v)
-        })?;
+        let is_possible = |accuracy| (1e-6..=0.1).contains(&accuracy);
+        checked("accuracy", accuracy, "between 1e-6 and 0.1", is_possible)?;
         let (least, most) = ALPHA_RANGE;
         let mut mesher = Mesher {
             profile: profile.clone(),
@@ -209,14 +208,9 @@ impl LayeredFem {
     }
 
     /// Puts a finer mesh in place of the coarse one, or says that the accuracy is out of reach.
-    fn refine(
-        &self,
-        meshes: &mut [Level; 2],
-        estimate: ErrorEstimate,
-        depth: f64,
-    ) -> Result<(), GroundError> {
+    fn refine(&self, meshes: &mut [Level; 2], reached: ErrorEstimate, depth: f64) -> Result<(), GroundError> {
         let mesher = &self.mesher;
-        let excess = estimate.largest() / mesher.accuracy;
+        let excess = reached.largest() / mesher.accuracy;
         let parts = meshes[1].lines.parts;
         // What the accuracy needs at least, should the error fall as fast as it can.
         let wanted = parts as f64 * excess.powf(1.0 / BEST_ORDER);
@@ -225,8 +219,8 @@ impl LayeredFem {
             return Err(GroundError::Accuracy {
                 model: MODEL,
                 asked: mesher.accuracy,
-                reached: estimate.largest(),
-                radius: estimate.radius,
+                reached: reached.largest(),
+                radius: reached.radius,
                 depth,
             });
         }
@@ -271,17 +265,15 @@ fn compare(coarse: &DepthLine, fine: &DepthLine, radii: &[f64], gain: f64) -> Er
     let places: Vec<_> = places.filter(|(r, u, _)| u.is_finite() || *r > 0.0).collect();
     // The largest value, the largest difference, and where the latter is.
     let largest = |of: fn(Displacement) -> f64| {
-        places
-            .iter()
-            .fold((0.0_f64, 0.0, 0.0), |(peak, gap, at), &(r, u, other)| {
-                let (peak, here) = (peak.max(of(u).abs()), of(u - other).abs());
-                let is_worse = here > gap || here.is_nan();
-                if is_worse {
-                    (peak, here, r)
-                } else {
-                    (peak, gap, at)
-                }
-            })
+        let (mut peak, mut gap, mut at) = (0.0_f64, 0.0, 0.0);
+        for &(r, u, other) in &places {
+            let here = of(u - other).abs();
+            peak = peak.max(of(u).abs());
+            if here > gap || here.is_nan() {
+                (gap, at) = (here, r);
+            }
+        }
+        (peak, gap, at)
     };
     let share = |difference: f64, peak: f64| match difference {
         0.0 => 0.0,

@@ -39,18 +39,14 @@ impl System {
         elasticity: impl Fn(usize, f64, f64) -> Elasticity,
     ) -> Result<Self, FemError> {
         let mut unknowns = 0;
-        let unknown: Vec<usize> = prescribed
-            .iter()
-            .map(|&fixed| {
-                if fixed {
-                    return FIXED;
-                }
-                unknowns += 1;
-                unknowns - 1
-            })
-            .collect();
+        let mut unknown = vec![FIXED; prescribed.len()];
+        for (number, _) in unknown.iter_mut().zip(prescribed).filter(|(_, fixed)| !**fixed) {
+            *number = unknowns;
+            unknowns += 1;
+        }
+        let matrix = |e| stiffness(&mesh.corners(e), |r, z| elasticity(e, r, z));
         let matrices = (0..mesh.elements.len())
-            .map(|element| stiffness(&mesh.corners(element), |r, z| elasticity(element, r, z)))
+            .map(matrix)
             .collect::<Result<Vec<_>, _>>()?;
         let factor = Factor::new(&mesh, &matrices, &unknown).ok_or(FemError::Factorisation { unknowns })?;
         Ok(Self {

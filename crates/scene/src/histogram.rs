@@ -1,14 +1,15 @@
-//! A table of axle loads, as weigh-in-motion gives it: each row a class of axles with its load and how many of them were counted.
+//! A table of axle loads, as weigh-in-motion gives it: each row a class of axles and their number.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use creepage_tables::{Kind, Names, Options, Row, Table, TableError};
+use creepage_tables::{Kind, Layout, Options, Row, Table, TableError};
 
+use crate::content::Content;
 use crate::error::SceneError;
 use crate::key::Form::{Either, Number, Text};
 use crate::key::{Form, Section, keys};
-use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
+use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS};
 use crate::stored::Stored;
 use crate::units::Dimension;
 use crate::vehicle::TrafficVehicle;
@@ -64,20 +65,25 @@ const TOTAL: Kind = Kind("total totals sum summe gesamt somme totale suma 合計
 const AXLE: &str = "axle";
 pub const AXLE_GROUP: &str = "axle group";
 const KEY: &str = "traffic.histogram";
-const NAMES: Names = Names {
+const LAYOUT: Layout = Layout {
     kinds: &[COUNT, LOAD, RADIUS, SHARE],
     measured: Some(LOAD),
-    is_header: |names| {
+    missing: |names| {
         let has = |kind| names.iter().any(|name| name.kind == Some(kind));
-        has(LOAD) && (has(COUNT) || has(SHARE))
+        let wanted = [("count", has(COUNT) || has(SHARE)), ("load", has(LOAD))];
+        wanted
+            .iter()
+            .find_map(|(name, is_there)| (!is_there).then_some(*name))
     },
+    is_number: |name| name.kind.is_some(),
     unnamed: &[],
     unit: |word| Dimension::unit_by_word(word).or_else(|| of_weight(word)),
+    si,
     most: 1 << 20,
     allowed: "a table whose header names the columns load, count and, if wanted, contact_radius, with units in the cells or in the \
               name, such as \"load [kN]\"",
 };
-/// A heaviest axle below this, without a unit, is one that was meant in larger units \[N\]: a bicycle's wheel.
+/// A heaviest axle without a unit below this was meant in larger units \[N\]: a bicycle's wheel.
 const LIGHTEST: f64 = 1e3;
 
 /// The force that an axle of so much mass weighs, and kips by their other name.
@@ -91,6 +97,22 @@ fn of_weight(word: &str) -> Option<&'static str> {
     }
 }
 
+/// The value in SI of a number in a column of this kind, or what is allowed.
+fn si(kind: Kind, digits: &str, unit: &str) -> Result<f64, String> {
+    let quantity = match kind {
+        LOAD => AXLE_LOAD,
+        RADIUS => CONTACT_RADIUS,
+        _ => AXLE_COUNT,
+    };
+    let value = match (quantity.dimension, unit) {
+        (_, "") | (None, "%") => digits.parse().ok(),
+        (None, _) => None,
+        (Some(dimension), unit) => dimension.in_table(digits, of_weight(unit).unwrap_or(unit)),
+    };
+    let value = value.filter(|value| quantity.contains(*value));
+    value.ok_or_else(|| quantity.allowed())
+}
+
 /// A file from the folder of the scene's file `name` on.
 pub fn beside(name: &str, text: &str) -> PathBuf {
     Path::new(name).parent().unwrap_or(Path::new("")).join(text)
@@ -98,26 +120,24 @@ pub fn beside(name: &str, text: &str) -> PathBuf {
 
 impl Histogram {
     fn options(&self) -> Result<Options, SceneError> {
-        let mut options = Options {
-            header_line: self.header_line,
-            skip: self.skip,
-            ..Options::default()
-        };
-        let stored = self.write();
-        for entry in stored.entries().iter().filter(|entry| entry.key != "file") {
-            if let Some(text) = entry.value.content.as_text() {
-                let (key, found) = (format!("{KEY}.{}", entry.key), format!("\"{text}\""));
-                let set = options.set(&entry.key, text);
-                set.map_err(|why| SceneError::value(&key, found, why))?;
-            }
+        let mut options = Options::default();
+        for entry in self.write().entries().iter().filter(|entry| entry.key != "file") {
+            let text = match &entry.value.content {
+                Content::Whole(number) => number.to_string(),
+                content => content.as_text().unwrap_or_default().to_owned(),
+            };
+            let wrong = |why| SceneError::value(&format!("{KEY}.{}", entry.key), format!("\"{text}\""), why);
+            options.set(&entry.key, &text).map_err(wrong)?;
         }
         Ok(options)
     }
 
-    /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\]; `scene` is the file that names it.
+    /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\];
+    /// `scene` is the file that names it.
     pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
-        let options = self.options()?;
-        classes(&beside(scene, &self.file), &options, speed).map_err(|error| match error {
+        let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
+        let classes = table.and_then(|table| classes(table, speed));
+        classes.map_err(|error| match error {
             TableError::Line {
                 file,
                 line,
@@ -126,30 +146,28 @@ impl Histogram {
             } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
             error => {
                 let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
-                SceneError::value(KEY, format!("{error}{why}"), NAMES.allowed)
+                SceneError::value(KEY, format!("{error}{why}"), LAYOUT.allowed)
             }
         })
     }
 }
 
-fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehicle>, TableError> {
-    let mut table = Table::from_file(file, options, &NAMES)?;
+fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableError> {
     let [count, share, load, radius] = [COUNT, SHARE, LOAD, RADIUS].map(|kind| table.one(kind));
-    let missing = |kind: Kind| table.missing(kind.name(), NAMES.allowed);
-    let count = count?
-        .map_or(share, |count| Ok(Some(count)))?
-        .ok_or_else(|| missing(COUNT))?;
-    let (load, radius) = (load?.ok_or_else(|| missing(LOAD))?, radius?);
-    let columns: Vec<usize> = [Some(count), Some(load), radius].into_iter().flatten().collect();
-    table.decide(&columns)?;
+    let (count, load, radius) = (count?.map_or(share, |count| Ok(Some(count)))?, load?, radius?);
+    let (Some(count), Some(load)) = (count, load) else {
+        return Ok(Vec::new());
+    };
+    // Axles and shares are numbers, whatever the header says of them.
+    table.names[count].unit = None;
     let is_sum = |row: &&Row| {
         let label = row.cells.iter().find(|cell| !cell.is_empty());
-        label.is_some_and(|label| NAMES.name(label, options).has(TOTAL))
+        label.is_some_and(|label| LAYOUT.name(label, &Options::default()).has(TOTAL))
     };
     let rows: Vec<&Row> = table.rows.iter().filter(|row| !is_sum(row)).collect();
     let is_percent = |row: &&&Row| row.cell(count).contains('%');
     let bare = rows.iter().find(|row| !is_percent(row));
-    if let (Some(row), Some(_)) = (bare, rows.iter().find(is_percent)) {
+    if let (Some(row), true) = (bare, rows.iter().any(|row| is_percent(&row))) {
         let found = format!("count: found \"{}\" beside others in %", row.cell(count));
         return Err(table.wrong(row.line, found, "all in %, or none"));
     }
@@ -158,9 +176,9 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
     let mut axles: Vec<TrafficVehicle> = Vec::new();
     let mut heaviest: Option<(f64, &Row)> = None;
     for row in rows {
-        let of = |column, kind, quantity| si(&table, row, column, kind, quantity);
-        let (share, force) = (of(count, COUNT, AXLE_COUNT)?, of(load, LOAD, AXLE_LOAD)?);
-        let contact_radius = radius.map_or(Ok(0.0), |column| of(column, RADIUS, CONTACT_RADIUS))?;
+        let value = |column| table.value(row, column, column);
+        let (share, force) = (value(count)?, value(load)?);
+        let contact_radius = radius.map_or(Ok(0.0), value)?;
         // Classes that nothing was counted in are common.
         if share == 0.0 {
             continue;
@@ -177,13 +195,13 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
         axles.push(TrafficVehicle { share, ..vehicle });
     }
     let Some((force, row)) = heaviest else {
-        return Err(table.wrong(table.line, "no row with axles below the names", NAMES.allowed));
+        return Err(table.wrong(table.line, "no row with axles below the names", LAYOUT.allowed));
     };
     if axles.len() > MOST {
         let found = format!("{} classes", axles.len());
         return Err(table.wrong(table.line, found, format!("at most {MOST} classes of axles")));
     }
-    match table.quantity(row, load) {
+    match table.quantity(row, load, load)? {
         Some((cell, "")) if force < LIGHTEST => {
             let found = format!("load: found \"{cell}\", in N, as the heaviest axle");
             let allowed = format!("a load with its unit, such as \"{cell} kN\", or a column \"load [kN]\"");
@@ -191,21 +209,4 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
         }
         _ => Ok(axles),
     }
-}
-
-/// A cell in SI, in its unit or that of its column; a count is of any unit.
-fn si(table: &Table, row: &Row, column: usize, kind: Kind, quantity: Quantity) -> Result<f64, TableError> {
-    let is_count = |unit: &str| matches!(unit, "" | "%") || Some(unit) == table.names[column].unit.as_deref();
-    let found = table.number(row, column)?.and(table.quantity(row, column));
-    let value = match (found, quantity.dimension) {
-        (Some((digits, unit)), None) if is_count(unit) => digits.parse().ok(),
-        (Some((digits, "")), _) => digits.parse().ok(),
-        (Some((digits, unit)), Some(dimension)) => {
-            dimension.in_table(&digits, of_weight(unit).unwrap_or(unit))
-        }
-        _ => None,
-    };
-    let value = value.filter(|value| quantity.contains(*value));
-    let found = || format!("{}: found \"{}\"", kind.name(), table.written(row, column));
-    value.ok_or_else(|| table.wrong(row.line, found(), quantity.allowed()))
 }

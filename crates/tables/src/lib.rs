@@ -1,20 +1,20 @@
 #![doc = include_str!("../README.md")]
 
+mod column;
 mod error;
-mod grid;
-mod name;
 mod number;
 mod options;
+mod rows;
 mod table;
 mod text;
 #[cfg(feature = "xlsx")]
 mod workbook;
 
+pub use column::{Kind, Layout, Name};
 pub use error::TableError;
-pub use grid::Row;
-pub use name::{Kind, Name, Names};
-pub use number::Number;
+pub use number::is_no_value;
 pub use options::Options;
+pub use rows::Row;
 pub use table::Table;
 
 /// Longest text that a message repeats \[characters\].

@@ -6,62 +6,33 @@ const NO_VALUES: &str = "nan|na|n/a|n.a.|null|none|nil|-|--|---|?|inf|+inf|-inf|
                          #value!|#wert!|#div/0!|#num!|#zahl!|#ref!|#bezug!|#n/a|#nv|#name?|#null!|#####|1.#qnan|1.#ind|\
                          -1.#ind|1.#inf|-1.#inf|欠測";
 
-/// Whether the cell says that there is no value.
+/// Whether the text of a cell stands for no value, as `NaN` and `#N/A` do.
 pub fn is_no_value(text: &str) -> bool {
     let text = text.to_lowercase();
     NO_VALUES.split('|').any(|word| word == text)
 }
 
-/// Whether the cell is a bare number in some notation.
-pub fn is_number(text: &str) -> bool {
-    ['.', ',']
-        .into_iter()
-        .any(|decimal| number(text, decimal).is_some_and(|number| number.unit.is_empty()))
-}
-
-/// A finite number.
-#[derive(Debug, PartialEq)]
-pub struct Number<'c> {
-    /// Its value.
-    pub value: f64,
-    /// Its digits with a decimal point and nothing between thousands.
-    pub digits: String,
-    /// What follows it: a unit, or nothing.
-    pub unit: &'c str,
-}
-
-/// The number in `text`, where this sign stands before the decimals.
-pub fn number(text: &str, decimal: char) -> Option<Number<'_>> {
+/// The number at the beginning of `text`, where this sign stands before the decimals: its digits as
+/// a program writes them, and what follows, a unit or nothing. `None` where none is there or finite.
+pub fn number(text: &str, decimal: char) -> Option<(String, &str)> {
     let text = text.trim_start_matches('\'');
-    let written = written(text);
-    let digits = plain(written, decimal)?;
-    let value: f64 = digits.parse().ok()?;
-    let unit = text[written.len()..].trim();
-    value.is_finite().then_some(Number { value, digits, unit })
-}
-
-/// The cell read with a decimal point, and with a decimal comma: where both are numbers and differ, it may be either.
-pub fn both(cell: &str) -> [Option<f64>; 2] {
-    ['.', ','].map(|decimal| number(cell, decimal).map(|number| number.value))
-}
-
-/// The digits and signs at the beginning of a text.
-fn written(text: &str) -> &str {
     let part = |c: char| c.is_ascii_digit() || "+-−.,'’eE".contains(c) || c.is_whitespace();
     let end = text.find(|c: char| !part(c)).unwrap_or(text.len());
-    let digits = match text[..end].rsplit_once(char::is_whitespace) {
+    let written = match text[..end].rsplit_once(char::is_whitespace) {
         // As in 1/K.
         Some((digits, "1")) if text[end..].starts_with('/') => digits,
         _ => &text[..end],
     };
-    digits.trim_end_matches(|c: char| !c.is_ascii_digit() && !".,".contains(c))
+    let written = written.trim_end_matches(|c: char| !c.is_ascii_digit() && !".,".contains(c));
+    let digits = plain(written, decimal)?;
+    let is_finite = digits.parse().is_ok_and(f64::is_finite);
+    is_finite.then(|| (digits, text[written.len()..].trim()))
 }
 
-/// The digits as a program reads them, without the one sign between groups of three; the first group begins with no zero.
+/// The digits without the one sign between groups of three, the first of which begins with no zero.
 fn plain(digits: &str, decimal: char) -> Option<String> {
     let digits = digits.replace('−', "-");
-    let whole = digits.split(decimal).next()?;
-    let rest = digits[whole.len()..].replacen(decimal, ".", 1);
+    let (whole, decimals) = digits.split_at(digits.find(decimal).unwrap_or(digits.len()));
     let is_mark = |c: char| ".,'’".contains(c) || (c.is_whitespace() && c != '\t');
     let is_three = |group: &str| group.len() == 3 && group.bytes().all(|byte| byte.is_ascii_digit());
     let is_grouped = |mark: char| {
@@ -70,7 +41,12 @@ fn plain(digits: &str, decimal: char) -> Option<String> {
         (1..=3).contains(&first.len()) && !first.starts_with('0') && groups.all(is_three)
     };
     let is_number = whole.chars().find(|&c| is_mark(c)).is_none_or(is_grouped);
-    is_number.then(|| whole.replace(is_mark, "") + &rest)
+    is_number.then(|| whole.replace(is_mark, "") + &decimals.replacen(decimal, ".", 1))
+}
+
+/// The cell read with a decimal point and with a decimal comma: where they differ, it may be either.
+pub fn both(cell: &str) -> [Option<f64>; 2] {
+    ['.', ','].map(|decimal| number(cell, decimal)?.0.parse().ok())
 }
 
 #[cfg(test)]
@@ -97,8 +73,8 @@ mod tests {
             ("5.", point, 5.0, ""),
             (".5", point, 0.5, ""),
         ] {
-            let found = number(text, decimal).map(|number| (number.value, number.unit));
-            assert_eq!(found, Some((value, unit)), "{text}");
+            let found = number(text, decimal).map(|(digits, unit)| (digits.parse(), unit));
+            assert_eq!(found, Some((Ok(value), unit)), "{text}");
         }
         for text in [
             "", "N", "1,23.4", "12,3456", "1.2.3", "--1", "1e999", "1 2", "1234,567",

@@ -17,57 +17,57 @@ pub struct Options {
     pub skip: Option<u64>,
     /// Sheet of a workbook; the first that holds anything if omitted.
     pub sheet: Option<String>,
-    /// Unit of the columns of [`Names::measured`](crate::Names::measured), whatever the file says.
+    /// Unit of the columns of [`measured`](crate::Layout::measured), whatever the file says.
     pub unit: Option<String>,
-    /// Columns by their names: the kind, such as `force`, and the name in the header, whatever its case.
+    /// Columns by their names: the kind, such as `force`, and the name in the header in any case.
     pub columns: Vec<(String, String)>,
 }
 
 /// Signs by their words.
-const SIGNS: [(char, &str); 6] = [
-    (';', "semicolon"),
-    ('\t', "tab"),
-    (',', "comma"),
-    (' ', "space"),
-    ('|', "bar"),
-    ('.', "point"),
+const SIGNS: [(&str, &str); 6] = [
+    (";", "semicolon"),
+    ("\t", "tab"),
+    (",", "comma"),
+    (" ", "space"),
+    ("|", "bar"),
+    (".", "point"),
 ];
 
-/// The sign in words, as what stands between cells.
-pub fn in_words(sign: char) -> String {
-    let word = SIGNS.iter().find(|(other, _)| *other == sign);
-    word.map_or_else(|| format!("\"{sign}\""), |(_, word)| format!("{word}s"))
+/// The word for a sign.
+pub fn word(sign: char) -> String {
+    let word = SIGNS.iter().find(|(other, _)| other.starts_with(sign));
+    word.map_or_else(|| format!("\"{sign}\""), |(_, word)| (*word).to_owned())
 }
 
 impl Options {
-    /// Sets the option of this name: `separator`, `decimal`, `encoding`, `header_line`, `skip`, `sheet`, `unit`, or `column_` and a kind.
+    /// Sets the option of this name: that of a field, or `column_` and a kind.
     ///
     /// # Errors
     ///
     /// What was found and what is allowed.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), String> {
-        let of = |allowed: &str| format!("found `{text}`; allowed: {allowed}");
+        let wrong = |allowed: &str| format!("found `{text}`; allowed: {allowed}");
         let sign = |among: &str, allowed: &str| {
-            let is_meant = |(sign, word): &&(char, &str)| {
-                among.contains(*sign) && (text == *word || text.replace("\\t", "\t") == sign.to_string())
-            };
-            let found = SIGNS.iter().find(is_meant).map(|(sign, _)| *sign);
-            found.ok_or_else(|| of(allowed)).map(Some)
+            let typed = text.replace("\\t", "\t");
+            let mut signs = SIGNS.iter().filter(|(sign, _)| among.contains(sign));
+            let found = signs.find(|(sign, word)| [*sign, *word].contains(&&*typed));
+            let sign = found.and_then(|(sign, _)| sign.chars().next());
+            sign.map(Some).ok_or_else(|| wrong(allowed))
         };
-        let whole = || text.parse().map_err(|_| of("a whole number")).map(Some);
+        let whole = || text.parse().map(Some).map_err(|_| wrong("a whole number"));
         match name {
             "separator" => {
                 self.separator = sign(";\t, |", "comma, semicolon, tab, space, or one of , ; |")?;
             }
             "decimal" => self.decimal = sign(".,", "point, comma, or one of . ,")?,
             "encoding" => {
-                let label = match &*text.to_ascii_lowercase() {
-                    "latin-1" => "latin1",
-                    "cp932" => "shift_jis",
-                    _ => text,
-                };
+                let label = text
+                    .to_ascii_lowercase()
+                    .replace("latin-", "latin")
+                    .replace("cp932", "sjis");
+                let encoding = Encoding::for_label(label.as_bytes()).map(Some);
                 let allowed = "utf-8, utf-16, latin-1, shift_jis, or another name of the Encoding Standard";
-                self.encoding = Some(Encoding::for_label(label.as_bytes()).ok_or_else(|| of(allowed))?);
+                self.encoding = encoding.ok_or_else(|| wrong(allowed))?;
             }
             "header_line" => self.header_line = whole()?,
             "skip" => self.skip = whole()?,

@@ -2,13 +2,14 @@
 
 use std::fs::File;
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 
-use crate::error::TableError;
-use crate::grid::{self, Grid, Row};
-use crate::name::{Kind, Name, Names, is_same};
-use crate::number::{Number, both, is_no_value, is_number, number};
-use crate::options::{Options, in_words};
+use crate::column::{Kind, Layout, Name, is_same};
+use crate::error::{Result, TableError};
+use crate::number::{both, number};
+use crate::options::{Options, word};
+use crate::rows::{self, Row};
 use crate::{LONGEST, PREAMBLE, shortened, text};
 
 /// A table: names of its columns and the rows below them.
@@ -22,11 +23,10 @@ pub struct Table {
     pub names: Vec<Name>,
     /// Rows of data.
     pub rows: Vec<Row>,
+    layout: &'static Layout,
     /// What stands between cells, a space for any number of them; `None` in a workbook.
-    pub separator: Option<char>,
-    /// What is said of the decimal sign, and that of each column that was decided.
-    decimal: Option<char>,
-    decimals: Vec<Option<char>>,
+    separator: Option<char>,
+    /// Other sheets of the workbook.
     sheets: Vec<String>,
 }
 
@@ -36,125 +36,149 @@ impl Table {
     /// # Errors
     ///
     /// As for [`Table::read`]; [`TableError::Unreadable`].
-    pub fn from_file(path: &Path, options: &Options, names: &Names) -> Result<Self, TableError> {
+    pub fn from_file(path: &Path, options: &Options, layout: &'static Layout) -> Result<Self> {
         let file = path.display().to_string();
         let mut bytes = Vec::new();
         // One byte more tells a file that is too large, without all of it.
-        let read = File::open(path).and_then(|open| open.take(names.most + 1).read_to_end(&mut bytes));
+        let read = File::open(path).and_then(|open| open.take(layout.most + 1).read_to_end(&mut bytes));
         match read {
-            Ok(_) => Self::read(&file, &bytes, options, names),
+            Ok(_) => Self::read(&file, &bytes, options, layout),
             Err(source) => Err(TableError::Unreadable(file, source)),
         }
     }
 
-    /// Reads a text or a workbook from `bytes`; `file` stands for it in errors. Where no row is recognised as the header, the names are those
-    /// of the row with the most words, or [`Names::unnamed`] where the first row holds numbers.
+    /// Reads a text or a workbook from `bytes`; `file` stands for it in errors.
     ///
     /// # Errors
     ///
-    /// [`TableError`] with the first thing that is wrong, and its line.
-    pub fn read(file: &str, bytes: &[u8], options: &Options, names: &Names) -> Result<Self, TableError> {
-        if bytes.len() as u64 > names.most {
-            let (file, allowed) = (file.to_owned(), names.most);
+    /// [`TableError`] with the first thing that is wrong: a column that is missing, a row of another length.
+    pub fn read(file: &str, bytes: &[u8], options: &Options, layout: &'static Layout) -> Result<Self> {
+        let (file, allowed) = (file.to_owned(), layout.most);
+        if bytes.len() as u64 > allowed {
             return Err(TableError::TooLarge { file, allowed });
         }
-        let grid = grid(file, bytes, options)?;
-        let Some(first) = grid.rows.first() else {
-            return Err(TableError::Empty(file.to_owned()));
+        let (rows, separator, sheets) = rows_of(&file, bytes, options)?;
+        let Some(first) = rows.first() else {
+            return Err(TableError::Empty(file));
         };
-        let (line, is_toa5) = (first.line, first.cell(0) == "TOA5");
+        let (line, names) = (first.line, Vec::new());
         let mut table = Self {
-            file: file.to_owned(),
+            file,
             line,
-            names: Vec::new(),
-            rows: grid.rows,
-            separator: grid.separator,
-            decimal: options.decimal.or(grid.separator.is_none().then_some('.')),
-            decimals: Vec::new(),
-            sheets: grid.sheets,
+            names,
+            rows,
+            layout,
+            separator,
+            sheets,
         };
-        let has_units = table.take_header(options, names)? && table.take_units(names);
-        // The row of units is one of those that are skipped.
-        let said = options.skip.map(|skip| skip.saturating_sub(u64::from(has_units)));
-        let skipped = said.unwrap_or(u64::from(has_units && is_toa5)) as usize;
-        table.rows.drain(..skipped.min(table.rows.len()));
-        let is_there = |name: &str| table.names.iter().any(|other| is_same(&other.text, name));
-        match options.columns.iter().find(|(_, name)| !is_there(name)) {
-            Some((_, name)) => Err(table.missing(name, names.allowed)),
-            None => Ok(table),
-        }
+        table.take_header(options)?;
+        table.check_columns(options)?;
+        table.find_decimal_signs(options.decimal);
+        Ok(table)
     }
 
-    /// Takes the names from the line that was said, else from the first row that is recognised, else from that with the most words. Where
-    /// cells of it are merged, the row below says more. Whether there are names: not where the first row holds numbers.
-    fn take_header(&mut self, options: &Options, names: &Names) -> Result<bool, TableError> {
+    /// Takes the names from the header, and the units from the row below if it holds them.
+    fn take_header(&mut self, options: &Options) -> Result<()> {
+        let (layout, is_toa5) = (self.layout, self.rows[0].cell(0) == "TOA5");
+        let header = self.header(options)?;
+        let mut names = layout.names(&self.rows[header.clone()], options);
+        let is_unit = |cell: &String| (layout.unit)(unit_in(cell)).is_some();
+        let below = self.rows.get(header.end).filter(|row| row.is_words());
+        let units = below.filter(|row| row.cells.iter().any(is_unit));
+        for (name, cell) in names.iter_mut().zip(units.iter().flat_map(|row| &row.cells)) {
+            let unit = Some(unit_in(cell)).filter(|unit| !matches!(*unit, "" | "-"));
+            name.unit = name.unit.take().or(unit.map(str::to_owned));
+        }
+        // The row of units is one of those that are skipped; a logger of Campbell's has one more.
+        let few = usize::from(units.is_some());
+        let recognised = if is_toa5 { 2 * few } else { few };
+        let skipped = options.skip.map_or(recognised, |skip| few.max(skip as usize));
+        (self.line, self.names) = (self.rows[header.start].line, names);
+        self.rows.drain(..self.rows.len().min(header.end + skipped));
+        Ok(())
+    }
+
+    /// The rows of the header: at the line that was said, else the first that is recognised, else
+    /// the one with the most words; where cells are merged, with the row below. Where the first row
+    /// holds numbers, [`Layout::unnamed`] is put above.
+    fn header(&mut self, options: &Options) -> Result<Range<usize>> {
         let rows = &self.rows;
-        let below = |place: usize| {
-            let row = rows.get(place + 1).filter(|row| row.is_words());
-            row.filter(|_| rows[place].merged)
+        let joined = |place: usize| {
+            let is_joined = rows[place].is_merged && rows.get(place + 1).is_some_and(Row::is_words);
+            place..place + 1 + usize::from(is_joined)
         };
-        let read = |place: usize, below: Option<&Row>| {
-            let lower = |column| below.map_or("", |below| below.cell(column));
-            let cell = |column| format!("{} {}", rows[place].cell(column), lower(column));
-            let columns = 0..rows[place].cells.len();
-            let mut found: Vec<Name> = columns.map(|column| names.name(&cell(column), options)).collect();
-            // Excel writes columns that were used once.
-            while found.pop_if(|name| name.text.is_empty()).is_some() {}
-            found
+        if let Some(line) = options.header_line {
+            let wrong = || self.wrong(line, "nothing", "a line with the names of the columns");
+            let place = rows.iter().position(|row| row.line == line);
+            return place.map(joined).ok_or_else(wrong);
+        }
+        let places = 0..rows.len().min(PREAMBLE);
+        let is_header = |rows: &Range<usize>| {
+            (self.layout.missing)(&self.layout.names(&self.rows[rows.clone()], options)).is_none()
         };
-        let places = || 0..rows.len().min(PREAMBLE);
-        let recognised = || {
-            let alone = places().find(|&place| (names.is_header)(&read(place, None)));
-            alone.or_else(|| places().find(|&place| (names.is_header)(&read(place, below(place)))))
-        };
-        let likely = || {
-            let is_word = |cell: &&String| cell.starts_with(char::is_alphabetic);
-            let words = |place: usize| rows[place].cells.iter().filter(is_word).count();
-            let numbers = rows[0].cells.iter().take(2).filter(|cell| is_number(cell));
-            let place = places().max_by_key(|&place| (words(place), place));
-            place.filter(|_| numbers.count() < 2)
-        };
-        let place = match options.header_line {
-            None => recognised().or_else(likely),
-            Some(line) => {
-                let nothing = || self.wrong(line, "nothing", "a line with the names of the columns");
-                let place = rows.iter().position(|row| row.line == line);
-                Some(place.ok_or_else(nothing)?)
-            }
-        };
-        let Some(place) = place else {
-            let unnamed = names.unnamed.iter().take(rows[0].cells.len());
-            self.names = unnamed.map(|name| names.name(name, options)).collect();
-            return Ok(false);
-        };
-        let found = read(place, below(place));
-        let end = place + 1 + usize::from(below(place).is_some());
-        (self.line, self.names) = (rows[place].line, found);
-        self.rows.drain(..end);
-        Ok(true)
+        let mut alone = places.clone().map(|place| place..place + 1);
+        if let Some(found) = alone
+            .find(is_header)
+            .or_else(|| places.clone().map(joined).find(is_header))
+        {
+            return Ok(joined(found.start));
+        }
+        if !rows[0].is_numbers() {
+            return Ok(joined(
+                places.max_by_key(|&place| rows[place].words()).unwrap_or(0),
+            ));
+        }
+        let names = self.layout.unnamed.iter().take(rows[0].cells.len());
+        let cells = names.map(|&name| name.to_owned()).collect();
+        self.rows.insert(
+            0,
+            Row {
+                cells,
+                ..rows[0].clone()
+            },
+        );
+        Ok(0..1)
     }
 
-    /// Takes the units from the first row, if that is what it holds: no number, and a unit at least.
-    fn take_units(&mut self, names: &Names) -> bool {
-        let bare = |cell: &String| cell.trim_matches(|c| "~[]() ".contains(c)).to_owned();
-        let row = self.rows.first().filter(|row| row.is_words());
-        let units: Vec<String> = row
-            .into_iter()
-            .flat_map(|row| row.cells.iter().map(bare))
-            .collect();
-        let has_units = units.iter().any(|cell| (names.unit)(cell).is_some());
-        if has_units {
-            self.rows.remove(0);
-            for (name, unit) in self
-                .names
-                .iter_mut()
-                .zip(units)
-                .filter(|(_, unit)| !unit.is_empty() && unit != "-")
-            {
-                name.unit.get_or_insert(unit);
+    /// Makes sure that the columns are there, and rows as long as the header.
+    fn check_columns(&self, options: &Options) -> Result<()> {
+        let is_missing = |name: &&String| !self.names.iter().any(|other| is_same(&other.text, name));
+        let chosen = options.columns.iter().map(|(_, name)| name).find(is_missing);
+        // Without kinds any column may be there.
+        let needed = (self.layout.missing)(&self.names).filter(|_| !self.layout.kinds.is_empty());
+        if let Some(column) = chosen.map(String::as_str).or(needed) {
+            return Err(self.missing(column));
+        }
+        let width = self.names.len();
+        for row in self.rows.iter().filter(|_| width > 0) {
+            let is_long = row.cells.iter().skip(width).any(|cell| !cell.is_empty());
+            if is_long || (row.cells.len() < width && self.separator.is_some()) {
+                let found = format!("{} cells where the first row has {width}", row.cells.len());
+                let allowed = "as many: a decimal comma in a file separated by commas makes two of one; put it in quotes, or separate by semicolons";
+                return Err(self.wrong(row.line, found, allowed));
             }
         }
-        has_units
+        Ok(())
+    }
+
+    /// Finds the decimal sign of each column: by a cell that can be read in one way only, else as in
+    /// another column.
+    fn find_decimal_signs(&mut self, said: Option<char>) {
+        let said = said.or(self.separator.is_none().then_some('.'));
+        let certain = |row: &Row, column: usize| match both(row.cell(column)) {
+            [Some(_), None] => Some('.'),
+            [None, Some(_)] => Some(','),
+            _ => None,
+        };
+        for (column, name) in self.names.iter_mut().enumerate() {
+            let is_number = (self.layout.is_number)(name);
+            let mut rows = self.rows.iter().filter(|_| is_number);
+            name.decimal = said.or_else(|| rows.find_map(|row| certain(row, column)));
+        }
+        let any = self.names.iter().find_map(|name| name.decimal);
+        for name in &mut self.names {
+            name.decimal = name.decimal.or(any);
+        }
     }
 
     /// What is wrong in a line of it.
@@ -168,17 +192,30 @@ impl Table {
         }
     }
 
+    /// That a column is missing, what there is, and what may be the cause.
+    fn missing(&self, column: &str) -> TableError {
+        let names = self.names.iter().map(|name| &*name.text);
+        let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+        let listed = shortened(&names.join(" | "), LONGEST);
+        let separated = |sign| format!("separated by {}s", word(sign));
+        let read_as = self.separator.map_or_else(|| "a workbook".to_owned(), separated);
+        // One name that another separator would cut.
+        let cuts = |sign: &char| matches!(names[..], [only] if only.contains(*sign));
+        let looks = [';', '\t', ',', ' '].into_iter().find(cuts).map(separated);
+        let looks = looks.map_or_else(String::new, |separated| format!("; it looks {separated}"));
+        let sheets = format!("; other sheets: {}", self.sheets.join(", "));
+        let sheets = if self.sheets.is_empty() { "" } else { &sheets };
+        let found = format!("no column {column} in \"{listed}\" (read as {read_as}{looks}{sheets})");
+        self.wrong(self.line, found, self.layout.allowed)
+    }
+
     /// The columns of a kind: those that were chosen or that its own program writes, if any.
     pub fn of(&self, kind: Kind) -> Vec<usize> {
-        let columns = |is: fn(&Name) -> bool| {
-            let names = self.names.iter().enumerate();
-            names
-                .filter(|(_, name)| name.kind == Some(kind) && is(name))
-                .map(|(column, _)| column)
-                .collect()
-        };
-        let own: Vec<usize> = columns(Name::is_own);
-        if own.is_empty() { columns(|_| true) } else { own }
+        let of_kind = |&column: &usize| self.names[column].kind == Some(kind);
+        let all: Vec<usize> = (0..self.names.len()).filter(of_kind).collect();
+        let is_own = |column: &usize| self.names[*column].is_own();
+        let own: Vec<usize> = all.iter().copied().filter(is_own).collect();
+        if own.is_empty() { all } else { own }
     }
 
     /// The only column of a kind, if there is one.
@@ -186,162 +223,92 @@ impl Table {
     /// # Errors
     ///
     /// [`TableError::Line`] where there are two.
-    pub fn one(&self, kind: Kind) -> Result<Option<usize>, TableError> {
+    pub fn one(&self, kind: Kind) -> Result<Option<usize>> {
         let columns = self.of(kind);
-        match columns.get(1) {
-            None => Ok(columns.first().copied()),
-            Some(&second) => {
-                let found = format!("a second column {}", self.name(second));
-                let allowed = format!("one column of its kind: --column-{} chooses it", kind.name());
-                Err(self.wrong(self.line, found, allowed))
-            }
-        }
+        let Some(&second) = columns.get(1) else {
+            return Ok(columns.first().copied());
+        };
+        let found = format!("a second column {}", self.names[second].text);
+        let allowed = format!("one column of its kind: --column-{} chooses it", kind.name());
+        Err(self.wrong(self.line, found, allowed))
     }
 
-    /// That a column is missing, what there is, and what may be the cause.
-    pub fn missing(&self, column: &str, allowed: &str) -> TableError {
-        let names = self.names.iter().map(|name| &*name.text);
-        let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-        let read_as = self.separator.map_or_else(|| "a workbook".into(), in_words);
-        // One name that another separator would cut.
-        let cuts = |sign: &char| matches!(names[..], [only] if only.contains(*sign));
-        let other = [';', '\t', ',', ' '].into_iter().find(cuts);
-        let looks = other.map(|sign| format!("; it looks separated by {}", in_words(sign)));
-        let sheets = format!("; other sheets: {}", self.sheets.join(", "));
-        let sheets = if self.sheets.is_empty() { "" } else { &sheets };
-        let cause = looks.unwrap_or_default();
-        let names = shortened(&names.join(" | "), LONGEST);
-        let found =
-            format!("no column {column} in \"{names}\" (read as separated by {read_as}{cause}{sheets})");
-        self.wrong(self.line, found, allowed)
-    }
-
-    /// Makes sure that rows are as long as the header, and finds the decimal signs of these `columns`: by a cell of the column that can be read
-    /// in one way only, else by one of the others.
+    /// The digits of the number in a cell, with a decimal point, and its unit, or that of the column
+    /// `like` if it has none. `None` where there is no number.
     ///
     /// # Errors
     ///
-    /// [`TableError::Line`] at a row with more or fewer cells than the header, or a number that can be read in two ways where no other cell
-    /// decides.
-    pub fn decide(&mut self, columns: &[usize]) -> Result<(), TableError> {
-        let width = self.names.len();
-        let fits = |row: &Row| {
-            let beyond = row.cells.iter().skip(width).any(|cell| !cell.is_empty());
-            !beyond && (row.cells.len() >= width || self.separator.is_none())
-        };
-        if let Some(row) = self.rows.iter().find(|row| width > 0 && !fits(row)) {
-            let found = format!("{} cells where the first row has {width}", row.cells.len());
-            let allowed = "as many: a decimal comma in a file separated by commas makes two of one; put it in quotes, or separate by semicolons";
+    /// [`TableError::Line`] for a number that can be read in two ways where no other cell decides.
+    pub fn quantity<'t>(
+        &'t self,
+        row: &'t Row,
+        column: usize,
+        like: usize,
+    ) -> Result<Option<(String, &'t str)>> {
+        let (cell, name) = (row.cell(column), &self.names[column]);
+        // Between commas a point stands before decimals.
+        let is_point = self.separator == Some(',') && cell.contains('.');
+        if let (None, false, [Some(a), Some(b)]) = (name.decimal, is_point, both(cell))
+            && a != b
+        {
+            let (cell, least, most) = (shortened(cell, LONGEST), a.min(b), a.max(b));
+            let found = format!("{}: found \"{cell}\", {least} or {most}", name.text);
+            let allowed =
+                "either: --decimal comma or --decimal point says which sign stands before the decimals";
             return Err(self.wrong(row.line, found, allowed));
         }
-        let certain = |&column: &usize| {
-            self.rows.iter().find_map(|row| match both(row.cell(column)) {
-                [Some(_), None] => Some('.'),
-                [None, Some(_)] => Some(','),
-                _ => None,
-            })
-        };
-        let own: Vec<Option<char>> = columns
-            .iter()
-            .map(|column| self.decimal.or_else(|| certain(column)))
-            .collect();
-        let any = own.iter().flatten().next().copied();
-        let mut decimals = vec![None; width];
-        for (&column, own) in columns.iter().zip(own) {
-            decimals[column] = own.or(any);
-            for row in self.rows.iter().filter(|_| decimals[column].is_none()) {
-                let cell = row.cell(column);
-                // Between commas a point stands before decimals.
-                let is_point = self.separator == Some(',') && cell.contains('.');
-                let [Some(a), Some(b)] = both(cell) else { continue };
-                if a != b && !is_point {
-                    let (name, cell) = (self.name(column), shortened(cell, LONGEST));
-                    let found = format!("{name}: found \"{cell}\", {} or {}", a.min(b), a.max(b));
-                    let allowed = "either: --decimal comma or --decimal point says which sign stands before the decimals";
-                    return Err(self.wrong(row.line, found, allowed));
-                }
-            }
-        }
-        self.decimals = decimals;
-        Ok(())
+        let of_column = self.names[like].unit.as_deref().unwrap_or_default();
+        let number = number(cell, name.decimal.unwrap_or('.'));
+        Ok(number.map(|(digits, unit)| (digits, if unit.is_empty() { of_column } else { unit })))
     }
 
-    fn name(&self, column: usize) -> &str {
-        self.names.get(column).map_or("", |name| &name.text)
-    }
-
-    fn decimal(&self, column: usize) -> char {
-        let decided = self.decimals.get(column).copied().flatten();
-        decided.or(self.decimal).unwrap_or('.')
-    }
-
-    /// The number in the cell of `row` in `column`; `None` where nothing or a word for no value stands there.
+    /// The value in SI in a cell, of the kind of the column `like` and in its unit.
     ///
     /// # Errors
     ///
-    /// [`TableError::Line`] for any other text.
-    pub fn number<'r>(&self, row: &'r Row, column: usize) -> Result<Option<Number<'r>>, TableError> {
-        let cell = row.cell(column);
-        if cell.is_empty() || is_no_value(cell) {
-            return Ok(None);
-        }
-        let number = number(cell, self.decimal(column));
-        number
-            .map(Some)
-            .ok_or_else(|| self.wrong_cell(row, column, "a finite number"))
-    }
-
-    /// The digits of the number in the cell of `row` in `column`, with a decimal point, and its unit, or that of the column if it has none.
-    pub fn quantity<'t>(&'t self, row: &'t Row, column: usize) -> Option<(String, &'t str)> {
-        let number = number(row.cell(column), self.decimal(column))?;
-        let of_column = self.names.get(column).and_then(|name| name.unit.as_deref());
-        let unit = if number.unit.is_empty() {
-            of_column.unwrap_or("")
-        } else {
-            number.unit
-        };
-        Some((number.digits, unit))
-    }
-
-    /// The same as one text, or what else the cell holds.
-    pub fn written(&self, row: &Row, column: usize) -> String {
-        let quantity = self
-            .quantity(row, column)
-            .map(|(digits, unit)| format!("{digits} {unit}"));
-        quantity.map_or_else(|| row.cell(column).to_owned(), |text| text.trim_end().to_owned())
+    /// [`TableError::Line`] for what is no such value, and as for [`Table::quantity`].
+    pub fn value(&self, row: &Row, column: usize, like: usize) -> Result<f64> {
+        let (digits, unit) = self.quantity(row, column, like)?.unwrap_or_default();
+        let kind = self.names[like].kind.unwrap_or(Kind(""));
+        let value = (self.layout.si)(kind, &digits, unit);
+        value.map_err(|allowed| self.wrong_cell(row, column, allowed))
     }
 
     /// That the cell of `row` in `column` does not hold what is `allowed`.
     pub fn wrong_cell(&self, row: &Row, column: usize, allowed: impl Into<String>) -> TableError {
-        let cell = shortened(row.cell(column), LONGEST);
-        let decimal = self.decimal(column);
+        let name = &self.names[column];
+        let (cell, decimal) = (row.cell(column), name.decimal.unwrap_or('.'));
         let is = |text: &str, decimal| number(text, decimal).is_some();
         let ends = cell.split_once(['-', '–']);
         let cause = match decimal {
             _ if ends.is_some_and(|(from, to)| is(from, decimal) && is(to, decimal)) => {
                 ", a range in place of one number"
             }
-            '.' if cell.contains(',') && is(&cell, ',') => {
+            '.' if cell.contains(',') && is(cell, ',') => {
                 ", a decimal comma where other numbers have a point"
             }
-            ',' if cell.contains('.') && is(&cell, '.') => {
+            ',' if cell.contains('.') && is(cell, '.') => {
                 ", a decimal point where other numbers have a comma"
             }
             _ => "",
         };
-        let found = format!("{}: found \"{cell}\"{cause}", self.name(column));
+        let found = format!("{}: found \"{}\"{cause}", name.text, shortened(cell, LONGEST));
         self.wrong(row.line, found, allowed)
     }
 }
 
-fn grid(file: &str, bytes: &[u8], options: &Options) -> Result<Grid, TableError> {
+/// The rows of a file, what stands between cells of a text, and the other sheets of a workbook.
+fn rows_of(file: &str, bytes: &[u8], options: &Options) -> Result<(Vec<Row>, Option<char>, Vec<String>)> {
     #[cfg(feature = "xlsx")]
-    if crate::workbook::is_workbook(bytes) {
-        return crate::workbook::read(file, bytes, options.sheet.as_deref());
+    if bytes.starts_with(crate::workbook::MARK) {
+        let (rows, sheets) = crate::workbook::read(file, bytes, options.sheet.as_deref())?;
+        return Ok((rows, None, sheets));
     }
-    let text = text::decoded(bytes, options.encoding).ok_or_else(|| TableError::NoText {
-        file: file.to_owned(),
-        named: options.encoding.map(encoding_rs::Encoding::name),
-    })?;
-    grid::read(file, &text, options.separator)
+    let (rows, separator) = rows::read(&text::decoded(file, bytes, options.encoding)?, options.separator);
+    Ok((rows, Some(separator), Vec::new()))
+}
+
+/// A unit in a row of them, without what may stand around it.
+fn unit_in(cell: &str) -> &str {
+    cell.trim_matches(|c| "~[]() ".contains(c))
 }

@@ -2,17 +2,16 @@
 
 use encoding_rs::{Encoding, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-/// Bytes by which UTF-16 without a mark is recognised.
-const SAMPLE: usize = 512;
+use crate::error::{Result, TableError};
+
 /// Japanese characters one after the other that two letters of Latin-1 hardly ever look like.
 const JAPANESE: usize = 2;
 
-/// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks like; signs of full width as those of
-/// ASCII. `None` if it is none.
-pub fn decoded(bytes: &[u8], encoding: Option<&'static Encoding>) -> Option<String> {
+/// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks
+/// like; signs of full width as those of ASCII.
+pub fn decoded(file: &str, bytes: &[u8], encoding: Option<&'static Encoding>) -> Result<String> {
     // The mark at the beginning goes before what was named, and is taken away.
-    let encoding = encoding.unwrap_or_else(|| recognised(bytes));
-    let (text, _, malformed) = encoding.decode(bytes);
+    let (text, _, malformed) = encoding.unwrap_or_else(|| recognised(bytes)).decode(bytes);
     let printed =
         |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r' | '\u{c}' | '\u{1a}' | '\u{85}');
     let narrow = |c: char| match c {
@@ -20,17 +19,17 @@ pub fn decoded(bytes: &[u8], encoding: Option<&'static Encoding>) -> Option<Stri
         '\u{3000}' => ' ',
         c => c,
     };
-    (!malformed && text.chars().all(printed)).then(|| text.chars().map(narrow).collect())
+    if malformed || !text.chars().all(printed) {
+        return Err(TableError::NoText(file.to_owned(), encoding.map(Encoding::name)));
+    }
+    Ok(text.chars().map(narrow).collect())
 }
 
 fn recognised(bytes: &[u8]) -> &'static Encoding {
-    let sample = &bytes[..bytes.len().min(SAMPLE) & !1];
-    let zeros = |place: usize| {
-        let every_other = sample.iter().skip(place).step_by(2);
-        every_other.filter(|&&byte| byte == 0).count()
-    };
+    let places = |place: usize| bytes.iter().skip(place).step_by(2);
+    let zeros = |place: usize| places(place).filter(|&&byte| byte == 0).count();
     // Digits and separators have a byte of zeros in UTF-16.
-    let many = sample.len() / 4;
+    let many = bytes.len() / 4;
     match (zeros(0), zeros(1)) {
         (0, odd) if odd > many => UTF_16LE,
         (even, 0) if even > many => UTF_16BE,

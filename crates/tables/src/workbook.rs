@@ -5,80 +5,65 @@ use std::io::Cursor;
 use calamine::{Data, Reader, Xlsx, XlsxError};
 
 use crate::PREAMBLE;
-use crate::error::TableError;
-use crate::grid::{Grid, Row};
+use crate::error::{Result, TableError};
+use crate::rows::Row;
 
 /// How a workbook begins: it is a ZIP archive.
-const MARK: &[u8] = b"PK\x03\x04";
+pub const MARK: &[u8] = b"PK\x03\x04";
 
-pub fn is_workbook(bytes: &[u8]) -> bool {
-    bytes.starts_with(MARK)
-}
-
-/// The rows of the sheet that is `named`, or of the first that has any; their lines are those of the sheet.
-pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<Grid, TableError> {
-    let wrong = |source: XlsxError| TableError::NotTable {
-        file: file.to_owned(),
-        line: 0,
-        source: source.into(),
-    };
+/// The rows of the sheet that is `named`, or of the first that has any, and the other sheets.
+pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<(Vec<Row>, Vec<String>)> {
+    let wrong = |source: XlsxError| TableError::NotTable(file.to_owned(), source.into());
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(wrong)?;
-    let sheets = book.sheet_names();
-    let is_wanted = |sheet: &&String| named.is_none_or(|name| *sheet == name);
-    if let (Some(name), false) = (named, sheets.iter().any(|sheet| is_wanted(&sheet))) {
+    let mut sheets = book.sheet_names();
+    if let Some(name) = named.filter(|name| !sheets.iter().any(|sheet| sheet == name)) {
+        let (file, line, allowed) = (file.to_owned(), 0, sheets.join(", "));
+        let found = format!("no sheet \"{name}\"");
         return Err(TableError::Line {
-            file: file.to_owned(),
-            line: 0,
-            found: format!("no sheet \"{name}\""),
-            allowed: sheets.join(", "),
+            file,
+            line,
+            found,
+            allowed,
         });
     }
-    for name in sheets.iter().filter(is_wanted) {
-        let rows = rows(&mut book, name).map_err(wrong)?;
-        if !rows.is_empty() {
-            let sheets = sheets.iter().filter(|other| *other != name).cloned().collect();
-            return Ok(Grid {
-                rows,
-                separator: None,
-                sheets,
-            });
+    for sheet in 0..sheets.len() {
+        if named.is_none_or(|name| sheets[sheet] == name) {
+            let rows = rows(&mut book, &sheets[sheet]).map_err(wrong)?;
+            if !rows.is_empty() {
+                sheets.remove(sheet);
+                return Ok((rows, sheets));
+            }
         }
     }
-    Err(TableError::Empty(file.to_owned()))
+    Ok((Vec::new(), sheets))
 }
 
-/// The rows with anything in them; near the top a text over several columns stands in each of them.
-fn rows(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Row>, XlsxError> {
-    let mut merged = book.merge_cells_by_sheet_name(sheet)?;
+/// The rows of data; near the top a text over several columns stands in each of them.
+fn rows(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> std::result::Result<Vec<Row>, XlsxError> {
+    let merged = book.merge_cells_by_sheet_name(sheet)?;
     let range = book.worksheet_range(sheet)?;
     let (top, left) = range.start().unwrap_or_default();
-    merged.retain(|region| region.start.0 < top.saturating_add(PREAMBLE as u32));
-    let row = |(line, cells): (u32, &[Data])| {
-        let mut cells: Vec<String> = cells.iter().map(text).collect();
-        let begun = || merged.iter().filter(|region| region.start.0 == line);
-        for region in begun() {
-            let place = |column: u32| column.saturating_sub(left) as usize;
-            let (first, last) = (place(region.start.1), place(region.end.1));
-            let whole = cells.get(first).cloned().unwrap_or_default();
-            cells
+    // Excel shows numbers of days for dates, and #N/A and the like.
+    let text = |cell: &Data| cell.to_string().trim().to_owned();
+    let row = |(line, cells): (u32, &[Data])| Row {
+        line: u64::from(line) + 1,
+        cells: cells.iter().map(text).collect(),
+        is_merged: false,
+    };
+    let mut rows: Vec<Row> = (top..).zip(range.rows()).map(row).collect();
+    for region in merged {
+        let [first, last] = [region.start.1, region.end.1].map(|column| column.saturating_sub(left) as usize);
+        let place = region.start.0.checked_sub(top).map(|place| place as usize);
+        if let Some(row) = rows.iter_mut().take(PREAMBLE).nth(place.unwrap_or(PREAMBLE)) {
+            let whole = row.cell(first).to_owned();
+            row.cells
                 .iter_mut()
                 .take(last + 1)
                 .skip(first)
                 .for_each(|cell| cell.clone_from(&whole));
+            row.is_merged = true;
         }
-        Row {
-            line: u64::from(line) + 1,
-            cells,
-            merged: begun().next().is_some(),
-        }
-    };
-    Ok((top..).zip(range.rows()).map(row).filter(Row::is_data).collect())
-}
-
-fn text(cell: &Data) -> String {
-    match cell {
-        Data::DateTime(time) => time.as_f64().to_string(),
-        // Excel shows #N/A and the like.
-        other => other.to_string().trim().to_owned(),
     }
+    rows.retain(Row::is_data);
+    Ok(rows)
 }

@@ -1,14 +1,7 @@
 //! The energy of one pass, and what it must satisfy.
 
-use std::fmt;
-
 use crate::CableError;
-
-/// Largest share of the heat that friction may return. Sound passes measured below 1e-8, passes whose force was off by
-/// 3 % above 5e-3, chatter from 4e-2 to 5e-1.
-const MAX_RETURNED: f64 = 1e-3;
-/// Largest share of the energy that may be out of balance. Sound explicit passes measured below 1e-5.
-const MAX_UNBALANCED: f64 = 0.01;
+use crate::tuning::{MAX_RETURNED, MAX_UNBALANCED};
 
 /// Share of the work that friction could do at its limit below which the energies of a cable that hardly slips count as
 /// nothing.
@@ -91,26 +84,6 @@ impl EnergyBalance {
         } else {
             Err(CableError::EnergyNotConserved { unbalanced, returned })
         }
-    }
-}
-
-impl fmt::Display for EnergyBalance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "duct work {:.3e} J ", self.duct_work)?;
-        if self.body_work != 0.0 {
-            write!(f, "+ work of the weight {:.3e} J ", self.body_work)?;
-        }
-        write!(
-            f,
-            "= elastic {:+.3e} + kinetic {:+.3e} + stored {:+.3e} + heat {:.3e} + unbalanced {:+.1e} J; \
-             friction returned {:.1e} of its heat",
-            self.elastic,
-            self.kinetic,
-            self.stored,
-            self.dissipated,
-            self.residual(),
-            self.returned_share(),
-        )
     }
 }
 

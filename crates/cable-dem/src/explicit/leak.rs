@@ -27,8 +27,8 @@ const SPREAD: f64 = 0.5;
 /// for both fixed (H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, 1959, §3.9). With both ends free that mode
 /// is a rigid motion without force, and the next one, z = π, counts.
 ///
-/// A pass lasts T: the time in which the vehicle is followed, and the two steps from rest and to it in
-/// which the law knows no other time than Δt.
+/// A pass lasts T: the time in which the vehicle is followed, and the two steps from rest and to
+/// it, which begin with the law's slope and forget their friction as a step Δt does.
 ///
 /// Forces locked into a short stretch fade sooner: in the time T of a pass they spread by ℓ = √(EA T/η). Just after a pass
 /// the gain stands within a few depths of the ends and of the vehicle's trace, so that this length beside the duct's natural
@@ -65,11 +65,15 @@ pub struct SigmoidLeak {
 }
 
 impl SigmoidLeak {
-    /// The leak of `cable` in a pass of `duct` with steps of `time_step` \[s\]; `None` for a law with memory.
+    /// The leak of `cable` in a pass of `duct` with steps of `time_step` \[s\]; `None` for a law
+    /// with memory and without friction.
     pub fn new(cable: &DuctedCable, time_step: f64, duct: &MovingDuct) -> Option<Self> {
         let FrictionLaw::Sigmoid { shape_factor } = cable.friction().law() else {
             return None;
         };
+        if cable.friction().limit() == 0.0 {
+            return None;
+        }
         let reference_speed = 2.0 / (shape_factor * time_step);
         let drag = cable.friction().limit() / reference_speed;
         let length = cable.length() / slowest_wave_number(cable);

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use super::lumped::Lumped;
 use crate::FrictionLaw;
-use crate::lumped::Lumped;
 
 /// One limit of the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,17 +51,15 @@ pub struct StepLimits {
 
 impl StepLimits {
     pub(super) fn new(lumped: &Lumped) -> Self {
-        let last = lumped.mesh.elements();
-        let row = |node: usize, spring: f64| {
-            let neighbours = if node == 0 || node == last { 2.0 } else { 4.0 };
-            (neighbours * lumped.stiffness + spring) / lumped.mass(node)
-        };
-        // A clamp's part at a fixed end does not matter, as that node does not move.
+        let chain = &lumped.chain;
+        // Springs to the ground count `weight` times.
         let fastest = |weight: f64| {
-            let springs = lumped.springs.iter().filter(|(node, _)| !lumped.holds(*node));
-            springs.fold(row(1, 0.0), |most, &(node, spring)| {
-                most.max(row(node, weight * spring))
-            })
+            let row = |i: usize| {
+                let neighbours = 2.0 * chain.neighbours(i) * chain.stiffness;
+                (neighbours + weight * chain.spring(i)) / chain.nodes[i].tributary
+            };
+            let rows = (0..chain.nodes.len()).map(row);
+            rows.fold(0.0, f64::max) / lumped.mass_per_metre
         };
 
         let friction = lumped.cable.friction();

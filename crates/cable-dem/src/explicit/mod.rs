@@ -3,25 +3,24 @@
 mod energy;
 mod leak;
 mod limits;
+mod lumped;
 mod moving_duct;
 mod nodes;
-mod pass;
 
 pub use energy::EnergyBalance;
 pub use leak::SigmoidLeak;
 pub use limits::{StepLimit, StepLimits};
 pub use moving_duct::MovingDuct;
-pub use pass::ExplicitOutcome;
 
 use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::laid::laid;
-use crate::lumped::Lumped;
 use crate::outcome::Recorder;
-use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, StepView};
+use crate::step::check_precision;
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
+use lumped::Lumped;
 use nodes::MovingNodes;
-use pass::pass;
 
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 32;
@@ -54,6 +53,26 @@ impl Default for ExplicitOptions {
     }
 }
 
+/// What one pass with inertia did.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ExplicitOutcome {
+    /// Forces, peaks and displacements as a quasi-static pass reports them. Peaks include
+    /// vibration.
+    ///
+    /// In its statistics `steps` counts time steps, `node_updates` nodes advanced in time.
+    pub pass: PassOutcome,
+    /// Duration of one step \[s\].
+    pub time_step: f64,
+    /// Energies of the pass, between its two steps from rest and to it.
+    pub energy: EnergyBalance,
+    /// Force on each end \[N\] at the last instant of the pass, before ground and cable came to
+    /// rest.
+    pub force_before_rest: EndForces,
+    /// What a law without memory loses; `None` for the others.
+    pub leak: Option<SigmoidLeak>,
+}
+
 /// Explicit solver for one cable on one mesh: masses, springs and friction by central differences (Kashiro et al., Equations (2), (3)).
 ///
 /// The cable is a row of masses on springs that the duct rubs, m a + K u = w (f + p), with velocities half a step apart:
@@ -64,8 +83,13 @@ impl Default for ExplicitOptions {
 /// where hundreds of newtons are right, without ever overflowing. Independently of the limit every pass must balance its energy
 /// ([`EnergyBalance`]); one that does not is an error and never a number.
 ///
-/// Before the vehicle comes and after it has left the ground is at rest; both steps are taken without inertia, and the last one ends
-/// the cable's vibration.
+/// Before the vehicle comes and after it has left the duct stands at D = 0. One step without
+/// inertia takes it from there to the vehicle's first position, one more from the last position
+/// back. The step back also ends the cable's vibration: the state that a vibrating cable comes to,
+/// however weakly it is damped, is the equilibrium with the same anchors u + γ f. It moves the
+/// cable by less than its vibration and leaves the mean where it was. The sigmoid, which has no
+/// memory, begins both steps without friction and is the elastic-plastic law of its slope in them;
+/// what it had left when the vehicle was gone is [`ExplicitOutcome::force_before_rest`].
 ///
 /// The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the quasi-static one; it falls with
 /// the speed. It is the reference for what the quasi-static solver leaves out, and the paper's own scheme.
@@ -89,6 +113,7 @@ pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
+    resting: RestingCable,
     laid: CableState,
 }
 
@@ -127,6 +152,7 @@ impl Explicit {
         }
         Ok(Self {
             laid: laid(&lumped.cable, &mesh)?,
+            resting: RestingCable::with_memory(&lumped.cable, &mesh),
             lumped,
             options,
             limits,
@@ -184,10 +210,11 @@ impl Explicit {
     /// [`CableError::EnergyNotConserved`] where the energy balance shows that the step was too long,
     /// [`CableError::NoConvergence`] where the cable found no rest.
     pub fn pass(&mut self, duct: &MovingDuct, state: &mut CableState) -> Result<ExplicitOutcome, CableError> {
-        self.pass_observed(duct, state, |_| {})
+        self.pass_observed(duct, state, |_, _| {})
     }
 
-    /// As [`Explicit::pass`]; `observe` looks at the cable after every time step.
+    /// As [`Explicit::pass`]; `observe` is called after every time step with the vehicle's position
+    /// \[m\] and a function that gives the state there.
     ///
     /// # Errors
     ///
@@ -196,97 +223,106 @@ impl Explicit {
         &mut self,
         duct: &MovingDuct,
         state: &mut CableState,
-        mut observe: impl FnMut(StepView<'_>),
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<ExplicitOutcome, CableError> {
-        let steps = self.steps(duct);
-        let time_step = duct.duration() / steps;
-        let Self { lumped, options, .. } = &*self;
-        pass(lumped, duct, time_step, state, |state, recorder| {
-            let node_updates = steps * lumped.mesh.nodes() as f64;
-            let allowed = options.max_node_updates;
-            if node_updates > allowed {
-                return Err(CableError::TooManySteps {
-                    steps,
-                    time_step,
-                    node_updates,
-                    allowed,
-                });
-            }
-            let start = state.clone();
+        state.check(self.mesh())?;
+        duct.check(self.mesh())?;
+        if state.thermal_force != 0.0 {
+            return Err(CableError::Heated);
+        }
+        let (steps, time_step) = (self.steps(duct), self.time_step(duct));
+        let mut recorder = Recorder::new(self.lumped.end_forces(&state.displacement, &state.friction));
+        let mut moving = state.clone();
+        let mut energy = EnergyBalance::default();
+        let mut force_before_rest = recorder.peak;
+        // Without friction nothing drags the cable.
+        if self.cable().friction().limit() > 0.0 {
+            check_precision(self.cable(), self.mesh(), &state.displacement, duct.peak())?;
+            self.check_work(steps, time_step)?;
+            let arrival = self.rest(duct, 0.0, 1.0, &mut moving)?;
             let look = |t: f64, nodes: &MovingNodes| {
                 let state = || {
-                    let mut state = start.clone();
+                    let mut state = CableState::at_rest(&self.lumped.mesh);
                     nodes.store(&mut state);
                     state
                 };
-                observe(StepView {
-                    vehicle_position: duct.vehicle_position(t),
-                    mesh: &lumped.mesh,
-                    limit: lumped.cable.friction().limit(),
-                    state: &state,
-                });
+                observe(duct.vehicle_position(t), &state);
             };
-            let energy = rub(lumped, duct, steps as usize, state, recorder, look)?;
-            if options.check_energy {
+            energy = run(
+                &self.lumped,
+                duct,
+                steps as usize,
+                &mut moving,
+                &mut recorder,
+                look,
+            )?;
+            if self.options.check_energy {
                 energy.check()?;
             }
-            Ok(energy)
+            force_before_rest = self.lumped.end_forces(&moving.displacement, &moving.friction);
+            let departure = self.rest(duct, duct.duration(), -1.0, &mut moving)?;
+            recorder.dissipated = arrival + energy.dissipated + departure;
+        }
+        let force = self.lumped.end_forces(&moving.displacement, &moving.friction);
+        let pass = recorder.outcome(self.cable(), &moving, force)?;
+        *state = moving;
+        Ok(ExplicitOutcome {
+            pass,
+            time_step,
+            energy,
+            force_before_rest,
+            leak: SigmoidLeak::new(self.cable(), time_step, duct),
         })
+    }
+
+    /// Refuses a pass of so many `steps` where that is more work than allowed.
+    fn check_work(&self, steps: f64, time_step: f64) -> Result<(), CableError> {
+        let node_updates = steps * self.mesh().nodes() as f64;
+        let allowed = self.options.max_node_updates;
+        if node_updates > allowed {
+            return Err(CableError::TooManySteps {
+                steps,
+                time_step,
+                node_updates,
+                allowed,
+            });
+        }
+        Ok(())
+    }
+
+    /// One step without inertia in which the duct moves between rest and where it stands at the
+    /// time `t` \[s\]: there with the `sign` 1, back with −1. Returns the heat of the slip \[J\].
+    fn rest(
+        &mut self,
+        duct: &MovingDuct,
+        t: f64,
+        sign: f64,
+        state: &mut CableState,
+    ) -> Result<f64, CableError> {
+        let mut increment = vec![0.0; state.displacement.len()];
+        duct.displacement(t, &mut increment);
+        for increment in &mut increment {
+            *increment *= sign;
+        }
+        if self.cable().friction().law().has_memory() {
+            return self.resting.follow(state, Some(&increment), 0.0, duct.peak());
+        }
+        // What a contact without memory stores in a step it forgets before the next.
+        state.friction.fill(0.0);
+        let heat = self.resting.follow(state, Some(&increment), 0.0, duct.peak())?;
+        let friction = &state.friction;
+        let forgotten = self.lumped.weighted(|i| friction[i].powi(2));
+        Ok(heat + self.lumped.chain.compliance * forgotten)
     }
 }
 
-/// All steps of one pass, whichever the friction law; `state` is carried on.
-fn rub(
+/// All steps of time of one pass; `state` is carried on.
+fn run(
     lumped: &Lumped,
     duct: &MovingDuct,
     steps: usize,
     state: &mut CableState,
     recorder: &mut Recorder,
-    look: impl FnMut(f64, &MovingNodes),
-) -> Result<EnergyBalance, CableError> {
-    let time_step = duct.duration() / steps as f64;
-    let (q, per_mass) = (lumped.cable.friction().limit(), time_step / lumped.mass_per_metre);
-    match lumped.cable.friction().law() {
-        // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by node, as the
-        // masses are lumped).
-        FrictionLaw::Coulomb => {
-            let per_time = 1.0 / time_step;
-            let law = move |velocity: f64, duct: f64, _| {
-                let stopping = (duct * per_time - velocity) / per_mass;
-                let friction = stopping.max(-q).min(q);
-                (velocity + per_mass * friction, friction)
-            };
-            run(lumped, law, duct, steps, (state, recorder), look)
-        }
-        // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
-        FrictionLaw::ElasticPlastic { shape_factor } => {
-            let slope = 0.5 * q * shape_factor;
-            let law = move |velocity, duct, friction| {
-                let velocity = velocity + per_mass * friction;
-                let trial: f64 = friction + slope * (duct - time_step * velocity);
-                (velocity, trial.max(-q).min(q))
-            };
-            run(lumped, law, duct, steps, (state, recorder), look)
-        }
-        // f = q tanh(b Δs/2).
-        FrictionLaw::Sigmoid { shape_factor } => {
-            let half = 0.5 * shape_factor;
-            let law = move |velocity: f64, duct: f64, friction: f64| {
-                let velocity = velocity + per_mass * friction;
-                (velocity, q * (half * (duct - time_step * velocity)).tanh())
-            };
-            run(lumped, law, duct, steps, (state, recorder), look)
-        }
-    }
-}
-
-/// The same by one law: see [`MovingNodes::step`].
-fn run(
-    lumped: &Lumped,
-    law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
-    duct: &MovingDuct,
-    steps: usize,
-    (state, recorder): (&mut CableState, &mut Recorder),
     mut look: impl FnMut(f64, &MovingNodes),
 ) -> Result<EnergyBalance, CableError> {
     let count = lumped.mesh.nodes();
@@ -296,12 +332,11 @@ fn run(
     let mut peak_kinetic = 0.0_f64;
     for step in 1..=steps {
         let t = time_step * step as f64;
-        duct.at(t, count).advance(&mut nodes.duct, &mut nodes.increment);
-        nodes.step(lumped, law, time_step);
+        nodes.step(lumped, |d| duct.displacement(t, d), time_step);
         recorder.record(nodes.end_forces(lumped));
         look(t, &nodes);
         if step % LOOK == 0 || step == steps {
-            let kinetic = lumped.kinetic_energy(&nodes.velocity);
+            let kinetic = nodes.kinetic_energy(lumped);
             if !kinetic.is_finite() {
                 return Err(CableError::EnergyNotConserved {
                     unbalanced: 1.0,
@@ -312,7 +347,7 @@ fn run(
         }
     }
     let energy = EnergyBalance {
-        reference: lumped.reference_work(duct.peak()),
+        reference: lumped.cable.friction().limit() * lumped.cable.length() * duct.peak(),
         ..nodes.energy(lumped, state, peak_kinetic)
     };
     recorder.statistics.steps = steps;

@@ -8,38 +8,34 @@ use crate::{CableError, DuctedCable, Mesh};
 
 /// Longest step of the lattice \[m\].
 const LATTICE_STEP: f64 = 0.02;
-/// Most lattice points: 4e7 take 640 MB.
+/// Most lattice points: 4e7 take 320 MB.
 const MAX_POINTS: f64 = 4e7;
 
 /// A duct whose displacement travels along it with a vehicle, tabulated for one mesh.
 ///
 /// Depends on the mesh and the vehicle, not on the cable's state: made once, used for every pass.
 ///
-/// At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The shape is tabulated on a
-/// lattice that divides the node spacing h into M parts, and read by cubic Hermite interpolation: all nodes then lie at
-/// the same fraction θ between two lattice points, and those M apart stand side by side in memory, so that one step
-/// reads four contiguous rows with the same four weights. Slopes are fourth-order differences of the values: the error is
-/// s⁴/384 · max|D⁗| and more of that order, s the lattice step: below 1e-7 of the peak for s = 20 mm in a duct 1.2 m deep.
+/// At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The
+/// shape is tabulated on a lattice that divides the node spacing h, and read by cubic Hermite
+/// interpolation with slopes that are fourth-order differences: six values a node, with the same
+/// weights at all nodes, which lie at the same fraction θ between two lattice points. The error is
+/// s⁴/384 · max|D⁗| and more of that order, s the lattice step: below 1e-7 of the peak for s = 20
+/// mm in a duct 1.2 m deep.
 #[derive(Debug, Clone)]
 pub struct MovingDuct {
     direction: Direction,
     speed: f64,
     mesh: Mesh,
     approach: f64,
-    /// By phase the values at the lattice points p, p + M, p + 2M, …, and the slopes there times the lattice step.
-    rows: Vec<[Vec<f64>; 2]>,
-    /// ξ of the first lattice point is −`origin` \[m\].
-    origin: f64,
+    /// D at the lattice points \[m\].
+    values: Vec<f64>,
+    /// Lattice points from one node to the next, and their distance \[m\].
+    parts: usize,
     step: f64,
+    /// ξ of the third lattice point is −`origin` \[m\].
+    origin: f64,
     peak: f64,
     steepest: f64,
-}
-
-/// The four rows and weights that give every node's duct displacement at one instant.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Instant<'a> {
-    rows: [&'a [f64]; 4],
-    weights: [f64; 4],
 }
 
 impl MovingDuct {
@@ -88,47 +84,34 @@ impl MovingDuct {
         checked("speed", speed, "finite and positive", |v| v > 0.0)?;
         mesh.check_length(cable.length())?;
         let h = mesh.spacing();
-        let phases = (h / LATTICE_STEP).ceil().max(1.0);
-        let step = h / phases;
-        let length = mesh.length();
-        // Spacings from the first lattice point to ξ = 0, and altogether; one to spare on both sides.
-        let before = ((length + approach) / h).ceil() + 1.0;
-        let per_row = 2.0 * before + 1.0;
-        checked("lattice points", per_row * phases, "at most 4e7", |v| {
-            v <= MAX_POINTS
-        })?;
-        let (phases, per_row) = (phases as usize, per_row as usize);
+        let parts = (h / LATTICE_STEP).ceil().max(1.0);
+        let step = h / parts;
+        // Spacings from the first lattice point to ξ = 0, and one more, which a slope needs.
+        let before = ((mesh.length() + approach) / h).ceil() + 1.0;
+        let points = (2.0 * before + 1.0) * parts;
+        checked("lattice points", points, "at most 4e7", |v| v <= MAX_POINTS)?;
         let origin = before * h;
 
         // Along x, whichever way the vehicle drives; two points more on both sides, for the slopes.
         let sign = direction.sign();
-        let points = (0..phases * per_row + 4).map(|j| sign * (step * (j as f64 - 2.0) - origin));
-        let mut values = course.tabulate(points)?;
+        let places = (0..points as usize + 4).map(|j| sign * (step * (j as f64 - 2.0) - origin));
+        let mut values = course.tabulate(places)?;
         for value in &mut values {
             *value *= sign;
         }
-        let peak = values.iter().fold(0.0_f64, |peak, d| peak.max(d.abs()));
-        let slope = |j: usize| (8.0 * (values[j + 3] - values[j + 1]) - (values[j + 4] - values[j])) / 12.0;
-        let steepest = (0..phases * per_row).fold(0.0_f64, |most, j| most.max(slope(j).abs())) / step;
-        let rows = (0..phases)
-            .map(|p| {
-                let points = || (0..per_row).map(move |c| p + c * phases);
-                [
-                    points().map(|j| values[j + 2]).collect(),
-                    points().map(slope).collect(),
-                ]
-            })
-            .collect();
+        let slope = |d: &[f64]| (8.0 * (d[3] - d[1]) - (d[4] - d[0])) / (12.0 * step);
+        let largest = |most: f64, value: f64| most.max(value.abs());
         Ok(Self {
             direction,
             speed,
             mesh: *mesh,
             approach,
-            rows,
-            origin,
+            parts: parts as usize,
             step,
-            peak,
-            steepest,
+            origin,
+            peak: values.iter().copied().fold(0.0, largest),
+            steepest: values.windows(5).map(slope).fold(0.0, largest),
+            values,
         })
     }
 
@@ -189,49 +172,33 @@ impl MovingDuct {
         }
     }
 
-    /// Writes the displacement of every node's duct at time `t` \[s\] to `duct` \[m\].
+    /// Writes the displacement of every node's duct at time `t` \[s\] to `duct` \[m\]; times
+    /// outside the pass are its ends.
     pub(crate) fn displacement(&self, t: f64, duct: &mut [f64]) {
-        let Instant { rows, weights } = self.at(t, duct.len());
-        for (i, d) in duct.iter_mut().enumerate() {
-            *d = (0..4).map(|k| weights[k] * rows[k][i]).sum();
-        }
-    }
-
-    /// The duct of `nodes` nodes at time `t` \[s\]; times outside the pass are its ends.
-    pub(crate) fn at(&self, t: f64, nodes: usize) -> Instant<'_> {
         let x = self.vehicle_position(t.clamp(0.0, self.duration()));
         let place = (self.origin - x) / self.step;
-        let left = place.floor();
-        let s = place - left;
-        let left = left as usize;
-        let row = |j: usize| {
-            let (phase, first) = (j % self.rows.len(), j / self.rows.len());
-            self.rows[phase].each_ref().map(|row| &row[first..first + nodes])
-        };
-        let ([value, slope], [next_value, next_slope]) = (row(left), row(left + 1));
-        Instant {
-            rows: [value, slope, next_value, next_slope],
-            weights: [
-                1.0 - s * s * (3.0 - 2.0 * s),
-                s * (1.0 - s) * (1.0 - s),
-                s * s * (3.0 - 2.0 * s),
-                s * s * (s - 1.0),
-            ],
-        }
-    }
-}
-
-impl Instant<'_> {
-    /// Moves `duct` to this instant's displacements \[m\] and writes how far each node's duct moved to `increment`.
-    pub fn advance(&self, duct: &mut [f64], increment: &mut [f64]) {
-        let n = duct.len();
-        let [a, b, c, d] = self.rows.map(|row| &row[..n]);
-        let [wa, wb, wc, wd] = self.weights;
-        let increment = &mut increment[..n];
-        for i in 0..n {
-            let now = (wa * a[i] + wb * b[i]) + (wc * c[i] + wd * d[i]);
-            increment[i] = now - duct[i];
-            duct[i] = now;
+        let first = place.floor();
+        let s = place - first;
+        // Hermite's weights of both values and both slopes; a slope is (8 (D₁ − D₋₁) − (D₂ −
+        // D₋₂))/12.
+        let [value, next_value] = [1.0 - s * s * (3.0 - 2.0 * s), s * s * (3.0 - 2.0 * s)];
+        let [slope, next_slope] = [s * (1.0 - s) * (1.0 - s) / 12.0, s * s * (s - 1.0) / 12.0];
+        let weights = [
+            slope,
+            next_slope - 8.0 * slope,
+            value - 8.0 * next_slope,
+            next_value + 8.0 * slope,
+            8.0 * next_slope - slope,
+            -next_slope,
+        ];
+        let nodes = self.values[first as usize..].windows(6).step_by(self.parts);
+        debug_assert!(nodes.len() >= duct.len());
+        for (d, values) in duct.iter_mut().zip(nodes) {
+            *d = weights
+                .iter()
+                .zip(values)
+                .map(|(weight, value)| weight * value)
+                .sum();
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One explicit step.
 
 use super::energy::EnergyBalance;
-use crate::lumped::Lumped;
+use super::lumped::Lumped;
 use crate::{CableState, EndForces, FrictionLaw};
 
 /// Motion and energy accounts of all nodes.
@@ -10,7 +10,7 @@ pub(super) struct MovingNodes {
     /// u \[m\].
     displacement: Vec<f64>,
     /// v \[m/s\], half a step back.
-    pub velocity: Vec<f64>,
+    velocity: Vec<f64>,
     /// f \[N/m\].
     friction: Vec<f64>,
     /// D \[m\].
@@ -18,11 +18,49 @@ pub(super) struct MovingNodes {
     /// ΔD and plastic slip of the step before \[m\].
     before: Vec<[f64; 2]>,
     /// ΔD of the current step \[m\].
-    pub increment: Vec<f64>,
+    increment: Vec<f64>,
     /// Work of the duct, heat, and its absolute amount \[J\].
     work: f64,
     heat: f64,
     gross: f64,
+}
+
+/// Friction of one node over one step of time.
+#[derive(Debug, Clone, Copy)]
+struct NodeFriction {
+    law: FrictionLaw,
+    /// q \[N/m\].
+    limit: f64,
+    /// Δt \[s\], and Δt/m′.
+    time_step: f64,
+    per_mass: f64,
+}
+
+impl NodeFriction {
+    /// Given the node's `velocity` after the elastic forces \[m/s\], how far its duct moves in the
+    /// step \[m\] and the `friction` before \[N/m\]: its velocity with friction, and the friction
+    /// after.
+    fn act(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
+        let q = self.limit;
+        // All but Coulomb friction are found after the step that they act in.
+        let rubbed = velocity + self.per_mass * friction;
+        let slip = duct - self.time_step * rubbed;
+        match self.law {
+            // The friction that stops the slip, returned to ±q where that is too much (J. J.
+            // Moreau's time stepping, node by node, as the masses are lumped).
+            FrictionLaw::Coulomb => {
+                let stopping = (duct / self.time_step - velocity) / self.per_mass;
+                let friction = stopping.max(-q).min(q);
+                (velocity + self.per_mass * friction, friction)
+            }
+            // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
+            FrictionLaw::ElasticPlastic { shape_factor } => {
+                let trial = friction + 0.5 * q * shape_factor * slip;
+                (rubbed, trial.max(-q).min(q))
+            }
+            FrictionLaw::Sigmoid { shape_factor } => (rubbed, q * (0.5 * shape_factor * slip).tanh()),
+        }
+    }
 }
 
 impl MovingNodes {
@@ -43,38 +81,47 @@ impl MovingNodes {
         }
     }
 
-    /// One step of `time_step` \[s\]; the duct's increments stand in `increment`.
-    ///
-    /// `law` is the friction of one node: given its velocity after the elastic forces \[m/s\], how far its duct moves in the step \[m\] and
-    /// the friction before \[N/m\], the velocity with friction, and the friction after.
-    pub fn step(
-        &mut self,
-        lumped: &Lumped,
-        law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
-        time_step: f64,
-    ) {
-        self.accelerate(lumped, time_step);
-        let last = self.velocity.len() - 1;
+    /// One step of `time_step` \[s\]; `displacement` writes where the duct stands after it \[m\].
+    pub fn step(&mut self, lumped: &Lumped, displacement: impl Fn(&mut [f64]), time_step: f64) {
+        displacement(&mut self.increment);
+        for (duct, increment) in self.duct.iter_mut().zip(&mut self.increment) {
+            let before = std::mem::replace(duct, *increment);
+            *increment -= before;
+        }
+        // v ← v + Δt (w p − (K + S) u)/m.
+        let per_mass = time_step / lumped.mass_per_metre;
+        for (i, velocity) in self.velocity.iter_mut().enumerate() {
+            *velocity -= per_mass
+                * lumped
+                    .chain
+                    .balancing_friction(&self.displacement, &lumped.load, i);
+        }
+        let friction = NodeFriction {
+            law: lumped.cable.friction().law(),
+            limit: lumped.cable.friction().limit(),
+            time_step,
+            per_mass,
+        };
         let compliance = lumped.elastic_compliance();
         // Coulomb friction is found with the velocity; any other that acts in a step is that of its start.
-        let found_at_once = lumped.cable.friction().law() == FrictionLaw::Coulomb;
+        let found_at_once = friction.law == FrictionLaw::Coulomb;
         let (mut work, mut heat, mut gross) = (0.0, 0.0, 0.0);
-        for i in 0..=last {
-            let (increment, friction) = (self.increment[i], self.friction[i]);
-            let (mut velocity, mut after) = law(self.velocity[i], increment, friction);
+        for i in 0..self.velocity.len() {
+            let (increment, before) = (self.increment[i], self.friction[i]);
+            let (mut velocity, mut after) = friction.act(self.velocity[i], increment, before);
             // Fixed ends do not move; their friction follows their own slip.
-            let is_held = (i == 0 || i == last) && lumped.holds(i);
+            let is_held = !lumped.chain.free.nodes().contains(&i);
             if is_held {
-                (velocity, after) = (0.0, lumped.held.after_slip(friction, increment));
+                (velocity, after) = (0.0, lumped.held.after_slip(before, increment));
             }
             let moved = time_step * velocity;
             (self.velocity[i], self.friction[i]) = (velocity, after);
             self.displacement[i] += moved;
             // What is left of the slip apart from its elastic part, γ Δf.
-            let slip = increment - moved - compliance * (after - friction);
-            let acting = if found_at_once { after } else { friction };
+            let slip = increment - moved - compliance * (after - before);
+            let acting = if found_at_once { after } else { before };
             // Friction acts from one half step to the next: on half the slip of either step.
-            let weight = if i == 0 || i == last { 0.25 } else { 0.5 } * acting;
+            let weight = 0.5 * lumped.chain.nodes[i].tributary * acting;
             let [earlier, plastic] = std::mem::replace(&mut self.before[i], [increment, slip]);
             let done = weight * (plastic + slip);
             work += weight * (earlier + increment);
@@ -82,31 +129,9 @@ impl MovingNodes {
             // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
             gross += if is_held { done } else { done.abs() };
         }
-        let spacing = lumped.mesh.spacing();
-        self.work += spacing * work;
-        self.heat += spacing * heat;
-        self.gross += spacing * gross;
-    }
-
-    /// v ← v + Δt (w p − (K + S) u)/m.
-    fn accelerate(&mut self, lumped: &Lumped, time_step: f64) {
-        let (u, v) = (&self.displacement, &mut self.velocity);
-        let last = v.len() - 1;
-        // An end has half the mass and one neighbour.
-        let per_bend = time_step * lumped.stiffness / (lumped.mass_per_metre * lumped.mesh.spacing());
-        v[0] += 2.0 * per_bend * (u[1] - u[0]);
-        v[last] += 2.0 * per_bend * (u[last - 1] - u[last]);
-        for (v, u) in v[1..].iter_mut().zip(u.windows(3)) {
-            *v += per_bend * ((u[0] - u[1]) + (u[2] - u[1]));
-        }
-        for &(node, spring) in &lumped.springs {
-            v[node] -= time_step * spring / lumped.mass(node) * u[node];
-        }
-        if lumped.cable.body_force() != 0.0 {
-            for (node, velocity) in v.iter_mut().enumerate() {
-                *velocity += time_step * lumped.body[node] / lumped.mass(node);
-            }
-        }
+        self.work += work;
+        self.heat += heat;
+        self.gross += gross;
     }
 
     pub fn end_forces(&self, lumped: &Lumped) -> EndForces {
@@ -119,15 +144,24 @@ impl MovingNodes {
         state.friction.copy_from_slice(&self.friction);
     }
 
+    /// ½ Σ m v² \[J\].
+    pub fn kinetic_energy(&self, lumped: &Lumped) -> f64 {
+        0.5 * lumped.mass_per_metre * lumped.weighted(|i| self.velocity[i].powi(2))
+    }
+
     /// The accounts of a pass that began in `state`.
     pub fn energy(&self, lumped: &Lumped, state: &CableState, peak_kinetic: f64) -> EnergyBalance {
         let elastic = lumped.elastic_energy(&state.displacement);
         let stored = lumped.stored_energy(&state.friction);
+        let moved = self.displacement.iter().zip(&state.displacement);
+        let body_work = moved
+            .zip(&lumped.load)
+            .map(|((after, before), load)| load * (after - before));
         EnergyBalance {
             duct_work: self.work,
-            body_work: lumped.body_work(&state.displacement, &self.displacement),
+            body_work: body_work.sum(),
             elastic: lumped.elastic_energy(&self.displacement) - elastic,
-            kinetic: lumped.kinetic_energy(&self.velocity),
+            kinetic: self.kinetic_energy(lumped),
             stored: lumped.stored_energy(&self.friction) - stored,
             dissipated: self.heat,
             returned: 0.5 * (self.gross - self.heat),

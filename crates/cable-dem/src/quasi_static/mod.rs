@@ -14,7 +14,7 @@ use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
-use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome, StepView};
+use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
 use pass::ForwardSolver;
 
 /// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
@@ -69,8 +69,9 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
-    /// without memory, which has no state of rest, and as for [`laid`].
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable,
+    /// [`CableError::NoRest`] for a law without memory, which has no state of rest, and as for
+    /// [`laid`].
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("quasi-static")?;
         mesh.check_length(cable.length())?;
@@ -117,10 +118,11 @@ impl QuasiStatic {
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium, [`CableError::InvalidParameter`] for a cable without friction that
     /// is not as warm as it was laid.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
-        self.pass_observed(passage, state, |_| {})
+        self.pass_observed(passage, state, |_, _| {})
     }
 
-    /// As [`QuasiStatic::pass`]; `observe` looks at the cable at every vehicle position.
+    /// As [`QuasiStatic::pass`]; `observe` is called at every vehicle position \[m\] with a
+    /// function that gives the state there.
     ///
     /// # Errors
     ///
@@ -129,23 +131,14 @@ impl QuasiStatic {
         &mut self,
         passage: &Passage,
         state: &mut CableState,
-        mut observe: impl FnMut(StepView<'_>),
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
         if !passage.fits(&self.cable, &self.mesh) {
             return Err(CableError::PassageMismatch);
         }
         if self.cable.friction().limit() == 0.0 {
-            checked("thermal_force without friction", state.thermal_force, "0", |v| {
-                v == 0.0
-            })?;
-            // Nothing drags the cable, and what held it is gone.
-            if self.cable.body_force() == 0.0 {
-                state.release(&self.cable);
-            } else {
-                state.clone_from(&self.laid);
-            }
-            return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
+            return self.without_friction(state);
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
@@ -159,11 +152,12 @@ impl QuasiStatic {
         if mirrored {
             after.mirror();
         }
-        let (mesh, limit) = (&self.mesh, self.cable.friction().limit());
+        let (mesh, thermal_force) = (&self.mesh, state.thermal_force);
         let mut recorder = solver.pass(passage, &mut after, |r, g, snapshot| {
             let position = mesh.lattice_step() * snapshot.position as f64;
             let state = || {
                 let mut state = CableState::at_rest(mesh);
+                state.thermal_force = thermal_force;
                 for node in 0..mesh.nodes() {
                     state.displacement[node] = r[node] + snapshot.adherent_at(node);
                     state.friction[node] = g[node] + snapshot.adhesion[node];
@@ -173,26 +167,34 @@ impl QuasiStatic {
                 }
                 state
             };
-            observe(StepView {
-                vehicle_position: if mirrored {
-                    mesh.length() - position
-                } else {
-                    position
-                },
-                mesh,
-                limit,
-                state: &state,
-            });
+            let vehicle = if mirrored {
+                mesh.length() - position
+            } else {
+                position
+            };
+            observe(vehicle, &state);
         })?;
         if mirrored {
             after.mirror();
             recorder.mirror();
         }
+        let outcome = recorder.outcome(&self.cable, &after, after.end_forces(&self.cable)?)?;
         *state = after;
-        Ok(self.outcome(state, recorder))
+        Ok(outcome)
     }
 
-    fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
-        recorder.outcome(&self.cable, state, state.ends(&self.cable))
+    /// Nothing drags the cable, and what held it is gone: it lies as laid, or where it was if nothing
+    /// else holds it.
+    fn without_friction(&self, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        checked("thermal_force without friction", state.thermal_force, "0", |v| {
+            v == 0.0
+        })?;
+        let mean = state.displacement.iter().sum::<f64>() / state.displacement.len() as f64;
+        state.clone_from(&self.laid);
+        if !self.forward.step.chain.is_held {
+            state.displacement.fill(mean);
+        }
+        let force = state.end_forces(&self.cable)?;
+        Recorder::new(force).outcome(&self.cable, state, force)
     }
 }

@@ -1,15 +1,13 @@
 //! One pass, forward: the cable in the vehicle's adherent frame, step by step.
 
-use super::passage::{Passage, SLIPPING_SHARE, Snapshot, UNBALANCED_SHARE};
+use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::supports::Supports;
-use super::window::{self, Room, Window};
-use crate::ends::{Balance, EndReader};
+use super::window::{self, WindowBounds};
+use crate::ends::EndReader;
 use crate::outcome::Recorder;
 use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
+use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
-
-/// A node is quiet when the force that its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
-const QUIET: f64 = 0.25;
 
 /// Drives vehicles forward over one cable; allocated once.
 #[derive(Debug, Clone)]
@@ -18,7 +16,7 @@ pub(super) struct ForwardSolver {
     cable: DuctedCable,
     ends: EndReader,
     supports: Supports,
-    room: Room,
+    bounds: WindowBounds,
     /// A node moves if it does so by more than this in a step \[m\].
     quiet: f64,
     /// State in the adherent frame: r \[m\] and g \[N/m\].
@@ -28,15 +26,14 @@ pub(super) struct ForwardSolver {
     anchor: Vec<f64>,
     /// Of the cable in the current pass \[N\].
     thermal_force: f64,
-    windows: Vec<Window>,
-    /// What moved in the last step, apart from what moves around supports alone: where a window around a support grows over a part that
-    /// travels, only what moves further in that part's own window.
+    windows: Vec<Stretch>,
+    /// What moved in the last step.
     moving: Vec<Stretch>,
     /// Of the current pass alone, so that a pass is a function of the state and the passage.
     prediction: Prediction,
     /// What the current pass gathers.
     recorder: Recorder,
-    lattice_step: f64,
+    mesh: Mesh,
 }
 
 impl ForwardSolver {
@@ -44,12 +41,12 @@ impl ForwardSolver {
         let nodes = mesh.nodes();
         let chain = Chain::new(&cable, mesh);
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
-        let room = Room::new(chain.free, screening);
+        let bounds = WindowBounds::new(chain.free, screening);
         Self {
-            supports: Supports::new(&cable, mesh, &chain, room, screening),
+            supports: Supports::new(&cable, mesh, &chain, bounds),
             ends: EndReader::new(&cable, mesh),
-            room,
-            quiet: QUIET * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
+            bounds,
+            quiet: QUIET_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
@@ -60,7 +57,7 @@ impl ForwardSolver {
             moving: Vec::new(),
             prediction: Prediction::default(),
             recorder: Recorder::new(EndForces::default()),
-            lattice_step: mesh.lattice_step(),
+            mesh: *mesh,
         }
     }
 
@@ -79,16 +76,17 @@ impl ForwardSolver {
             *anchor = r + self.step.chain.compliance * g;
         }
         self.step.trial.r.copy_from_slice(&self.r);
-        self.supports.rest(state.thermal_force);
+        self.supports
+            .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction = Prediction::new(points, phases);
-        self.recorder = Recorder::new(state.ends(&self.cable));
+        self.recorder = Recorder::new(state.end_forces(&self.cable)?);
 
-        let mut behind = self.room.free.lo;
+        let mut behind = self.bounds.free.lo;
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
-            let under = self.room.under(snapshot.node, passage.reach);
+            let under = self.bounds.under(snapshot.node, passage.reach);
             // A node is looked at once more where adhesion no longer reaches it.
             let watched = Stretch { lo: behind, ..under };
             behind = under.lo;
@@ -112,8 +110,8 @@ impl ForwardSolver {
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
         self.update_supports(snapshot, true);
-        self.solve(self.room.free, snapshot)?;
-        self.anchor(self.room.free);
+        self.solve(self.bounds.free, snapshot)?;
+        self.anchor(self.bounds.free);
         self.moving.clear();
         self.record_ends(snapshot);
         Ok(())
@@ -130,29 +128,32 @@ impl ForwardSolver {
         self.update_supports(snapshot, false);
         let mut windows = std::mem::take(&mut self.windows);
         self.collect(&mut windows, snapshot, watched);
+        let travelling = windows.clone();
+        windows.extend(self.supports.due());
+        window::join(&mut windows);
         self.moving.clear();
         for window in &mut windows {
-            if window.travels {
-                let contacts = &mut self.step.trial.contact;
-                self.prediction.read(first, window.stretch, contacts);
+            let (begun, before) = (*window, self.moving.len());
+            let travels = travelling.iter().any(|part| part.overlaps(begun));
+            if travels {
+                self.prediction.read(first, begun, &mut self.step.trial.contact);
             }
-            let before = self.moving.len();
-            let solved = self.solve(window.stretch, snapshot)?;
-            if window.travels {
-                self.prediction.write(first, solved, &self.step.trial.contact);
+            *window = self.solve(begun, snapshot)?;
+            if travels {
+                self.prediction.write(first, *window, &self.step.trial.contact);
+                self.supports.remember(begun, &[]);
+            } else {
+                // Around a support nothing moves on until its load changes.
+                self.supports.remember(begun, &self.moving[before..]);
+                self.moving.truncate(before);
             }
-            let moves = (!window.travels)
-                .then(|| self.moving.drain(before..))
-                .and_then(window::hull);
-            self.supports.remember(window.stretch, moves);
             let widest = &mut self.recorder.statistics.widest_window;
-            *widest = solved.len().max(*widest);
-            window.stretch = solved;
+            *widest = window.len().max(*widest);
         }
         for window in &windows {
-            self.anchor(window.stretch);
+            self.anchor(*window);
         }
-        let touched = windows.iter().any(|window| self.room.near_an_end(window.stretch));
+        let touched = windows.iter().any(|window| self.bounds.near_an_end(*window));
         if touched || self.supports.due().next().is_some() {
             self.record_ends(snapshot);
         }
@@ -160,15 +161,13 @@ impl ForwardSolver {
         Ok(())
     }
 
-    /// Lists the windows of a step: what moved in the last one, what of `watched` begins to slip, and what lies around
-    /// supports.
-    fn collect(&mut self, windows: &mut Vec<Window>, snapshot: &Snapshot<'_>, watched: Stretch) {
-        let room = self.room;
-        let window = |travels| move |stretch| Window { stretch, travels };
+    /// Lists the windows of a step beside those around supports: what moved in the last one, and
+    /// what of `watched` begins to slip.
+    fn collect(&mut self, windows: &mut Vec<Stretch>, snapshot: &Snapshot<'_>, watched: Stretch) {
+        let bounds = self.bounds;
         windows.clear();
         // The node beside one that moved is disturbed if the window travels on.
-        let moving = self.moving.iter().map(|&part| room.widened(part, 1));
-        windows.extend(moving.map(window(true)));
+        windows.extend(self.moving.iter().map(|&part| bounds.widened(part, 1)));
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
@@ -177,18 +176,16 @@ impl ForwardSolver {
         let mut lo = near.start;
         for at in 0..=known {
             let (hi, next) = if at < known {
-                let Stretch { lo, hi } = windows[at].stretch;
+                let Stretch { lo, hi } = windows[at];
                 (lo.min(near.end), hi + 1)
             } else {
                 (near.end, near.end)
             };
             window::slipping(lo..hi, &self.g, snapshot.adhesion, limit, |slips| {
-                windows.push(window(true)(room.widened(slips, room.margin)));
+                windows.push(bounds.widened(slips, bounds.margin));
             });
             lo = lo.max(next);
         }
-        windows.extend(self.supports.due().map(window(false)));
-        window::join(windows);
     }
 
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
@@ -214,7 +211,7 @@ impl ForwardSolver {
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
     /// moves is appended to `moving`.
     fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
-        let mut growth = self.room.margin;
+        let mut growth = self.bounds.margin;
         loop {
             self.recorder.statistics.windows += 1;
             let load = Load {
@@ -224,10 +221,10 @@ impl ForwardSolver {
             };
             let solved = self.step.solve(&load, stretch);
             solved.map_err(|violation| CableError::NoConvergence {
-                vehicle_position: self.lattice_step * snapshot.position as f64,
+                vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
                 violation,
             })?;
-            let (grown, next) = window::grow(self.room, stretch, growth, |i| self.edge_disturbed(i));
+            let (grown, next) = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
             if grown == stretch {
                 break;
             }
@@ -252,7 +249,6 @@ impl ForwardSolver {
     /// Records the force on each end with the vehicle at the snapshot's position.
     fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
         self.recorder.record(self.ends.read(
-            Balance::AtRest,
             self.thermal_force,
             |node| self.r[node] + snapshot.adherent_at(node),
             |node| self.g[node] + snapshot.adhesion[node],

@@ -5,18 +5,11 @@ use ground_field::{Direction, DuctMotion};
 use super::schedule::schedule;
 use crate::course::{Course, as_driven};
 use crate::tridiagonal::{self, Row};
+use crate::tuning::{UNBALANCED_SHARE, WATCHED_SHARE};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
-/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
-/// held by nothing: 5e-4).
-pub const UNBALANCED_SHARE: f64 = 1e-3;
-
-/// Part of it that adhesion does not reach where no node is watched: friction there changes by up to twice as much, unseen.
-const UNSEEN: f64 = 0.05;
-
-/// Share of the friction limit beyond it from which a node that is watched slips.
-pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * UNSEEN) * UNBALANCED_SHARE;
+/// A watched node slips when its friction exceeds the limit by this share of the limit.
+pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * WATCHED_SHARE) * UNBALANCED_SHARE;
 
 /// A vehicle's passage as the cable feels it: adherent motion and adhesion on the lattice of one mesh.
 ///
@@ -121,7 +114,7 @@ impl Passage {
         course: &Course<impl Fn(f64) -> f64>,
     ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
-        let unseen = UNSEEN * UNBALANCED_SHARE * cable.friction().limit();
+        let unseen = WATCHED_SHARE * UNBALANCED_SHARE * cable.friction().limit();
         let m = mesh.phases() as i64;
         let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
         let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;

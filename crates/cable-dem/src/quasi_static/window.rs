@@ -1,42 +1,28 @@
 //! The windows of a step: where the cable moves, how far each reaches, and what of it still moves afterwards.
+//!
+//! A window reaches as far beyond a disturbance as a stuck cable feels it, and grows until the held
+//! node beyond either edge stays in balance to [`crate::tuning::UNBALANCED_SHARE`].
 
 use std::ops::Range;
 
 use crate::step::Stretch;
-
-/// Most nodes that a disturbed window grows by at once on each side.
-const MAX_GROWTH: usize = 256;
-
-/// Nodes between two windows from which on each is solved on its own. Between two parts that move four more have to be quiet: two that
-/// either takes with it as its edge, and two that the next windows take.
-const GAP: usize = 16;
-
-/// Nodes that are looked at together.
-const BLOCK: usize = 64;
-
-/// A window to solve in this step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Window {
-    pub stretch: Stretch,
-    /// Whether it travels with the vehicle.
-    pub travels: bool,
-}
+use crate::tuning::{BLOCK, GAP};
 
 /// Where windows may lie, and how far beyond a disturbance they reach.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Room {
+pub(super) struct WindowBounds {
     /// The unknown nodes.
     pub free: Stretch,
-    /// Nodes over which a stuck cable's response fades to a hundredth, at most [`MAX_GROWTH`].
+    /// Nodes over which a stuck cable's response fades to a hundredth.
     pub margin: usize,
 }
 
-impl Room {
+impl WindowBounds {
     /// On a cable whose sheath has the given `screening` (λ/h)².
     pub fn new(free: Stretch, screening: f64) -> Self {
         Self {
             free,
-            margin: fading_nodes(screening).min(MAX_GROWTH),
+            margin: fading_nodes(screening),
         }
     }
 
@@ -64,13 +50,12 @@ impl Room {
 }
 
 /// Stretches that touch, or nearly so, become one window; `windows` are left in order.
-pub(super) fn join(windows: &mut Vec<Window>) {
-    windows.sort_unstable_by_key(|window| window.stretch.lo);
+pub(super) fn join(windows: &mut Vec<Stretch>) {
+    windows.sort_unstable_by_key(|window| window.lo);
     windows.dedup_by(|next, window| {
-        let touches = next.stretch.lo <= window.stretch.hi + GAP;
+        let touches = next.lo <= window.hi + GAP;
         if touches {
-            window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
-            window.travels |= next.travels;
+            window.hi = window.hi.max(next.hi);
         }
         touches
     });
@@ -78,22 +63,24 @@ pub(super) fn join(windows: &mut Vec<Window>) {
 
 /// The window grown by `growth` nodes beyond each edge whose outer neighbour is `disturbed`, and the growth to try next.
 pub(super) fn grow(
-    room: Room,
+    bounds: WindowBounds,
     stretch: Stretch,
     growth: usize,
     disturbed: impl Fn(usize) -> bool,
 ) -> (Stretch, usize) {
-    let widened = room.widened(stretch, growth);
-    let left = stretch.lo > room.free.lo && disturbed(stretch.lo - 1);
-    let right = stretch.hi < room.free.hi && disturbed(stretch.hi + 1);
+    let widened = bounds.widened(stretch, growth);
+    let left = stretch.lo > bounds.free.lo && disturbed(stretch.lo - 1);
+    let right = stretch.hi < bounds.free.hi && disturbed(stretch.hi + 1);
     let grown = Stretch {
         lo: if left { widened.lo } else { stretch.lo },
         hi: if right { widened.hi } else { stretch.hi },
     };
-    (grown, (2 * growth).min(MAX_GROWTH))
+    (grown, 2 * growth)
 }
 
-/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge.
+/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside
+/// each edge. At least [`GAP`] quiet nodes lie between two parts; of fewer than four more the
+/// windows of the next step take so many that they join again.
 pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
     let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
     let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {
@@ -119,11 +106,6 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut
         probe += GAP;
     }
     parts.push(with_edges(lo, last));
-}
-
-/// What holds all `parts`, which are in order.
-pub(super) fn hull(parts: impl Iterator<Item = Stretch>) -> Option<Stretch> {
-    parts.reduce(|hull, part| Stretch { hi: part.hi, ..hull })
 }
 
 /// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond `limit` \[N/m\].
@@ -194,22 +176,15 @@ mod tests {
 
     #[test]
     fn windows_with_less_than_a_gap_between_them_are_one() {
-        let window = |lo, hi, travels| Window {
-            stretch: Stretch { lo, hi },
-            travels,
-        };
+        let window = |lo, hi| Stretch { lo, hi };
         let mut windows = vec![
-            window(100, 120, false),
-            window(20, 40, true),
-            window(30, 35, false),
-            window(40 + GAP, 70, false),
-            window(71 + GAP, 90, false),
+            window(100, 120),
+            window(20, 40),
+            window(30, 35),
+            window(40 + GAP, 70),
+            window(71 + GAP, 90),
         ];
         join(&mut windows);
-        let joined: Vec<_> = windows
-            .iter()
-            .map(|window| (window.stretch.lo, window.stretch.hi, window.travels))
-            .collect();
-        assert_eq!(joined, [(20, 70, true), (71 + GAP, 120, false)]);
+        assert_eq!(windows, [window(20, 70), window(71 + GAP, 120)]);
     }
 }

@@ -1,20 +1,24 @@
 //! The one implicit step: a stretch of the cable follows its duct by a small increment.
 //!
-//! The quasi-static solver takes it in windows that travel with the vehicle, the explicit one for the steps from rest and to it.
-//! [`chain`] states the problem, [`solver`] finds the answer by iteration and, where that cycles, by [`exact`] from the [`response`]s of parts of the chain.
+//! The quasi-static solver takes it in windows under the vehicle and around supports,
+//! `RestingCable` for the whole cable. [`problem`] states the equations: a chain of springs,
+//! friction bounds that the motion of the duct has shifted, and for each node whether it sticks or
+//! slips. [`solver`] guesses these contact states, solves the linear system and corrects them. If
+//! that has not ended after a few solves, it counts as cycling, and [`bisection`] of the chain
+//! finds the contact states without a guess, from the [`response`]s of its parts.
 
-mod chain;
-mod exact;
+mod bisection;
 mod fixed_end_friction;
 mod prediction;
+mod problem;
 mod response;
 mod solver;
 mod support;
 mod tolerance;
 
-pub(crate) use chain::{Chain, Load, Stretch, Trial};
 pub(crate) use fixed_end_friction::FixedEndFriction;
 pub(crate) use prediction::Prediction;
+pub(crate) use problem::{Chain, Load, Stretch, Trial};
 pub(crate) use solver::StepSolver;
 pub(crate) use support::Support;
 pub(crate) use tolerance::{check_precision, largest};

@@ -5,7 +5,7 @@ mod tests {
     //! Every one of the 3ⁿ combinations of contact states, solved densely and checked against the contact law: those that
     //! hold give one and the same displacement, and the solver must find it from any guess.
 
-    use crate::step::chain::{Chain, Contact, Load, Node, Stretch, Trial};
+    use crate::step::problem::{Chain, Contact, Load, Node, Stretch, Trial};
     use crate::step::solver::StepSolver;
     use crate::step::tolerance::Tolerance;
     use proptest::prelude::*;

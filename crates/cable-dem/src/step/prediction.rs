@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::chain::{Contact, Stretch};
+use super::problem::{Contact, Stretch};
 
 /// Contact states on a lattice of distances from the vehicle. Node i stands at lattice point `first` + i · `phases`, where `first` is
 /// given with the vehicle's position.

@@ -1,5 +1,6 @@
-//! Collects a cable's clamps and end springs: where the ground holds it otherwise than by friction. They enter the matrix in
-//! [`super::chain`]; when the cable around one is solved again is decided in `quasi_static/supports.rs`.
+//! Collects a cable's clamps and end springs: where the ground holds it otherwise than by friction.
+//! They enter the matrix in [`super::problem`]; when the cable around one is solved again is
+//! decided in `quasi_static/supports.rs`.
 
 use crate::{DuctedCable, Mesh};
 

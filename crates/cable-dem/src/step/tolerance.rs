@@ -1,6 +1,6 @@
 //! How exactly a step must hold, and when rounding forbids it.
 
-use super::chain::{Chain, rounding};
+use super::problem::{Chain, rounding};
 use crate::{CableError, DuctedCable, Mesh};
 
 /// Share of the friction limit up to which rounding may blur equilibrium.

@@ -84,8 +84,8 @@ impl Scene {
         let mut state = CableState::at_rest(&self.mesh);
         let mut last = state.clone();
         for _ in 0..passes {
-            solver.pass_observed(&self.passage, &mut state, |view| {
-                last = view.state();
+            solver.pass_observed(&self.passage, &mut state, |_, state| {
+                last = state();
             })?;
         }
         Ok(last.end_forces(&self.cable)?.downstream)

@@ -119,3 +119,23 @@ fn a_law_with_memory_has_no_leak() -> Outcome {
     assert_eq!(SigmoidLeak::new(&cable, 1e-3, &still), None);
     Ok(())
 }
+
+/// A cable too stiff to move in a duct that moves by D there and back at once: all slip turns into heat, L q tanh(b D/2) D each time, with the
+/// clamped law in the place of the tanh.
+#[test]
+fn all_slip_of_a_law_without_memory_is_heat() -> Outcome {
+    let (shape_factor, displacement) = (1e6, 1e-6);
+    let friction = Friction::new(FrictionLaw::Sigmoid { shape_factor }, LIMIT)?;
+    let cable = DuctedCable::new(30.0, 1e13, friction)?.with_ends(End::Fixed, End::Fixed)?;
+    let mesh = Mesh::new(30.0, 0.5, 0.5)?;
+    let duct = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 1e4, |_| displacement, 15.0)?;
+    let mut solver = Explicit::new(cable, mesh, MASS, ExplicitOptions::default())?;
+    let heat = solver.pass(&duct, &mut solver.at_rest())?.pass.dissipated;
+    let each = 30.0 * LIMIT * 0.5 * shape_factor * displacement * displacement;
+    assert!(
+        relative(heat, 2.0 * each).abs() < 0.01,
+        "{heat} J, not {}",
+        2.0 * each
+    );
+    Ok(())
+}

@@ -54,9 +54,8 @@ proptest! {
         for _ in 0..2 {
             let mut before = (state.displacement().to_vec(), vec![0.0; mesh.nodes()]);
             let mut wrong = None;
-            let observed = solver.pass_observed(&passage, &mut state, |view| {
-                let state = view.state();
-                let position = view.vehicle_position();
+            let observed = solver.pass_observed(&passage, &mut state, |position, state| {
+                let state = state();
                 let needed = state.friction_needed(&cable).expect("a cable as long as its mesh");
                 if needed > (1.0 + UNBALANCED) * limit {
                     wrong = Some(format!("friction of {needed} N/m at {position} m"));

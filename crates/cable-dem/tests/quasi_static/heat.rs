@@ -197,6 +197,25 @@ proptest! {
     }
 }
 
+/// Between two fixed ends nothing moves, and the whole cable shows the force of its heat, under a vehicle that moves nothing too.
+#[test]
+fn a_cable_is_as_warm_under_the_vehicle_as_before_it() -> Outcome {
+    let bar = cable(10.0, AXIAL_STIFFNESS, sheathed(LIMIT), End::Fixed, End::Fixed);
+    let mesh = Mesh::for_depth(10.0, 1.2, 6.0)?;
+    let mut run = Run::new(bar.clone(), mesh);
+    let heat = thermal_force(10.0);
+    RestingCable::new(&bar, &mesh)?.warm(&mut run.state, heat)?;
+    let still = Passage::from_shape(&bar, &mesh, Direction::Forward, |_| 0.0, 15.0)?;
+    let mut seen = 0;
+    run.watch(&still, |_, state| {
+        let ends = state.end_forces(&bar).expect("a cable as long as its mesh");
+        assert!((ends.upstream / heat - 1.0).abs() < 1e-9 && (ends.downstream / heat - 1.0).abs() < 1e-9);
+        seen += 1;
+    });
+    assert!(seen > 0);
+    Ok(())
+}
+
 /// The solver with inertia says so.
 #[test]
 fn inertia_and_heat_do_not_go_together() -> Outcome {

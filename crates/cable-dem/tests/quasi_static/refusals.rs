@@ -135,10 +135,7 @@ fn arguments_out_of_range_are_refused() {
     assert!(flat(1e6).is_err());
     let sigmoid = Friction::new(FrictionLaw::Sigmoid { shape_factor: 1e7 }, 1.0).expect("valid friction");
     let refused = QuasiStatic::new(DuctedCable::new(10.0, 1e6, sigmoid).expect("a valid cable"), mesh);
-    assert!(matches!(
-        refused,
-        Err(CableError::UnsupportedLaw { law: "sigmoid", .. })
-    ));
+    assert!(matches!(refused, Err(CableError::NoRest { law: "sigmoid", .. })));
 }
 
 #[test]

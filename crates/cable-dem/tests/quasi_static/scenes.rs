@@ -87,9 +87,11 @@ impl Run {
 
     /// One pass; `observe` sees the vehicle's position \[m\] and the cable at each of them.
     pub fn watch(&mut self, passage: &Passage, mut observe: impl FnMut(f64, &CableState)) -> PassOutcome {
-        let watched = self.solver.pass_observed(passage, &mut self.state, |view| {
-            observe(view.vehicle_position(), &view.state());
-        });
+        let watched = self
+            .solver
+            .pass_observed(passage, &mut self.state, |vehicle, state| {
+                observe(vehicle, &state());
+            });
         watched.expect("an equilibrium")
     }
 

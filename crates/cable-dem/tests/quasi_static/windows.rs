@@ -88,8 +88,8 @@ proptest! {
             let passage = Passage::from_shape(&cable, &mesh, direction, shape, APPROACH).expect("a valid passage");
             let mut largest = 0.0_f64;
             solver
-                .pass_observed(&passage, &mut state, |view| {
-                    let state = view.state();
+                .pass_observed(&passage, &mut state, |_, state| {
+                    let state = state();
                     largest = state.friction().iter().fold(largest, |most, friction| most.max(friction.abs()));
                 })
                 .expect("an equilibrium");

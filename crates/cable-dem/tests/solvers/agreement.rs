@@ -92,8 +92,8 @@ fn without_inertia(problem: &Problem, traffic: &[usize]) -> Result<(Vec<f64>, f6
             ..
         } = &drives[drive];
         let passage = Passage::from_shape(cable, mesh, *direction, &**shape, *approach)?;
-        solver.pass_observed(&passage, &mut state, |view| {
-            let state = view.state();
+        solver.pass_observed(&passage, &mut state, |_, state| {
+            let state = state();
             let forces = state.element_forces(cable).expect("the cable's length");
             largest = forces.fold(largest, |largest, force| largest.max(force.abs()));
         })?;

@@ -195,8 +195,8 @@ proptest! {
                 prop_assert!(run.utilisation(&problem) <= 1.0 + 1e-6, "{kind:?}");
                 prop_assert!(pass.outcome.dissipated >= -problem.negligible_work(), "{kind:?} {pass:?}");
                 let Some(energy) = pass.energy else { continue };
-                prop_assert!(energy.returned_share() < 1e-3, "{kind:?} {energy}");
-                prop_assert!(energy.unbalanced_share() < 1e-2, "{kind:?} {energy}");
+                prop_assert!(energy.returned_share() < 1e-3, "{kind:?} {energy:?}");
+                prop_assert!(energy.unbalanced_share() < 1e-2, "{kind:?} {energy:?}");
             }
         }
     }

@@ -179,8 +179,8 @@ impl Run {
             Solver::QuasiStatic(solver, passages) => {
                 let cable = solver.cable().clone();
                 let mut last = self.state.clone();
-                let outcome = solver.pass_observed(&passages[drive], &mut self.state, |view| {
-                    last = view.state();
+                let outcome = solver.pass_observed(&passages[drive], &mut self.state, |_, state| {
+                    last = state();
                 })?;
                 return Ok(Pass {
                     outcome,

@@ -275,8 +275,8 @@ fn all_solvers_agree_on_slopes() -> Outcome {
                     assert!(needed <= cable.friction().limit() * (1.0 + 1e-6), "{needed} N/m");
                     if let Some(energy) = pass.energy {
                         let (unbalanced, returned) = (energy.unbalanced_share(), energy.returned_share());
-                        assert!(unbalanced < 0.01 || energy.residual() > 0.0, "{energy}");
-                        assert!(returned < 1e-3, "{energy}");
+                        assert!(unbalanced < 0.01 || energy.residual() > 0.0, "{energy:?}");
+                        assert!(returned < 1e-3, "{energy:?}");
                     }
                     forces.push(pass.outcome.force);
                 }

@@ -3,28 +3,24 @@
 use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable};
 
 use super::day::{Act, Day, Event};
-use super::rate::RateStep;
+use super::law::LockedLaw;
+use super::step::{LongStep, STAGES};
 use crate::error::wrap;
 use crate::period::difference;
+use crate::tuning::DEFECT_GROWTH;
 use crate::{JumpError, Next};
-
-/// What the law misses goes on after a simulated period so fast, relative to its change from the one before. Of fifteen cables it takes the largest
-/// error of a force from 1.5 to 1.1 %, where nothing goes on, and 0.64 to 0.17 % at best; with all of it, 1, one is 16 % off.
-const GOES_ON: f64 = 0.5;
 
 /// Does what happens; its pass is the caller's.
 pub struct DailyCable<'a, P> {
     day: &'a Day,
     mesh: &'a Mesh,
     cable: RestingCable,
-    pub rate: RateStep,
+    pub step: LongStep,
     pass: P,
-    /// Displacement before the last simulated period \[m\].
-    before: Vec<f64>,
-    /// Whether no step has asked yet what it shows.
-    is_due: bool,
-    /// What simulated periods of the day have shown: the last, and the one before it.
-    shown: [Option<Shown>; 2],
+    /// Displacement before the last simulated period \[m\], if no step has used that period yet.
+    before: Option<Vec<f64>>,
+    /// What the last two simulated periods before steps have shown, the later one first.
+    measured: [Option<Measured>; 2],
     /// The cable when it was hottest and coldest on the day under way.
     pub hot: Option<CableState>,
     pub cold: Option<CableState>,
@@ -33,13 +29,13 @@ pub struct DailyCable<'a, P> {
 }
 
 /// What a simulated period has shown.
-struct Shown {
+struct Measured {
     /// When it ended \[periods of the day\].
     time: f64,
     /// Advance of every node in it \[m\].
     advance: Vec<f64>,
     /// Friction that the law missed \[N/m\].
-    missed: Vec<f64>,
+    defect: Vec<f64>,
 }
 
 impl<'a, E, P> DailyCable<'a, P>
@@ -51,18 +47,17 @@ where
         cable: &DuctedCable,
         mesh: &'a Mesh,
         day: &'a Day,
-        rate: RateStep,
+        law: LockedLaw,
         pass: P,
     ) -> Result<Self, CableError> {
         Ok(Self {
             day,
             mesh,
             cable: RestingCable::new(cable, mesh)?,
-            rate,
+            step: LongStep { law, sweeps: 0 },
             pass,
-            before: vec![0.0; mesh.nodes()],
-            is_due: false,
-            shown: [None, None],
+            before: None,
+            measured: [None, None],
             hot: None,
             cold: None,
             simulated: 0,
@@ -71,7 +66,7 @@ where
 
     /// Begins another day.
     pub fn begin_day(&mut self) {
-        self.shown = [None, None];
+        self.measured = [None, None];
         (self.hot, self.cold) = (None, None);
     }
 
@@ -83,19 +78,20 @@ where
         state: &mut CableState,
     ) -> Result<PassOutcome, E> {
         if event.begins {
-            self.before.copy_from_slice(state.displacement());
-            self.is_due = true;
+            self.before = Some(state.displacement().to_vec());
         }
         let outcome = match event.act {
             Act::Pass(phase) => {
                 self.simulated += 1;
                 (self.pass)(Next { phase, number }, state)?
             }
-            Act::Warm => self.warm(event, state)?,
-            // Nothing but heat moves the cable.
-            Act::Step(..) if self.rate.law.is_still() => self.warm(event, state)?,
-            Act::Step(from, to) => {
-                self.step(event, from, to, state).map_err(wrap)?;
+            act => {
+                let moved = match act {
+                    Act::Step(from, to) if !self.step.law.is_still() => self.step(event, from, to, state),
+                    // Nothing but heat moves the cable.
+                    _ => self.cable.warm(state, event.thermal_force),
+                };
+                moved.map_err(wrap)?;
                 PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)?
             }
         };
@@ -109,54 +105,50 @@ where
         Ok(outcome)
     }
 
-    /// Brings the cable to the temperature of the `event`.
-    fn warm(&mut self, event: &Event, state: &mut CableState) -> Result<PassOutcome, E> {
-        self.cable.warm(state, event.thermal_force).map_err(wrap)?;
-        PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)
-    }
-
-    /// The periods from `from` to `to`, with the friction that the law misses as the simulated ones before them have shown it.
+    /// The periods from `from` to `to` in one step, with the friction that the law misses as the
+    /// simulated ones before them have shown it.
     fn step(&mut self, event: &Event, from: u64, to: u64, state: &mut CableState) -> Result<(), CableError> {
-        if std::mem::take(&mut self.is_due) {
-            let shown = self.show(from as f64, state);
-            self.shown = [Some(shown), self.shown[0].take()];
+        if let Some(before) = self.before.take() {
+            let measured = self.measure(&before, from as f64, state);
+            self.measured = [Some(measured), self.measured[0].take()];
         }
-        let [Some(last), earlier] = &self.shown else {
+        let [Some(last), earlier] = &self.measured else {
             return Ok(());
         };
-        let (begin, periods) = (from as f64, (to - from) as f64);
-        let times = [RateStep::STAGE, 1.0].map(|share| begin + share * periods);
-        let missed = times.map(|time| match earlier {
+        let periods = (to - from) as f64;
+        let times = STAGES.map(|share| from as f64 + share * periods);
+        let defects = times.map(|time| match earlier {
             Some(earlier) => {
-                let ahead = GOES_ON * ((time - last.time) / (last.time - earlier.time)).min(1.0);
-                let both = last.missed.iter().zip(&earlier.missed);
-                both.map(|(last, earlier)| last + ahead * (last - earlier))
+                let ahead = ((time - last.time) / (last.time - earlier.time)).min(1.0);
+                let both = last.defect.iter().zip(&earlier.defect);
+                both.map(|(last, earlier)| last + DEFECT_GROWTH * ahead * (last - earlier))
                     .collect()
             }
-            None => last.missed.clone(),
+            None => last.defect.clone(),
         });
-        let heat = times.map(|time| self.day.before(time));
-        let mut u = state.displacement().to_vec();
-        self.rate
-            .advance(&mut self.cable, &mut u, periods, heat, &missed, &last.advance)?;
+        let [first, second] = times.map(|time| self.day.heat_before(time));
+        let stages = [(first, &defects[0][..]), (second, &defects[1][..])];
+        let (cable, u) = (&mut self.cable, state.displacement());
+        let u = self.step.take(cable, u, periods, stages, &last.advance)?;
         let moved = CableState::from_parts(self.mesh, u, state.friction().to_vec())?;
         *state = moved.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }
 
-    /// What the period has shown that ended in `state` at this time.
-    fn show(&mut self, time: f64, state: &CableState) -> Shown {
-        let advance = difference(state.displacement(), &self.before);
-        let mut missed = vec![0.0; advance.len()];
-        self.cable
-            .needed(state.displacement(), state.thermal_force(), &mut missed);
-        for (missed, v) in missed.iter_mut().zip(&advance) {
-            *missed -= self.rate.law.friction(*v);
+    /// What the period has shown that began with the displacements `before` and ended in `state` at
+    /// this time.
+    fn measure(&mut self, before: &[f64], time: f64, state: &CableState) -> Measured {
+        let advance = difference(state.displacement(), before);
+        let mut defect = vec![0.0; advance.len()];
+        let (u, thermal_force) = (state.displacement(), state.thermal_force());
+        self.cable.needed(u, thermal_force, &mut defect);
+        for (defect, v) in defect.iter_mut().zip(&advance) {
+            *defect -= self.step.law.friction(*v);
         }
-        Shown {
+        Measured {
             time,
             advance,
-            missed,
+            defect,
         }
     }
 }

@@ -1,29 +1,21 @@
 //! A day of traffic and heat as a list of events.
 
-use cable_dem::CableError;
-
 use super::heat::DailyHeat;
+use crate::JumpError;
+use crate::error::check;
+use crate::tuning::{AFTER_A_CORNER, MORNING, MORNING_GROWTH};
 
-/// Knots beyond this share of all periods: every one is simulated.
+/// With knots beyond this share of all periods a step would be no longer than a period: every one
+/// is simulated.
 const NEARLY_ALL: f64 = 0.5;
-/// Periods that are simulated one by one on the first morning, and growth of the steps after them.
-const MORNING: u64 = 8;
-const MORNING_GROWTH: f64 = 1.5;
-/// Periods after a corner of the temperature at which one is simulated: the cable turns within a few.
-const AFTER_A_CORNER: [u64; 6] = [0, 1, 2, 4, 8, 16];
 
-/// A day of traffic and heat.
+/// A day of traffic and heat: passes evenly over the day, the first after half an interval.
 #[derive(Debug, Clone)]
 pub struct Day {
-    /// Passes of a day, at least as many as a period has; evenly over the day, the first after half an interval. The last period of the day
-    /// takes those along that are too few for another one.
-    pub passes: u64,
-    /// Vehicles after which the traffic repeats, every day anew.
-    pub period: usize,
-    /// Temperature over the day.
-    pub heat: DailyHeat,
-    /// Times of the day at which a period is simulated, evenly.
-    pub knots: u64,
+    passes: u64,
+    period: u64,
+    heat: DailyHeat,
+    knots: u64,
 }
 
 /// What happens to the cable at one moment of a day.
@@ -49,27 +41,46 @@ pub(super) enum Act {
 }
 
 impl Day {
+    /// A day of so many `passes`. The traffic starts anew every day and repeats after `period`
+    /// passes; the last period of a day also holds the passes left over. The day simulates `knots`
+    /// periods at even distances, and more where the temperature turns.
+    ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] if it has no whole period, no knot, or a profile without points or whose times are not those
-    /// of one day in their order.
-    pub(super) fn check(&self) -> Result<(), CableError> {
-        let invalid = |name, value, allowed| Err(CableError::InvalidParameter { name, value, allowed });
-        if self.period == 0 {
-            return invalid("period of the traffic", 0.0, "at least one vehicle");
-        }
-        if self.passes < self.period as u64 {
-            return invalid("passes a day", self.passes as f64, "at least those of a period");
-        }
-        if self.knots == 0 {
-            return invalid("real periods a day", 0.0, "at least one");
-        }
-        self.heat.check()
+    /// [`JumpError::InvalidParameter`] if it has no whole period, no knot, or a `heat` whose forces
+    /// are not finite or whose points are not in the order of one day.
+    pub fn new(passes: u64, period: usize, heat: DailyHeat, knots: u64) -> Result<Self, JumpError> {
+        let period = period as u64;
+        check("period of the traffic", period > 0, "at least one vehicle")?;
+        check("passes a day", passes >= period, "at least those of a period")?;
+        check("simulated periods a day", knots > 0, "at least one")?;
+        heat.check()?;
+        Ok(Self {
+            passes,
+            period,
+            heat,
+            knots,
+        })
+    }
+
+    /// Passes of a day.
+    pub fn passes(&self) -> u64 {
+        self.passes
+    }
+
+    /// Passes of a period.
+    pub(super) fn period(&self) -> u64 {
+        self.period
     }
 
     /// Periods of a day.
     pub fn periods(&self) -> u64 {
-        self.passes / self.period as u64
+        self.passes / self.period
+    }
+
+    /// Whether every period of a day is simulated.
+    pub fn is_simulated(&self) -> bool {
+        self.knots as f64 >= NEARLY_ALL * self.periods() as f64
     }
 
     /// Passes done when `periods` of the day are: the last one is longer.
@@ -77,7 +88,7 @@ impl Day {
         if periods == self.periods() {
             self.passes
         } else {
-            periods * self.period as u64
+            periods * self.period
         }
     }
 
@@ -86,8 +97,8 @@ impl Day {
         self.heat.at(passes / self.passes as f64)
     }
 
-    /// Θ at the last pass before `periods` are done.
-    pub(super) fn before(&self, periods: f64) -> f64 {
+    /// Θ at the last pass before `periods` are done \[N\].
+    pub(super) fn heat_before(&self, periods: f64) -> f64 {
         self.thermal_force((periods * self.period as f64 - 0.5).max(0.0))
     }
 
@@ -100,13 +111,9 @@ impl Day {
         turns.map(|time| self.heat.at(time)).collect()
     }
 
-    /// Whether every period of a day is simulated.
-    pub fn is_simulated(&self) -> bool {
-        self.knots as f64 >= NEARLY_ALL * self.periods() as f64
-    }
-
-    /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and after its corners, and the last; on the `first` day
-    /// many of the morning, when the cable is as laid.
+    /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and
+    /// after its corners, and the last; on the `first` day many of the morning, when the cable is
+    /// as laid.
     fn simulated(&self, first: bool) -> Vec<u64> {
         let all = self.periods();
         if self.is_simulated() {
@@ -118,7 +125,7 @@ impl Day {
         let after = if corners { &AFTER_A_CORNER[..] } else { &[0] };
         // A turn comes before the first pass after it.
         let next = |time: f64| (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
-        let period_of = |time: f64| (next(time) / self.period as u64).min(all - 1);
+        let period_of = |time: f64| (next(time) / self.period).min(all - 1);
         let turns = self.heat.turns().into_iter().map(period_of);
         for turn in turns.chain(corners.then_some(0)) {
             knots.extend(after.iter().map(|after| turn + after));
@@ -126,11 +133,9 @@ impl Day {
         let (mut next, mut step) = (0.0, 1.0);
         while first && step < all as f64 / self.knots as f64 {
             knots.push(next as u64);
-            step = if next < MORNING as f64 {
-                1.0
-            } else {
-                MORNING_GROWTH * step
-            };
+            if next >= MORNING as f64 {
+                step *= MORNING_GROWTH;
+            }
             next += step;
         }
         knots.retain(|knot| *knot < all);
@@ -139,10 +144,10 @@ impl Day {
         knots
     }
 
-    /// What happens in a day, the `first` or another, up to its pass number `passes`, which is simulated, and at its end, when the temperature is
-    /// that of its beginning.
+    /// What happens in a day, the `first` or another, up to its pass number `passes`, which is
+    /// simulated, and at its end, when the temperature is that of its beginning.
     pub(super) fn events(&self, passes: u64, first: bool) -> Vec<Event> {
-        let whole = passes.div_ceil(self.period as u64).min(self.periods());
+        let whole = passes.div_ceil(self.period).min(self.periods());
         let mut knots = self.simulated(first);
         knots.retain(|knot| *knot + 1 < whole);
         knots.push(whole - 1);
@@ -158,25 +163,21 @@ impl Day {
                     events.push(Event::warm(thermal_force, pass, begins));
                     begins = false;
                 }
+                let act = Act::Pass((pass % self.period) as usize);
                 events.push(Event {
-                    act: Act::Pass((pass % self.period as u64) as usize),
-                    thermal_force,
+                    act,
                     passes: pass + 1,
-                    begins,
+                    ..Event::warm(thermal_force, pass, false)
                 });
             }
             // Two steps to the next knot, so that passes between are known well too.
             let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(whole));
             let middle = from + (to - from) / 2;
-            for (from, to) in [(from, middle), (middle, to)]
-                .into_iter()
-                .filter(|(from, to)| from < to)
-            {
+            let steps = [(from, middle), (middle, to)];
+            for (from, to) in steps.into_iter().filter(|(from, to)| from < to) {
                 events.push(Event {
                     act: Act::Step(from, to),
-                    thermal_force: self.before(to as f64),
-                    passes: self.passes_of(to),
-                    begins: false,
+                    ..Event::warm(self.heat_before(to as f64), self.passes_of(to), false)
                 });
             }
         }
@@ -190,9 +191,8 @@ impl Day {
 
 impl Event {
     fn warm(thermal_force: f64, passes: u64, begins: bool) -> Self {
-        let act = Act::Warm;
         Self {
-            act,
+            act: Act::Warm,
             thermal_force,
             passes,
             begins,
@@ -200,107 +200,36 @@ impl Event {
     }
 }
 
-/// How the outcome of a pass follows from those of events of its day.
-#[derive(Debug, PartialEq)]
-pub(super) enum Known {
-    /// It is that of this one.
-    Simulated(usize),
-    /// It lies in a step. Its weights of the cable at rest after events, and the event that shows what such a pass does beside that.
-    Within { at_rest: [(f64, usize); 4], like: usize },
-}
-
-impl Known {
-    /// The places of the events that it follows from.
-    pub fn places(&self) -> Vec<usize> {
-        match self {
-            Self::Simulated(place) => vec![*place],
-            Self::Within { at_rest, like } => {
-                at_rest.iter().map(|(_, place)| *place).chain([*like]).collect()
-            }
-        }
-    }
-}
-
-/// How `pass`, from 1, of a day with these `events` and so many vehicles in a period is known. In a step the cable goes straight from one end to
-/// the other, and passes do beside that what those of the nearest simulated period did.
-pub(super) fn known(events: &[Event], pass: u64, period: usize) -> Option<Known> {
-    let period = period as u64;
-    let passed = |passes: u64| {
-        let is_it = |event: &Event| matches!(event.act, Act::Pass(_)) && event.passes == passes;
-        events.iter().position(is_it)
-    };
-    if let Some(simulated) = passed(pass) {
-        return Some(Known::Simulated(simulated));
-    }
-    let is_step = |event: &Event| matches!(event.act, Act::Step(..));
-    let to = events
-        .iter()
-        .position(|event| is_step(event) && event.passes >= pass)?;
-    let from = to.checked_sub(1)?;
-    let share = (pass - events[from].passes) as f64 / (events[to].passes - events[from].passes) as f64;
-    // The period after the step where that is nearer and whole, or the one before it.
-    let done = (pass - 1) % period + 1;
-    let after = events[to..].iter().position(|event| event.begins);
-    let after = after.filter(|_| is_step(&events[from])).map(|place| to + place);
-    let before = events[..to].iter().rposition(|event| event.begins);
-    let shown = |begin: usize| {
-        let passes = events[begin].passes;
-        Some((begin, passed(passes + done)?, passed(passes + period)?))
-    };
-    let (begin, like, end) = after.and_then(shown).or_else(|| before.and_then(shown))?;
-    let done = done as f64 / period as f64;
-    let at_rest = [
-        (1.0 - share, from),
-        (share, to),
-        (done - 1.0, begin.saturating_sub(1)),
-        (-done, end),
-    ];
-    Some(Known::Within { at_rest, like })
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::part::parts;
     use super::*;
 
     #[test]
     fn every_pass_of_any_day_is_known_from_its_events() {
+        let (lowest, highest) = (0.0, 1.0);
         let heat = [
-            DailyHeat::Cosine {
-                lowest: 0.0,
-                highest: 1.0,
-            },
-            DailyHeat::Profile(vec![(0.1, 0.0), (0.4, 1.0), (0.45, 0.5)]),
+            (DailyHeat::Cosine { lowest, highest }, 0.5),
+            (DailyHeat::Profile(vec![(0.1, 0.0), (0.4, 1.0), (0.45, 0.5)]), 0.4),
         ];
         let days = [(1, 1), (7, 1), (90, 1), (90, 4), (97, 3), (402, 2), (200, 150)];
-        for (heat, (passes, period)) in heat.iter().flat_map(|heat| days.map(|day| (heat, day))) {
+        for ((heat, hottest), (passes, period)) in heat.iter().flat_map(|heat| days.map(|day| (heat, day))) {
             for knots in [1, 2, 5, 16, 1000] {
-                let day = Day {
-                    passes,
-                    period,
-                    heat: heat.clone(),
-                    knots,
-                };
+                let day = Day::new(passes, period, heat.clone(), knots).expect("a day");
                 for (cut, first) in (1..=passes).flat_map(|cut| [(cut, false), (cut, true)]) {
                     let events = day.events(cut, first);
-                    // Straight lines and what passes do beside them: together once the cable, whatever the event.
+                    // Straight lines and what passes do relative to them: together once the cable.
                     for pass in 1..=cut {
-                        let sum = match known(&events, pass, period) {
-                            Some(Known::Simulated(place)) => {
-                                assert_eq!(events[place].passes, pass);
-                                0.0
-                            }
-                            Some(Known::Within { at_rest, .. }) => {
-                                at_rest.iter().map(|(weight, _)| weight).sum()
-                            }
-                            None => f64::NAN,
-                        };
-                        assert!(f64::abs(sum) < 1e-12, "pass {pass} of {cut}: {day:?}");
+                        let parts = parts(&events, pass, period as u64);
+                        let sum: f64 = parts.iter().map(|part| part.weight).sum();
+                        assert!(f64::abs(sum - 1.0) < 1e-12, "pass {pass} of {cut}: {day:?}");
+                        let is_simulated = parts.len() == 1;
+                        assert!(!is_simulated || events[parts[0].place].passes == pass);
                     }
                     let last = events.iter().rfind(|event| matches!(event.act, Act::Pass(_)));
                     assert_eq!(last.map(|event| event.passes), Some(cut), "{day:?}");
-                    // The day meets its hottest and its coldest moment.
-                    let (hottest, _) = heat.extremes();
-                    let is_met = |event: &Event| event.thermal_force == heat.at(hottest);
+                    // The day meets its hottest moment.
+                    let is_met = |event: &Event| event.thermal_force == heat.at(*hottest);
                     assert!(cut < passes || events.iter().any(is_met), "{day:?}");
                 }
             }

@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use cable_dem::CableError;
+use crate::JumpError;
+use crate::error::check;
 
-/// The force Θ = EA α T \[N\] that heat would make in a cable which cannot move, over a day that repeats; times are shares of the day.
+/// The force Θ = EA α T \[N\] that heat would make in a cable which cannot move, over a day that
+/// repeats; times are shares of the day.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DailyHeat {
     /// A cosine, lowest at the day's ends and highest at noon.
@@ -14,41 +16,38 @@ pub enum DailyHeat {
         /// Θ at its highest.
         highest: f64,
     },
-    /// Straight lines between points (time, Θ), whose times ascend from 0 on and stay below 1; the last is joined to the first.
+    /// Straight lines between points (time, Θ), whose times ascend from 0 on and stay below 1; the
+    /// last is joined to the first.
     Profile(Vec<(f64, f64)>),
 }
 
 impl DailyHeat {
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] where a force is not finite, or a profile has no points or none in the order of one day.
-    pub(super) fn check(&self) -> Result<(), CableError> {
+    /// [`JumpError::InvalidParameter`] for a force that is not finite, a profile without points, or
+    /// points that are not in the order of one day.
+    pub(super) fn check(&self) -> Result<(), JumpError> {
         let points = match self {
             Self::Cosine { lowest, highest } => &vec![(0.0, *lowest), (0.5, *highest)],
             Self::Profile(points) => points,
         };
-        let invalid = |name, value, allowed| Err(CableError::InvalidParameter { name, value, allowed });
-        if points.is_empty() {
-            return invalid("points of the day", 0.0, "at least one");
-        }
-        let mut before = None;
-        for (time, force) in points {
-            if !(0.0..1.0).contains(time) || before.is_some_and(|before| before >= time) {
-                return invalid(
-                    "time of the day",
-                    *time,
-                    "from 0 to below 1 and after the one before",
-                );
-            }
-            if !force.is_finite() {
-                return invalid("thermal force", *force, "finite");
-            }
-            before = Some(time);
-        }
-        Ok(())
+        let is_in_day = points.iter().all(|(time, _)| (0.0..1.0).contains(time));
+        let ascends = points.is_sorted_by(|a, b| a.0 < b.0);
+        check(
+            "points of a day's temperature",
+            !points.is_empty(),
+            "at least one",
+        )?;
+        check(
+            "times of a day's temperature",
+            is_in_day && ascends,
+            "ascending, from 0 to below 1",
+        )?;
+        let is_finite = points.iter().all(|(_, force)| force.is_finite());
+        check("thermal force", is_finite, "finite")
     }
 
-    /// Θ at `time`.
+    /// Θ at `time` \[N\].
     pub fn at(&self, time: f64) -> f64 {
         match self {
             Self::Cosine { lowest, highest } => {
@@ -56,47 +55,30 @@ impl DailyHeat {
             }
             Self::Profile(points) => {
                 let time = time.rem_euclid(1.0);
+                let (first, last) = (points[0], points[points.len() - 1]);
                 let next = points.partition_point(|point| point.0 <= time);
-                let before = if next == 0 {
-                    let last = points[points.len() - 1];
-                    (last.0 - 1.0, last.1)
-                } else {
-                    points[next - 1]
-                };
-                let after = points
-                    .get(next)
-                    .copied()
-                    .unwrap_or((points[0].0 + 1.0, points[0].1));
+                let before = next.checked_sub(1).map_or((last.0 - 1.0, last.1), |k| points[k]);
+                let after = points.get(next).copied().unwrap_or((first.0 + 1.0, first.1));
                 before.1 + (after.1 - before.1) * (time - before.0) / (after.0 - before.0)
             }
         }
     }
 
-    /// Times within the day at which it turns, ascending: its extremes, and the corners of a profile.
-    pub fn turns(&self) -> Vec<f64> {
+    /// Times within the day at which it turns, ascending: its extremes, and the corners of a
+    /// profile.
+    pub(super) fn turns(&self) -> Vec<f64> {
         match self {
             Self::Cosine { .. } => vec![0.5],
-            Self::Profile(points) => points
-                .iter()
-                .map(|point| point.0)
-                .filter(|time| *time > 0.0)
-                .collect(),
+            Self::Profile(points) => {
+                let times = points.iter().map(|point| point.0);
+                times.filter(|time| *time > 0.0).collect()
+            }
         }
     }
 
     /// Whether it has corners, at which its rate of change jumps.
-    pub fn has_corners(&self) -> bool {
+    pub(super) fn has_corners(&self) -> bool {
         matches!(self, Self::Profile(_))
-    }
-
-    /// Times of the day's highest and lowest Θ.
-    pub fn extremes(&self) -> (f64, f64) {
-        let mut times = self.turns();
-        times.insert(0, 0.0);
-        let by_heat = |a: &f64, b: &f64| self.at(*a).total_cmp(&self.at(*b));
-        let hottest = times.iter().copied().max_by(by_heat).unwrap_or(0.0);
-        let coldest = times.iter().copied().min_by(by_heat).unwrap_or(0.0);
-        (hottest, coldest)
     }
 }
 
@@ -117,7 +99,6 @@ mod tests {
         ] {
             assert!((profile.at(time) - expected).abs() < 1e-12, "{time}");
         }
-        assert_eq!(profile.extremes(), (0.75, 0.25));
     }
 
     #[test]
@@ -147,6 +128,5 @@ mod tests {
             highest: 7.0,
         };
         assert!((day.at(0.0) + 3.0).abs() < 1e-12 && (day.at(0.5) - 7.0).abs() < 1e-12);
-        assert_eq!(day.extremes(), (0.5, 0.0));
     }
 }

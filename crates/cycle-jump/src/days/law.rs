@@ -1,16 +1,19 @@
-//! The advance of a cable against the friction that is locked in: one table, made by passes over a short cable.
+//! The advance of a cable against the friction that is locked in: one table, made by passes over a
+//! short cable.
 
-/// Slope of the law where the table leaves off, as a share of q over the table's width: it keeps a cable that slides everywhere in place.
+/// Slope of the law beyond its table, as a share of q over the table's width: it keeps a cable that
+/// slides everywhere in place.
 const RESIDUAL: f64 = 1e-4;
 /// Least difference of advances \[m\]: the law falls strictly.
-const LEAST: f64 = 1e-10;
-/// Advances below this are none \[m\]: ten million of them are a tenth of a millimetre.
+const MIN_DIFFERENCE: f64 = 1e-10;
+/// Advances below this count as zero \[m\]: ten million of them are a tenth of a millimetre.
 const STILL: f64 = 1e-11;
 
-/// Friction f̄ \[N/m\] per metre against which a cable advances by v \[m\] in a period of the traffic: f̄ = Φ(v), falling.
+/// Friction f̄ \[N/m\] against which a cable advances by v \[m\] in a period of the traffic: f̄ =
+/// Φ(v), falling.
 ///
-/// Within the table it is piecewise linear. Beyond it goes straight to ±q over one more width of the table and stays there: the duct slips
-/// past the cable wholly one way.
+/// Within the table it is piecewise linear. Beyond it goes straight to ±q over one more width of
+/// the table and stays there: the duct slips past the cable wholly one way.
 #[derive(Debug, Clone)]
 pub struct LockedLaw {
     /// Advances, ascending, and Φ there.
@@ -22,64 +25,63 @@ pub struct LockedLaw {
 }
 
 impl LockedLaw {
-    /// Shares of q for which the advance is measured, the same both ways. More of them change nothing: with ten the forces of days differ
-    /// by less than a tenth of a per cent.
+    /// Shares of q for which the advance is measured, the same both ways. More of them change
+    /// nothing: with ten the forces of days differ by less than a tenth of a per cent.
     pub const SHARES: [f64; 16] = [
         -0.96, -0.9, -0.82, -0.72, -0.6, -0.45, -0.28, -0.1, 0.1, 0.28, 0.45, 0.6, 0.72, 0.82, 0.9, 0.96,
     ];
 
-    /// The law with friction limit `limit` q \[N/m\] through `advances` \[m\], one for each of [`LockedLaw::SHARES`]: how far the middle of a
-    /// cable advances in a period on which a body force −share · q acts.
+    /// The law with friction limit `limit` q \[N/m\] through `advances` \[m\], one for each of
+    /// [`LockedLaw::SHARES`]: how far the middle of a cable advances in a period on which a body
+    /// force −share · q acts.
     pub fn new(advances: [f64; Self::SHARES.len()], limit: f64) -> Self {
-        let is_still = advances.iter().all(|advance| advance.abs() < STILL);
         let mut falling = advances;
         for k in 1..falling.len() {
-            falling[k] = falling[k].min(falling[k - 1] - LEAST);
+            falling[k] = falling[k].min(falling[k - 1] - MIN_DIFFERENCE);
         }
-        let width = falling[0] - falling[falling.len() - 1];
-        let inner = falling.iter().rev().copied();
-        let friction = Self::SHARES.iter().rev().map(|share| share * limit);
+        let (most, least) = (falling[0], falling[falling.len() - 1]);
+        let width = most - least;
+        let mut advance = vec![most + width];
+        advance.extend(falling);
+        advance.push(least - width);
+        advance.reverse();
+        let mut friction = vec![limit];
+        friction.extend(Self::SHARES.iter().rev().map(|share| share * limit));
+        friction.push(-limit);
         Self {
-            advance: std::iter::once(falling[falling.len() - 1] - width)
-                .chain(inner)
-                .chain([falling[0] + width])
-                .collect(),
-            friction: std::iter::once(limit).chain(friction).chain([-limit]).collect(),
+            advance,
+            friction,
             limit,
             residual: RESIDUAL * limit / width,
-            is_still,
+            is_still: advances.iter().all(|advance| advance.abs() < STILL),
         }
     }
 
-    /// Whether the traffic moves a cable nowhere, whatever friction is locked in: below shakedown, or without load.
+    /// Whether the traffic moves a cable nowhere, whatever friction is locked in: below shakedown,
+    /// or without load.
     pub fn is_still(&self) -> bool {
         self.is_still
     }
 
-    /// Φ(v).
+    /// Φ(v) \[N/m\].
     pub fn friction(&self, advance: f64) -> f64 {
         self.segment(advance).0
     }
 
     /// Friction Φ(v) + r within ±q, and minus its slope \[N/m²\].
-    pub fn with_defect(&self, advance: f64, defect: f64) -> (f64, f64) {
+    pub(super) fn with_defect(&self, advance: f64, defect: f64) -> (f64, f64) {
         let (friction, slope) = self.segment(advance);
-        let (shifted, residual) = (friction + defect, self.residual);
+        let shifted = friction + defect;
         let slope = if shifted.abs() >= self.limit { 0.0 } else { slope };
-        (
-            shifted.clamp(-self.limit, self.limit) - residual * advance,
-            slope + residual,
-        )
+        let friction = shifted.clamp(-self.limit, self.limit) - self.residual * advance;
+        (friction, slope + self.residual)
     }
 
     /// Φ(v) and minus its slope.
     fn segment(&self, v: f64) -> (f64, f64) {
         let next = self.advance.partition_point(|advance| *advance < v);
-        if next == 0 {
-            return (self.limit, 0.0);
-        }
-        if next == self.advance.len() {
-            return (-self.limit, 0.0);
+        if next == 0 || next == self.advance.len() {
+            return (if next == 0 { self.limit } else { -self.limit }, 0.0);
         }
         let (a, b) = (next - 1, next);
         let slope = (self.friction[a] - self.friction[b]) / (self.advance[b] - self.advance[a]);

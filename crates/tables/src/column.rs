@@ -1,8 +1,9 @@
 //! The names of columns, and what they say of them.
 
 use crate::options::Options;
+use crate::rows::Row;
 
-/// A kind of column: the word by which its program calls it, and after it those of others, between spaces.
+/// A kind of column: the word of its program for it and, between spaces, those of others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Kind(pub &'static str);
 
@@ -13,19 +14,24 @@ impl Kind {
     }
 }
 
-/// What the names of a table may be.
+/// What the columns of a table may be.
 #[derive(Debug)]
-pub struct Names {
+pub struct Layout {
     /// The kinds of its columns; of those whose words a name has, the first counts.
     pub kinds: &'static [Kind],
     /// The kind to which [`Options::unit`] belongs.
     pub measured: Option<Kind>,
-    /// Whether these are the names of its columns.
-    pub is_header: fn(&[Name]) -> bool,
+    /// The column that is missing among these, if they are not the names of its columns.
+    pub missing: fn(&[Name]) -> Option<&'static str>,
+    /// Whether a column of this name holds numbers.
+    pub is_number: fn(&Name) -> bool,
     /// Names of columns where the first row holds numbers.
     pub unnamed: &'static [&'static str],
     /// The symbol of the unit that a word stands for, whatever its case.
     pub unit: fn(&str) -> Option<&'static str>,
+    /// The value in SI of a cell's digits and unit in a column of a kind, both empty if it is no
+    /// number; or what is allowed there.
+    pub si: fn(Kind, &str, &str) -> Result<f64, String>,
     /// Largest file \[bytes\].
     pub most: u64,
     /// What a table has to have, as errors say it.
@@ -41,12 +47,14 @@ pub struct Name {
     pub bare: String,
     /// Its words in small letters.
     pub words: Vec<String>,
-    /// Its unit: in brackets, after a slash, or as its last word. A row of units below the header adds those of other columns.
+    /// Its unit: in brackets, after a slash, as its last word, or in a row of units below.
     pub unit: Option<String>,
-    /// What the column holds: by the name's words, or because [`Options::columns`] say so, of no other column then.
+    /// What the column holds: by the name's words, unless [`Options::columns`] name one of this kind.
     pub kind: Option<Kind>,
     /// Whether the options say so.
     pub chosen: bool,
+    /// What stands before the decimals of its numbers, as far as it is known.
+    pub(crate) decimal: Option<char>,
 }
 
 impl Name {
@@ -63,19 +71,32 @@ impl Name {
     }
 }
 
-impl Names {
+impl Layout {
+    /// The names in a header of one or more rows.
+    pub(crate) fn names(&self, rows: &[Row], options: &Options) -> Vec<Name> {
+        let text = |column| {
+            rows.iter()
+                .map(|row| row.cell(column))
+                .collect::<Vec<_>>()
+                .join(" ")
+        };
+        let columns = 0..rows.first().map_or(0, |row| row.cells.len());
+        let mut names: Vec<Name> = columns.map(|column| self.name(&text(column), options)).collect();
+        // Excel writes columns that were used once.
+        while names.pop_if(|name| name.text.is_empty()).is_some() {}
+        names
+    }
+
     /// The name in a cell of the header.
     pub fn name(&self, text: &str, options: &Options) -> Name {
         let text = text.trim_start_matches('~').trim();
         let (bare, mut unit) = self.bracketed(text);
-        let mut words: Vec<&str> = bare
-            .split(|c: char| !c.is_alphanumeric())
-            .filter(|word| !word.is_empty())
-            .collect();
+        let words = bare.split(|c: char| !c.is_alphanumeric());
+        let mut words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         if let (None, [_, .., last]) = (&unit, &words[..])
             && let Some(known) = (self.unit)(last)
         {
-            words.truncate(words.len() - 1);
+            words.pop();
             words.pop_if(|word| *word == "in");
             unit = Some(known.to_owned());
         }
@@ -87,21 +108,18 @@ impl Names {
             bare,
             ..Name::default()
         };
-        let of = |kind: Kind| {
+        let columns = |kind: Kind| {
             options
                 .columns
                 .iter()
-                .filter(move |(other, _)| other == kind.name())
+                .filter(move |column| column.0 == kind.name())
         };
-        let chosen = self
-            .kinds
-            .iter()
-            .find(|kind| of(**kind).any(|(_, column)| is_same(column, text)));
+        let is_chosen = |kind: &&Kind| columns(**kind).any(|(_, column)| is_same(column, text));
+        let chosen = self.kinds.iter().find(is_chosen);
         let by_words = self.kinds.iter().find(|kind| name.has(**kind));
+        let is_open = |kind: &&Kind| columns(**kind).next().is_none();
         name.chosen = chosen.is_some();
-        name.kind = chosen
-            .or(by_words.filter(|kind| of(**kind).next().is_none()))
-            .copied();
+        name.kind = chosen.or(by_words.filter(is_open)).copied();
         if name.kind.is_some() && name.kind == self.measured && options.unit.is_some() {
             name.unit.clone_from(&options.unit);
         }

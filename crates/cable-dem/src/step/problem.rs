@@ -94,6 +94,18 @@ impl Stretch {
         self.lo..=self.hi
     }
 
+    pub fn overlaps(self, other: Self) -> bool {
+        self.lo <= other.hi && other.lo <= self.hi
+    }
+
+    /// What holds both.
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.max(other.hi),
+        }
+    }
+
     pub fn len(self) -> usize {
         self.hi + 1 - self.lo
     }
@@ -202,18 +214,11 @@ impl Chain {
                 None => free.hi = last - 1,
             }
         }
-        // A spring that rounding loses holds nothing.
-        let neighbours = |i: usize| if i == 0 || i == last { 1.0 } else { 2.0 };
-        let is_sprung = diagonal
-            .iter()
-            .enumerate()
-            .any(|(i, diagonal)| *diagonal > neighbours(i));
-        let is_held = is_sprung || free != (Stretch { lo: 0, hi: last });
         let limit = cable.friction().limit();
         let node = |(i, &diagonal): (usize, &f64)| {
             Node::new(diagonal, mesh.tributary_length(i), limit, stiffness, compliance)
         };
-        Self {
+        let mut chain = Self {
             rounding: rounding(stiffness, mesh.spacing()) + stiffest,
             stiffness,
             per_stiffness: 1.0 / stiffness,
@@ -221,8 +226,25 @@ impl Chain {
             compliance,
             least_limit: limit,
             free,
-            is_held,
+            is_held: free.len() < mesh.nodes(),
+        };
+        // A spring that rounding loses holds nothing.
+        chain.is_held |= free.nodes().any(|i| chain.spring(i) > 0.0);
+        chain
+    }
+
+    /// Neighbours of node i: one at an end, else two.
+    pub fn neighbours(&self, i: usize) -> f64 {
+        if i == 0 || i + 1 == self.nodes.len() {
+            1.0
+        } else {
+            2.0
         }
+    }
+
+    /// Spring to the ground on node i \[N/m\].
+    pub fn spring(&self, i: usize) -> f64 {
+        self.stiffness * (self.nodes[i].diagonal - self.neighbours(i))
     }
 
     /// Friction per metre \[N/m\] that balances node i: (K r + s r − p)/w.

@@ -1,10 +1,11 @@
-//! The contact states of one step without iteration, where that cycles.
+//! The contact states of one step by bisection of the chain, where the iteration cycles.
 //!
-//! The displacement of the node in the middle is where the [`Response`]s of both halves of the chain and its own friction balance. Then it
-//! holds the halves, and each is solved in the same way. So no guess is needed, and nothing can cycle. The work grows with the square of
-//! the number of nodes: for 50 nodes it is that of ten linear solves, for 300 of fifty.
+//! The displacement of the node in the middle is where the [`Response`]s of both halves of the chain
+//! and its own friction balance. Then it holds the halves, and each is solved in the same way. So no
+//! guess is needed, and nothing can cycle. The work grows with the square of the number of nodes n: it
+//! is that of about n/6 linear solves.
 
-use super::chain::{Chain, Contact, Load, Stretch, Trial};
+use super::problem::{Chain, Contact, Load, Stretch, Trial};
 use super::response::{NodeFriction, NodeSupport, Response, rest};
 
 /// A step on the whole chain; neighbours of the stretch that is solved are held at their displacements.
@@ -71,9 +72,8 @@ impl Step<'_> {
     }
 
     fn support(&self, node: usize) -> NodeSupport {
-        let neighbours = usize::from(node > 0) + usize::from(node + 1 < self.trial.r.len());
         NodeSupport {
-            stiffness: self.chain.stiffness * (self.chain.nodes[node].diagonal - neighbours as f64),
+            stiffness: self.chain.spring(node),
             load: self.load.support[node],
         }
     }
