@@ -109,43 +109,51 @@ fn motion() -> &'static DuctMotion {
 /// Forces over the logarithms of friction and shape factor: the polynomial nearest to the simulations, which is smooth where the
 /// ripple of their mesh would be taken for information.
 struct Table {
-    friction: Axis,
-    shape_factor: Axis,
-    /// The shape factor runs fastest.
-    forces: Vec<Vec<f64>>,
+    /// Of each product of polynomials, those of the shape factor fastest: what it adds to each force.
+    factors: Vec<Vec<f64>>,
 }
 
 impl Table {
     fn new() -> Self {
         let columns = SHAPE_FACTOR.count;
-        let forces = (0..FRICTION.count * columns)
+        let solved: Vec<Vec<f64>> = (0..FRICTION.count * columns)
             .into_par_iter()
             .map(|index| {
-                forces(
-                    false,
-                    FRICTION.value(index / columns),
-                    SHAPE_FACTOR.value(index % columns),
-                )
+                let (friction, shape_factor) = (index / columns, index % columns);
+                forces(false, FRICTION.value(friction), SHAPE_FACTOR.value(shape_factor))
             })
             .collect();
+        let (across, along) = (FRICTION.least_squares(), SHAPE_FACTOR.least_squares());
+        let factor = |index: usize| {
+            let (i, j) = (index / (DEGREE + 1), index % (DEGREE + 1));
+            let mut sum = vec![0.0; READINGS];
+            for (index, forces) in solved.iter().enumerate() {
+                let weight = across[(i, index / columns)] * along[(j, index % columns)];
+                add(&mut sum, weight, forces);
+            }
+            sum
+        };
         Self {
-            friction: Axis::new(FRICTION),
-            shape_factor: Axis::new(SHAPE_FACTOR),
-            forces,
+            factors: (0..(DEGREE + 1) * (DEGREE + 1)).map(factor).collect(),
         }
     }
 
     fn at(&self, friction: f64, shape_factor: f64) -> Vec<f64> {
-        let across = self.friction.weights(friction);
-        let along = self.shape_factor.weights(shape_factor);
+        let along = polynomials(SHAPE_FACTOR, shape_factor);
+        let across = polynomials(FRICTION, friction);
+        let products = across.iter().flat_map(|a| along.iter().map(move |b| a * b));
         let mut sum = vec![0.0; READINGS];
-        let weights = across.iter().flat_map(|a| along.iter().map(move |b| a * b));
-        for (weight, row) in weights.zip(&self.forces) {
-            for (sum, force) in sum.iter_mut().zip(row) {
-                *sum += weight * force;
-            }
+        for (product, factor) in products.zip(&self.factors) {
+            add(&mut sum, product, factor);
         }
         sum
+    }
+}
+
+/// sum + size · values.
+fn add(sum: &mut [f64], size: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += size * value;
     }
 }
 
@@ -153,30 +161,14 @@ impl Range {
     fn value(self, index: usize) -> f64 {
         self.low * (self.high / self.low).powf(index as f64 / (self.count - 1) as f64)
     }
-}
 
-/// Least squares by Chebyshev polynomials.
-struct Axis {
-    range: Range,
-    /// From values at the places to the polynomials' factors.
-    fit: DMatrix<f64>,
-}
-
-impl Axis {
-    fn new(range: Range) -> Self {
-        let rows: Vec<f64> = (0..range.count)
-            .flat_map(|index| polynomials(range, range.value(index)))
+    /// From values at its places to the factors of the polynomials nearest to them.
+    fn least_squares(self) -> DMatrix<f64> {
+        let rows: Vec<f64> = (0..self.count)
+            .flat_map(|index| polynomials(self, self.value(index)))
             .collect();
-        let basis = DMatrix::from_row_slice(range.count, DEGREE + 1, &rows);
-        Self {
-            range,
-            fit: basis.pseudo_inverse(1e-12).unwrap(),
-        }
-    }
-
-    fn weights(&self, value: f64) -> Vec<f64> {
-        let basis = DVector::from_vec(polynomials(self.range, value));
-        (self.fit.transpose() * basis).data.into()
+        let basis = DMatrix::from_row_slice(self.count, DEGREE + 1, &rows);
+        basis.pseudo_inverse(1e-12).unwrap()
     }
 }
 

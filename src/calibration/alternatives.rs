@@ -4,7 +4,7 @@
 //! explains. These fits run on the coarsest mesh, corrected by what the final one says more at the optimum, where most runs are known. What
 //! they find is looked at on the final mesh.
 
-use calibrate::{Fit, Profiles, probability_of_gain};
+use calibrate::{Fit, probability_of_gain};
 
 use super::meshes::Final;
 use super::problem::Problem;
@@ -133,7 +133,7 @@ impl Fits<'_> {
         } else {
             &self.found.coarsest
         };
-        let calibration = problem.calibration(&model, Profiles::None, RUNS)?;
+        let calibration = problem.calibration(&model, false, RUNS)?;
         match calibration.with_coarse(known.clone()).fit() {
             Ok(fit) => Ok(Some(fit)),
             Err(_) if problem.watch.is_stopped() => Err(Error::Stopped),
@@ -143,7 +143,7 @@ impl Fits<'_> {
 
     /// Sum of the squared residuals in units of the sigmas.
     fn square(&self, fit: &Fit) -> f64 {
-        let residuals = fit.standardised_residuals();
+        let residuals = fit.standardised_noise();
         self.rows.iter().map(|&row| residuals[row].powi(2)).sum()
     }
 }

@@ -127,11 +127,11 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
             Loss::Tukey { .. } => "tukey",
             _ => "other",
         },
-        intervals: intervals(fit),
+        intervals: intervals(fit, problem.options.discrepancy),
     })
 }
 
-fn intervals(fit: &Fit) -> String {
+fn intervals(fit: &Fit, discrepancy: Option<f64>) -> String {
     let noise = if fit.noise_estimated {
         format!(
             ", Student's t with {} degrees of freedom",
@@ -140,7 +140,7 @@ fn intervals(fit: &Fit) -> String {
     } else {
         " with the given sigmas".into()
     };
-    let error = fit.discrepancy.map_or_else(String::new, |share| {
+    let error = discrepancy.map_or_else(String::new, |share| {
         format!(
             ", beside a smooth error of the model of {} % of the largest reading",
             four_digits(100.0 * share)

@@ -42,10 +42,8 @@ pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>
         return Ok(None);
     }
     // In units of this softening.
-    let test = TermTest::of(&found.fit, &[&change]);
-    let hidden = test
-        .as_ref()
-        .is_none_or(|test| test.standard_errors[0] * SHOWN > 1.0);
+    let test = TermTest::of(&found.fit, &change);
+    let hidden = test.as_ref().is_none_or(|test| test.standard_error * SHOWN > 1.0);
     let shown = if hidden {
         "and these readings cannot show it"
     } else {

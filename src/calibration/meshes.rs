@@ -1,6 +1,6 @@
 //! A fit on ever finer meshes, until the coarser one would hardly move the parameters.
 
-use calibrate::{CalibrationError, Emulator, Fit, Profiles};
+use calibrate::{CalibrationError, Emulator, Fit};
 
 use super::model::SeriesModel;
 use super::problem::{FIRST_LEVEL, LAST_LEVEL, Problem};
@@ -24,10 +24,10 @@ pub struct Final {
     pub evaluations: usize,
 }
 
-/// Fits with at most `limit` model runs, with intervals of this kind: on the coarsest mesh, whose runs cost
+/// Fits with at most `limit` model runs, with profiles or without: on the coarsest mesh, whose runs cost
 /// least, then on the first that may answer. Where the one below it would move a parameter too far, on the
 /// finest one, to which is added what the next says more at the optimum.
-pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Final, Error> {
+pub fn fit(problem: &Problem<'_>, limit: usize, profiles: bool) -> Result<Final, Error> {
     let mut fits = Fits {
         problem,
         limit,
@@ -75,7 +75,7 @@ pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Fi
 struct Fits<'a> {
     problem: &'a Problem<'a>,
     limit: usize,
-    profiles: Profiles,
+    profiles: bool,
     evaluations: usize,
 }
 

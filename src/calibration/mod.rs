@@ -34,7 +34,7 @@ mod terms;
 mod unknown;
 mod watch;
 
-use ::calibrate::{Options, Profiles};
+use ::calibrate::Options;
 
 pub use ::calibrate::{CalibrationError, Loss};
 #[cfg(feature = "plot")]
@@ -131,12 +131,7 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
 fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
     let mistakes = mistakes::mistakes(problem)?;
     // What follows from a wrong sign or unit is not worth intervals.
-    let profiles = if mistakes.is_empty() {
-        Profiles::All
-    } else {
-        Profiles::None
-    };
-    match meshes::fit(problem, limit, profiles) {
+    match meshes::fit(problem, limit, mistakes.is_empty()) {
         Ok(found) => answer::answer(problem, &found, mistakes),
         Err(Error::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
             key: "data",

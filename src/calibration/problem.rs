@@ -1,6 +1,6 @@
 //! What is known and what is asked, as the crate `calibrate` takes it.
 
-use calibrate::{Calibration, CalibrationError, Loss, Model, Options, Prior, Profiles};
+use calibrate::{Calibration, CalibrationError, Loss, Model, Options, Prior};
 
 use super::discrepancy::discrepancy;
 use super::model::{CableModel, Memory, SeriesModel};
@@ -69,7 +69,7 @@ impl Problem<'_> {
     pub fn calibration<'m>(
         &self,
         model: &'m CableModel<'m>,
-        profiles: Profiles,
+        profiles: bool,
         runs: usize,
     ) -> Result<Calibration<'m>, Error> {
         let mut parameters = self
@@ -88,7 +88,7 @@ impl Problem<'_> {
             calibration = calibration.with_relative_sigmas(relative)?;
         }
         if let Some(share) = self.options.discrepancy {
-            calibration = calibration.with_discrepancy(discrepancy(self.series, self.models, share)?)?;
+            calibration = calibration.with_discrepancy(&discrepancy(self.series, self.models, share)?)?;
         }
         let mut options = Options::default();
         options.loss = self.options.loss;

@@ -1,23 +1,41 @@
-//! The front door: a calibration is put together, then fitted.
+//! What is given, and the front door: a calibration is put together, then fitted.
 
 use std::fmt;
 use std::sync::Arc;
 
-use crate::learning::Learner;
-use crate::problem::Problem;
-use crate::{CalibrationError, Discrepancy, Emulator, Fit, Model, Options, Parameter};
+use crate::learning;
+use crate::{CalibrationError, Emulator, Fit, Model, Options, Parameter, Part, Prior};
+
+/// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
+const RESOLUTION: f64 = 1e-7;
+/// Bounds of a coefficient of the discrepancy, in its standard deviations.
+const FARTHEST: f64 = 10.0;
 
 /// A model to be fitted to observations.
 #[derive(Clone)]
-pub struct Calibration<'a>(Problem<'a>);
+pub struct Calibration<'a> {
+    pub(crate) model: &'a dyn Model,
+    /// Those asked for, and in a fit with a discrepancy its coefficients.
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) observations: Vec<f64>,
+    /// 1 where the noise is to be estimated.
+    pub(crate) sigmas: Vec<f64>,
+    pub(crate) knows_noise: bool,
+    pub(crate) options: Options,
+    /// How many parameters are asked for.
+    pub(crate) asked: usize,
+    /// Coefficients of the functions by which the model may be off.
+    discrepancy: Vec<Parameter>,
+    pub(crate) coarse: Option<Arc<Emulator>>,
+}
 
 impl fmt::Debug for Calibration<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Calibration")
-            .field("parameters", &self.0.parameters)
-            .field("observations", &self.0.observations)
-            .field("sigmas", &self.0.sigmas)
-            .field("options", &self.0.options)
+            .field("parameters", &self.parameters)
+            .field("observations", &self.observations)
+            .field("sigmas", &self.sigmas)
+            .field("options", &self.options)
             .finish_non_exhaustive()
     }
 }
@@ -41,40 +59,47 @@ impl<'a> Calibration<'a> {
                 return Err(CalibrationError::DuplicateParameter { name });
             }
             let entries = parameter.column().map_or(observations.len(), <[f64]>::len);
-            if entries != observations.len() {
-                let what = format!("length of its column of parameter {name}");
-                let allowed = "an entry for each observation";
-                return Err(CalibrationError::invalid(what, entries as f64, allowed));
-            }
+            check_count(
+                &format!("entries in the column of {name}"),
+                entries,
+                observations.len(),
+            )?;
         }
-        check_each(&observations, "value", "finite", f64::is_finite)?;
-        Ok(Self(Problem {
+        check_each(&observations, "value", "finite", |_| true)?;
+        Ok(Self {
             model,
+            asked: parameters.len(),
             parameters,
             sigmas: vec![1.0; observations.len()],
             observations,
             knows_noise: false,
             options: Options::default(),
-            discrepancy: None,
+            discrepancy: Vec::new(),
             coarse: None,
-        }))
+        })
     }
 
-    /// The model may be off by a smooth function of the observations, of given size.
+    /// The model may be off by a sum of these functions of the observations, in their unit, each times a
+    /// coefficient of its own that is normally distributed about 0 with variance 1: by a Gaussian process
+    /// whose covariance is Σ f fᵀ, such as that of [`smooth_functions`](crate::smooth_functions) (M. C.
+    /// Kennedy, A. O'Hagan, "Bayesian calibration of computer models", Journal of the Royal Statistical
+    /// Society B 63, 2001). Its size is given, not fitted: few independent values of a smooth error are seen
+    /// in a series, so that observations hardly tell it. No interval becomes narrower by it.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::Invalid`] for one of another number of observations.
-    pub fn with_discrepancy(mut self, discrepancy: Discrepancy) -> Result<Self, CalibrationError> {
-        if discrepancy.count() != self.0.observations.len() {
-            let (what, count) = ("number of observations of the discrepancy", discrepancy.count());
-            return Err(CalibrationError::invalid(
-                what,
-                count as f64,
-                "as many as there are",
-            ));
+    /// [`CalibrationError::Invalid`] unless each function has a finite value for each observation.
+    pub fn with_discrepancy(mut self, functions: &[Vec<f64>]) -> Result<Self, CalibrationError> {
+        let prior = Prior {
+            value: 0.0,
+            sigma: 1.0,
+        };
+        self.discrepancy.clear();
+        for function in functions {
+            check_count("values of a function", function.len(), self.observations.len())?;
+            let term = Parameter::term("discrepancy", -FARTHEST, FARTHEST, function)?;
+            self.discrepancy.push(term.with_prior(prior)?);
         }
-        self.0.discrepancy = Some(discrepancy);
         Ok(self)
     }
 
@@ -84,17 +109,9 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::Invalid`] unless there is a finite and positive one for each observation.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        if sigmas.len() != self.0.observations.len() {
-            let count = sigmas.len() as f64;
-            return Err(CalibrationError::invalid(
-                "number of sigmas",
-                count,
-                "one for each observation",
-            ));
-        }
-        let positive = |s: f64| s.is_finite() && s > 0.0;
-        check_each(&sigmas, "sigma", "finite and positive", positive)?;
-        (self.0.sigmas, self.0.knows_noise) = (sigmas, true);
+        check_count("sigmas", sigmas.len(), self.observations.len())?;
+        check_each(&sigmas, "sigma", "finite and positive", |sigma| sigma > 0.0)?;
+        (self.sigmas, self.knows_noise) = (sigmas, true);
         Ok(self)
     }
 
@@ -105,9 +122,11 @@ impl<'a> Calibration<'a> {
     ///
     /// As for [`with_sigmas`](Self::with_sigmas).
     pub fn with_relative_sigmas(self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        let mut calibration = self.with_sigmas(sigmas)?;
-        calibration.0.knows_noise = false;
-        Ok(calibration)
+        let known = self.with_sigmas(sigmas)?;
+        Ok(Self {
+            knows_noise: false,
+            ..known
+        })
     }
 
     /// How to fit.
@@ -117,25 +136,15 @@ impl<'a> Calibration<'a> {
     /// [`CalibrationError::Invalid`].
     pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
         options.check()?;
-        self.0.options = options;
+        self.options = options;
         Ok(self)
-    }
-
-    /// The parameters.
-    pub fn parameters(&self) -> &[Parameter] {
-        &self.0.parameters
-    }
-
-    /// The observations.
-    pub fn observations(&self) -> &[f64] {
-        &self.0.observations
     }
 
     /// What an earlier fit of the same parameters and observations learned of a coarser model: this one
     /// runs first where the answer of that fit rests, and learns what the coarser model misses.
     #[must_use]
     pub fn with_coarse(mut self, coarse: Emulator) -> Self {
-        self.0.coarse = Some(Arc::new(coarse));
+        self.coarse = Some(Arc::new(coarse));
         self
     }
 
@@ -163,32 +172,95 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit
+    /// [`CalibrationError`] if there are too few observations, the model has no answer anywhere, the fit
     /// does not converge or needs more model runs than allowed.
     pub fn fit(&self) -> Result<Fit, CalibrationError> {
-        self.0.check()?;
-        let plain = Problem {
-            discrepancy: None,
-            ..self.0.clone()
-        };
-        let mut learner = Learner::new(&plain)?;
-        let (mut solution, mut whitening) = learner.converge()?;
-        if self.0.discrepancy.is_some() {
-            // A model that may be wrong knows no more than one that may not.
-            let least: Vec<_> = solution
-                .estimates
-                .iter()
-                .map(|estimate| estimate.interval)
-                .collect();
-            learner.problem = &self.0;
-            (solution, whitening) = learner.converge()?;
-            for (estimate, least) in solution.estimates.iter_mut().zip(least) {
-                estimate.interval = estimate.interval.with(&least);
-                estimate.identifiable = estimate.interval.is_closed();
-            }
+        self.check()?;
+        let mut emulator = learning::begin(self)?;
+        let mut solution = learning::converge(self, &mut emulator)?;
+        if self.discrepancy.is_empty() {
+            return Ok(Fit::new(self, emulator, solution));
         }
-        Ok(Fit::new(learner, solution, whitening))
+        let plain = solution.estimates;
+        let mut wider = self.clone();
+        wider.parameters.extend_from_slice(&self.discrepancy);
+        solution = learning::converge(&wider, &mut emulator)?;
+        for (estimate, plain) in solution.estimates.iter_mut().zip(&plain) {
+            // A model that may be wrong knows no more than one that may not.
+            estimate.interval = estimate.interval.with(&plain.interval);
+            estimate.identifiable = estimate.interval.is_closed();
+        }
+        Ok(Fit::new(&wider, emulator, solution))
     }
+
+    /// The indices of the parameters that the model takes.
+    pub(crate) fn of_model(&self) -> Vec<usize> {
+        let of_model = |&k: &usize| self.parameters[k].column().is_none();
+        (0..self.parameters.len()).filter(of_model).collect()
+    }
+
+    /// Number of parameters with prior knowledge.
+    pub(crate) fn priors(&self) -> usize {
+        self.parameters.iter().filter(|p| p.prior.is_some()).count()
+    }
+
+    /// Noise of each prediction of the model itself, in units of the sigmas.
+    pub(crate) fn model_noise(&self) -> impl Iterator<Item = f64> {
+        let share = self.options.relative_noise.max(RESOLUTION);
+        let sizes = self.observations.iter().zip(&self.sigmas);
+        sizes.map(move |(value, sigma)| share * value.abs() / sigma)
+    }
+
+    /// What acts on which predictions: by default every parameter of the model on all.
+    pub(crate) fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
+        let (observations, count) = (self.observations.len(), self.of_model().len());
+        let mut parts = self.model.parts();
+        if parts.is_empty() {
+            parts.push(Part {
+                predictions: observations,
+                parameters: (0..count).collect(),
+            });
+        }
+        let predictions = parts.iter().map(|part| part.predictions).sum();
+        check_count("predictions of the model's parts", predictions, observations)?;
+        let mut indices = parts.iter().flat_map(|part| &part.parameters);
+        if let Some(&index) = indices.find(|&&index| index >= count) {
+            let (what, allowed) = ("index of a parameter of a part", "below the number of parameters");
+            return Err(CalibrationError::invalid(what, index as f64, allowed));
+        }
+        Ok(parts)
+    }
+
+    /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.
+    fn check(&self) -> Result<(), CalibrationError> {
+        let (observations, parameters) = (self.observations.len(), self.parameters.len());
+        let unknown = parameters - self.priors();
+        let needed = if self.knows_noise {
+            unknown.max(1)
+        } else {
+            (unknown + 1).max(2)
+        };
+        if parameters == 0 || observations < needed {
+            return Err(CalibrationError::TooFewObservations {
+                observations,
+                parameters,
+                needed,
+            });
+        }
+        Ok(())
+    }
+}
+
+fn check_count(what: &str, found: usize, wanted: usize) -> Result<(), CalibrationError> {
+    if found == wanted {
+        return Ok(());
+    }
+    let what = format!("number of {what}");
+    Err(CalibrationError::invalid(
+        what,
+        found as f64,
+        "one for each observation",
+    ))
 }
 
 fn check_each(
@@ -197,7 +269,10 @@ fn check_each(
     allowed: &'static str,
     holds: impl Fn(f64) -> bool,
 ) -> Result<(), CalibrationError> {
-    let Some(index) = values.iter().position(|&value| !holds(value)) else {
+    let Some(index) = values
+        .iter()
+        .position(|&value| !(value.is_finite() && holds(value)))
+    else {
         return Ok(());
     };
     let what = format!("{quantity} of observation {index}");

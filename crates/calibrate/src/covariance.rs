@@ -4,16 +4,16 @@
 //! neither data nor priors know anything have no covariance: parameters along them are marked as unknown,
 //! not given a large number.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::descent::Optimum;
 use crate::deviance::information;
 
-/// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown:
-/// rounding makes no larger ones. A parameter with more than its fourth root in such a direction is
-/// unknown.
-const UNKNOWN: f64 = 1e-12;
+/// Added to the diagonal of the information, scaled to 1: rounding makes no larger eigenvalues.
+const ROUNDING: f64 = 1e-13;
+/// Variance relative to that with all others known from which on a parameter counts as unknown.
+const UNKNOWN: f64 = 1e9;
 
 /// Covariance of the free variables.
 #[derive(Debug, Clone)]
@@ -28,43 +28,30 @@ impl Covariance {
     pub fn of(optimum: &Optimum) -> Self {
         let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
         let information = information(&optimum.jacobian, &curvatures);
-        let count = information.nrows();
         let scale = information.diagonal().map(f64::sqrt);
         // What is not positive has a NaN for its root.
-        let mut known: Vec<bool> = scale.iter().map(|&size| size > 0.0 && size.is_finite()).collect();
-        // Beside the scales of what is known; 0 for the rest.
-        let over_scales = |matrix: DMatrix<f64>, known: &[bool]| {
-            matrix.map_with_location(|i, j, value| {
-                let size = scale[i] * scale[j];
-                if known[i] && known[j] && size > 0.0 {
-                    value / size
-                } else {
-                    0.0
-                }
-            })
-        };
-        let scaled = over_scales(information, &known);
-        let eigen = SymmetricEigen::new(scaled);
-        let mut matrix = DMatrix::zeros(count, count);
-        for (index, &value) in eigen.eigenvalues.iter().enumerate() {
-            let direction = eigen.eigenvectors.column(index);
-            if value > UNKNOWN {
-                matrix += direction * direction.transpose() / value;
+        let is_seen = |k: usize| scale[k] > 1e-150 && scale[k] < 1e150;
+        let scaled = information.map_with_location(|i, j, value| {
+            if i == j {
+                1.0 + ROUNDING
+            } else if is_seen(i) && is_seen(j) {
+                value / scale[i] / scale[j]
             } else {
-                for (known, share) in known.iter_mut().zip(direction.iter()) {
-                    *known &= share * share < UNKNOWN.sqrt();
-                }
+                0.0
             }
-        }
-        let matrix = over_scales(matrix, &known);
+        });
+        let none = || DMatrix::from_element(scale.len(), scale.len(), f64::INFINITY);
+        let inverse = scaled.cholesky().map_or_else(none, |factor| factor.inverse());
+        let is_known = |k: usize| is_seen(k) && inverse[(k, k)] < UNKNOWN;
+        let known: Vec<bool> = (0..scale.len()).map(is_known).collect();
+        let matrix = inverse.map_with_location(|i, j, value| {
+            if known[i] && known[j] {
+                value / scale[i] / scale[j]
+            } else {
+                0.0
+            }
+        });
         Self { matrix, known }
-    }
-
-    /// The same with the standard error of each multiplied by its share.
-    pub fn times(mut self, shares: &[f64]) -> Self {
-        let scaled = |i: usize, j: usize, value| shares[i] * shares[j] * value;
-        self.matrix = self.matrix.map_with_location(scaled);
-        self
     }
 
     /// Standard error of a free variable.

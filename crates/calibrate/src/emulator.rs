@@ -6,12 +6,14 @@
 //! Kennedy, A. O'Hagan, "Predicting the output from a complex computer code when fast approximations are
 //! available", Biometrika 87, 2000). Where the nearest run has no answer, there is none.
 
+use std::ops::AddAssign;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::kriging::{Kriging, PredictionVariance, is_same};
-use crate::{Parameter, Part};
+use crate::kriging::{Design, Kriging, is_same};
+use crate::tuning::NUGGETS;
+use crate::{Calibration, CalibrationError, Parameter, Part};
 
 /// What a fit learned of its model: its runs, and smooth functions through them.
 #[derive(Debug, Clone)]
@@ -32,28 +34,37 @@ pub struct Emulator {
 }
 
 impl Emulator {
-    pub(crate) fn new(
-        parameters: Vec<Parameter>,
-        parts: Vec<Part>,
-        trend: Option<Arc<Self>>,
-        nugget: f64,
-    ) -> Self {
-        Self {
-            parameters,
-            parts,
-            trend,
-            nugget,
+    /// One that has seen no run of the problem's model.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and a coarse emulator
+    /// of other parameters or parts.
+    pub(crate) fn new(problem: &Calibration<'_>) -> Result<Self, CalibrationError> {
+        let of_model = problem.of_model().into_iter();
+        let emulator = Self {
+            parameters: of_model.map(|k| problem.parameters[k].clone()).collect(),
+            parts: problem.parts()?,
+            trend: problem.coarse.clone(),
+            nugget: problem.options.relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
             runs: Vec::new(),
             failures: Vec::new(),
             krigings: Vec::new(),
             optimum: None,
+        };
+        let ranges = |other: &Self| -> Vec<_> {
+            let range = |p: &Parameter| (p.lower, p.upper, p.scale);
+            other.parameters.iter().map(range).collect()
+        };
+        let is_other =
+            |coarse: &Arc<Self>| ranges(coarse) != ranges(&emulator) || coarse.parts != emulator.parts;
+        if emulator.trend.as_ref().is_some_and(is_other) {
+            let what = "number of parameters of a fit that begins with a coarser one";
+            let allowed = "the same parameters and observations as there";
+            let count = emulator.parameters.len() as f64;
+            return Err(CalibrationError::invalid(what, count, allowed));
         }
-    }
-
-    /// Whether it emulates a model of these parameters with these parts.
-    pub(crate) fn is_of(&self, parameters: &[Parameter], parts: &[Part]) -> bool {
-        let range = |parameter: &Parameter| (parameter.lower(), parameter.upper(), parameter.scale());
-        self.parameters.iter().map(range).eq(parameters.iter().map(range)) && self.parts == parts
+        Ok(emulator)
     }
 
     /// Runs of the model that it rests on, without those of a coarser model.
@@ -61,10 +72,17 @@ impl Emulator {
         self.runs.len()
     }
 
+    /// All runs of the model, those without an answer too.
+    pub(crate) fn evaluations(&self) -> usize {
+        self.runs.len() + self.failures.len()
+    }
+
     /// Values of the model's parameters at a place.
     pub(crate) fn values(&self, place: &DVector<f64>) -> Vec<f64> {
-        let pairs = self.parameters.iter().zip(place.iter());
-        pairs.map(|(parameter, &share)| parameter.value(share)).collect()
+        let pairs = self.parameters.iter().zip(place);
+        pairs
+            .map(|(parameter, &share)| parameter.value_at(share))
+            .collect()
     }
 
     /// Whether the model ran there.
@@ -76,13 +94,7 @@ impl Emulator {
     /// What the model predicted there, if it ran and had an answer.
     pub(crate) fn known(&self, place: &DVector<f64>) -> Option<Vec<f64>> {
         let (_, beyond) = self.runs.iter().find(|(run, _)| is_same(run, place))?;
-        let trend = self.trend.as_ref().map(|trend| trend.predict(place));
-        Some(
-            trend
-                .map_or_else(|| beyond.clone(), |trend| trend + beyond)
-                .data
-                .into(),
-        )
+        Some((self.expected(place) + beyond).data.into())
     }
 
     /// Whether the model should have an answer at a place: whether the nearest run has.
@@ -96,13 +108,9 @@ impl Emulator {
     pub(crate) fn learn(&mut self, runs: Vec<(DVector<f64>, Option<Vec<f64>>)>) {
         for (place, predicted) in runs {
             match predicted {
-                _ if self.knows(&place) => {}
                 None => self.failures.push(place),
                 Some(predicted) => {
-                    let mut beyond = DVector::from_vec(predicted);
-                    if let Some(trend) = &self.trend {
-                        beyond -= trend.predict(&place);
-                    }
+                    let beyond = DVector::from_vec(predicted) - self.expected(&place);
                     self.runs.push((place, beyond));
                 }
             }
@@ -121,88 +129,77 @@ impl Emulator {
         self.has_answer(place).then(|| self.predict(place))
     }
 
+    /// What the coarser model predicts, if there is one.
+    fn expected(&self, place: &DVector<f64>) -> DVector<f64> {
+        let count = self.parts.iter().map(|part| part.predictions).sum();
+        let trend = self.trend.as_ref().map(|trend| trend.predict(place));
+        trend.unwrap_or_else(|| DVector::zeros(count))
+    }
+
     fn predict(&self, place: &DVector<f64>) -> DVector<f64> {
-        let mut predicted = match &self.trend {
-            Some(trend) => trend.predict(place),
-            None => DVector::zeros(self.predictions()),
-        };
-        let mut next = 0;
-        for (kriging, part) in self.krigings.iter().zip(&self.parts) {
-            let mut rows = predicted.rows_mut(next, part.predictions);
+        let mut predicted = self.expected(place);
+        for kriging in &self.krigings {
+            let mut rows = predicted.rows_range_mut(kriging.rows.clone());
             rows += kriging.at(place);
-            next += part.predictions;
         }
         predicted
     }
 
     /// Derivatives of the predictions by the shares, a column each.
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DMatrix<f64> {
-        let mut slopes = match &self.trend {
-            Some(trend) => trend.slopes(place),
-            None => DMatrix::zeros(self.predictions(), place.len()),
-        };
-        let mut next = 0;
-        for (kriging, part) in self.krigings.iter().zip(&self.parts) {
+        let count = self.parts.iter().map(|part| part.predictions).sum();
+        let trend = self.trend.as_ref().map(|trend| trend.slopes(place));
+        let mut slopes = trend.unwrap_or_else(|| DMatrix::zeros(count, place.len()));
+        for kriging in &self.krigings {
             for (input, slope) in kriging.slopes(place) {
-                let mut rows = slopes.view_mut((next, input), (part.predictions, 1));
-                rows += slope;
+                let mut rows = slopes.rows_range_mut(kriging.rows.clone());
+                rows.column_mut(input).add_assign(&slope);
             }
-            next += part.predictions;
         }
         slopes
     }
 
-    fn predictions(&self) -> usize {
-        self.parts.iter().map(|part| part.predictions).sum()
-    }
-
-    /// What it knows of its own error, where the square of that of prediction k counts `weights[k]`;
-    /// nothing with less than two runs.
-    pub(crate) fn doubt(&self, weights: &[f64]) -> Option<Doubt> {
-        let mut left = weights;
-        let of_part = |(kriging, part): (&Kriging, &Part)| {
-            let (own, others) = left.split_at_checked(part.predictions)?;
-            left = others;
-            kriging.variance(own)
-        };
-        let doubts = self.krigings.iter().zip(&self.parts).map(of_part);
-        Some(Doubt(doubts.collect::<Option<Vec<_>>>()?))
+    /// What it knows of its own error, if the square of that of prediction k counts `weights[k]`.
+    pub(crate) fn doubt(&self, weights: &[f64]) -> Doubt {
+        let of_part = |kriging: &Kriging| (kriging.scale(weights), kriging.design.clone());
+        Doubt(self.krigings.iter().map(of_part).collect())
     }
 }
 
-/// Standard error of an emulator's predictions, all of them together, by the variance of each part.
-pub(crate) struct Doubt(Vec<PredictionVariance>);
+/// Standard error of an emulator's predictions, all of them together, by the variance of each part and its
+/// runs.
+pub(crate) struct Doubt(Vec<(f64, Design)>);
 
 impl Doubt {
-    /// At a place.
-    pub fn at(&self, place: &DVector<f64>) -> f64 {
-        self.0.iter().map(|part| part.at(place)).sum::<f64>().sqrt()
+    fn at(&self, place: &DVector<f64>) -> f64 {
+        let variances = self
+            .0
+            .iter()
+            .map(|(scale, design)| scale * design.variance(place));
+        variances.sum::<f64>().sqrt()
     }
 
     /// What is left of it once the model has run there.
     pub fn learn(&mut self, place: &DVector<f64>) {
-        for part in &mut self.0 {
-            part.learn(place);
+        for (_, design) in &mut self.0 {
+            design.learn(place);
         }
     }
 
-    /// Indices of places, each beside a standard error that is allowed there, at which the model should
+    /// Those of some places, each with a standard error that is allowed there, at which the model should
     /// run: the one of most doubt, then of what that run leaves, until all is allowed.
-    pub fn asked(&mut self, places: &[(DVector<f64>, f64)]) -> Vec<usize> {
+    pub fn asked(&mut self, mut places: Vec<(DVector<f64>, f64)>) -> Vec<DVector<f64>> {
         let mut asked = Vec::new();
         loop {
-            let size = |&index: &usize| {
-                let (place, allowed) = &places[index];
-                let size = self.at(place) / allowed;
-                (if size.is_nan() { f64::INFINITY } else { size }, index)
-            };
-            let left = (0..places.len()).filter(|index| !asked.contains(index));
-            let most = left.map(|index| size(&index)).max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, most)) = most.filter(|(size, _)| *size > 1.0) else {
+            let sizes = places.iter().map(|(place, allowed)| self.at(place) / allowed);
+            let sizes = sizes.map(|size| if size.is_nan() { f64::INFINITY } else { size });
+            let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((index, _)) = largest.filter(|(_, size)| *size > 1.0) else {
                 return asked;
             };
-            self.learn(&places[most].0);
-            asked.push(most);
+            let (place, _) = places.swap_remove(index);
+            self.learn(&place);
+            asked.push(place);
         }
     }
 }

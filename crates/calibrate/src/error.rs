@@ -52,7 +52,9 @@ pub enum CalibrationError {
         source: ModelError,
     },
     /// The fit did not converge.
-    #[error("the fit did not converge: the model jumps, or is noisier than stated (relative_noise)")]
+    #[error(
+        "the fit did not converge: the model jumps, or its predictions are noisier than they are said to be"
+    )]
     NotConverged,
     /// The model runs that were allowed are spent.
     #[error("{limit} model runs are not enough")]

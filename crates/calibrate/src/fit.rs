@@ -2,19 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::learning::Learner;
-use crate::parameter::{FARTHEST, share};
-use crate::problem::Problem;
+use crate::parameter::FARTHEST;
 use crate::solution::{Solution, freedom};
-use crate::whitening::Whitening;
-use crate::{Emulator, Estimate, Warning};
-
-/// Correlation from which two parameters count as hardly distinguishable.
-const CORRELATED: f64 = 0.99;
-/// Weight below which an observation counts as an outlier: of Tukey's loss at three sigmas.
-const OUTLIER: f64 = 0.35;
-/// Degrees of freedom below which the noise is hardly known: its own standard error is a third.
-const FEW: f64 = 5.0;
+use crate::{Calibration, Emulator, Estimate, Warning};
 
 /// A calibrated model.
 #[derive(Debug, Clone)]
@@ -29,11 +19,11 @@ pub struct Fit {
     pub fitted: Vec<f64>,
     /// Observation less prediction.
     pub residuals: Vec<f64>,
+    /// What of each residual is most likely the discrepancy; 0 without one.
+    pub smooth: Vec<f64>,
     /// How much each observation counts: 1 with least squares, less for an outlier in a robust fit.
     pub weights: Vec<f64>,
-    /// Root of the mean square of the residuals, all counted alike.
-    pub residual_rms: f64,
-    /// Share of the observations' variance that the model explains; `None` where they do not vary.
+    /// Share of the observations' variance that the model explains; `None` if they do not vary.
     pub r_squared: Option<f64>,
     /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the
     /// given sigmas.
@@ -44,83 +34,65 @@ pub struct Fit {
     pub noise_estimated: bool,
     /// Model runs.
     pub evaluations: usize,
-    /// Size of the discrepancy as it was given, where the calibration has one.
-    pub discrepancy: Option<f64>,
-    /// What of each residual is most likely the discrepancy; 0 without one.
-    pub smooth: Vec<f64>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
     /// What was learned of the model.
     pub emulator: Emulator,
-    /// Derivatives of the standardised residuals by the free variables at the optimum.
+    /// Derivatives of the observations' standardised residuals by the free variables at the optimum.
     pub(crate) jacobian: DMatrix<f64>,
-    /// Half the second derivative of the deviance by each of them.
-    pub(crate) curvatures: Vec<f64>,
-    sigmas: Vec<f64>,
-    whitening: Option<Whitening>,
+    /// Half the second derivative of the deviance by each of these residuals.
+    pub(crate) curvatures: DVector<f64>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,
+    sigmas: DVector<f64>,
 }
 
 impl Fit {
     /// The answer of a solution at whose optimum the model ran.
-    pub(crate) fn new(learner: Learner<'_>, solution: Solution, whitening: Option<Whitening>) -> Self {
-        let (problem, optimum) = (learner.problem, &solution.optimum);
-        let (observed, deviance) = (&problem.observations, optimum.deviance);
-        let standardised = optimum.point.residuals.rows(0, observed.len()).into_owned();
-        let mut plain = standardised.clone();
-        let mut smooth = DVector::zeros(observed.len());
-        if let Some(whitening) = &whitening {
-            whitening.undo(&mut plain);
-            smooth = whitening.smooth(&plain);
+    pub(crate) fn new(problem: &Calibration<'_>, emulator: Emulator, solution: Solution) -> Self {
+        let (optimum, count) = (&solution.optimum, problem.observations.len());
+        let deviance = optimum.deviance;
+        let observed = DVector::from_column_slice(&problem.observations);
+        let sigmas = DVector::from_column_slice(&problem.sigmas);
+        let standardised = optimum.point.residuals.rows(0, count).into_owned();
+        let mut smooth = DVector::zeros(count);
+        for (parameter, &z) in problem
+            .parameters
+            .iter()
+            .zip(&optimum.point.free)
+            .skip(problem.asked)
+        {
+            let column = DVector::from_column_slice(parameter.column().unwrap_or_default());
+            smooth += column * parameter.value(z);
         }
-        let in_units = |values: &DVector<f64>| -> Vec<f64> {
-            values
-                .iter()
-                .zip(&problem.sigmas)
-                .map(|(r, sigma)| -r * sigma)
-                .collect()
-        };
-        let residuals = in_units(&plain);
-        let count = observed.len() as f64;
-        let square: f64 = residuals.iter().map(|r| r * r).sum();
-        let mean = observed.iter().sum::<f64>() / count;
-        let variation: f64 = observed.iter().map(|y| (y - mean).powi(2)).sum();
+        let residuals = &smooth - standardised.component_mul(&sigmas);
+        let variation = observed.add_scalar(-observed.mean()).norm_squared();
         let weight = |r: &f64| deviance.loss.weight(r / deviance.spread);
-        let weights: Vec<f64> = standardised.iter().map(weight).collect();
         let curvatures = deviance.curvatures(&optimum.point.residuals);
-        let degrees_of_freedom = freedom(problem, optimum);
-        let all = 0..problem.parameters.len();
-        let correlations = |i| {
-            all.clone()
-                .map(|j| solution.covariance.correlation(i, j))
-                .collect()
-        };
+        let covariance = &solution.covariance;
+        let correlations = |i| (0..problem.asked).map(|j| covariance.correlation(i, j)).collect();
         Self {
-            warnings: warnings(problem, &solution, &weights, degrees_of_freedom),
-            correlation: all.clone().map(correlations).collect(),
-            fitted: observed.iter().zip(&residuals).map(|(y, r)| y - r).collect(),
-            residual_rms: (square / count).sqrt(),
-            r_squared: (variation > 0.0).then(|| 1.0 - square / variation),
-            residuals,
-            weights,
+            warnings: warnings(problem, &solution),
+            correlation: (0..problem.asked).map(correlations).collect(),
+            fitted: (&observed - &residuals).data.into(),
+            r_squared: (variation > 0.0).then(|| 1.0 - residuals.norm_squared() / variation),
+            residuals: residuals.data.into(),
+            smooth: smooth.data.into(),
+            weights: standardised.iter().map(weight).collect(),
             noise: if solution.noise_estimated {
                 deviance.noise()
             } else {
                 1.0
             },
-            degrees_of_freedom,
+            degrees_of_freedom: freedom(problem, optimum),
             noise_estimated: solution.noise_estimated,
-            evaluations: learner.evaluations,
-            discrepancy: problem.discrepancy.as_ref().map(|discrepancy| discrepancy.size),
-            smooth: in_units(&smooth),
-            whitening,
-            curvatures: curvatures.iter().take(observed.len()).copied().collect(),
-            sigmas: problem.sigmas.clone(),
-            estimates: solution.estimates,
-            jacobian: solution.optimum.jacobian,
+            evaluations: emulator.evaluations(),
+            emulator,
+            jacobian: optimum.jacobian.rows(0, count).into_owned(),
+            curvatures: curvatures.rows(0, count).into_owned(),
             covariance: solution.covariance.matrix,
-            emulator: learner.emulator,
+            estimates: solution.estimates,
+            sigmas,
         }
     }
 
@@ -134,92 +106,50 @@ impl Fit {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }
 
-    /// Residuals in units of their sigmas.
-    pub fn standardised_residuals(&self) -> Vec<f64> {
-        let pairs = self.residuals.iter().zip(&self.sigmas);
-        pairs.map(|(residual, sigma)| residual / sigma).collect()
-    }
-
     /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
     pub fn standardised_noise(&self) -> Vec<f64> {
-        let parts = self.residuals.iter().zip(&self.smooth).zip(&self.sigmas);
-        parts
-            .map(|((residual, smooth), sigma)| (residual - smooth) / sigma)
-            .collect()
+        let parts = self.residuals.iter().zip(&self.smooth);
+        let noise = parts.map(|(residual, smooth)| residual - smooth);
+        self.standardised(&noise.collect::<Vec<_>>()).data.into()
     }
 
-    /// What a change of the observations changes of the residuals; those it does not name stay.
-    pub(crate) fn standardised(&self, change: &[f64]) -> DVector<f64> {
-        let mut change = DVector::from_fn(self.sigmas.len(), |row, _| {
-            change.get(row).map_or(0.0, |change| change / self.sigmas[row])
-        });
-        if let Some(whitening) = &self.whitening {
-            whitening.apply(&mut change);
-        }
-        change
+    /// Numbers in the unit of the observations, in those of the sigmas; 0 if there are too few.
+    pub(crate) fn standardised(&self, values: &[f64]) -> DVector<f64> {
+        let value = |row: usize| values.get(row).copied().unwrap_or(0.0);
+        DVector::from_fn(self.sigmas.len(), |row, _| value(row) / self.sigmas[row])
     }
 
     /// By how many standard errors each estimate would move, to first order, if the model predicted
     /// `change` more, in the observations' unit: what an error of the model does to the parameters. 0
     /// for what has no standard error.
     pub fn shift(&self, change: &[f64]) -> Vec<f64> {
-        let curvatures = DVector::from_column_slice(&self.curvatures);
-        let weighted = self.standardised(change).component_mul(&curvatures);
-        let gradient = self.jacobian.rows(0, weighted.len()).tr_mul(&weighted);
-        let moved = -(&self.covariance * gradient);
-        let errors = self.covariance.diagonal().map(f64::sqrt);
-        let shift = moved.iter().zip(errors.iter());
-        shift
-            .map(|(moved, &error)| if error > 0.0 { moved / error } else { 0.0 })
-            .collect()
+        let weighted = self.standardised(change).component_mul(&self.curvatures);
+        let moved = -(&self.covariance * self.jacobian.tr_mul(&weighted));
+        let shift = |k: usize| {
+            let error = self.covariance[(k, k)].sqrt();
+            if error > 0.0 { moved[k] / error } else { 0.0 }
+        };
+        (0..self.estimates.len()).map(shift).collect()
     }
 }
 
-/// What is to be said of a solution with these weights of the observations.
-fn warnings(
-    problem: &Problem<'_>,
-    solution: &Solution,
-    weights: &[f64],
-    degrees_of_freedom: f64,
-) -> Vec<Warning> {
+/// What is to be said of a solution.
+fn warnings(problem: &Calibration<'_>, solution: &Solution) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
+    for (estimate, free) in solution.estimates.iter().zip(&solution.optimum.point.free) {
+        let (name, interval, value) = (estimate.name.clone(), estimate.interval, estimate.value);
+        if !estimate.identifiable {
+            warnings.push(Warning::NotIdentifiable { name, interval });
+        } else if free.abs() >= FARTHEST {
+            warnings.push(Warning::AtBound { name, value });
+        }
+    }
     // An interval that is open says more than another minimum does.
     let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
     let rival = solution.rival.as_ref().filter(|_| closed);
     warnings.extend(rival.map(|rival| {
-        let pairs = problem.parameters.iter().zip(rival.free.iter());
-        Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(share(z))).collect())
+        let pairs = problem.parameters.iter().take(problem.asked).zip(&rival.free);
+        Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(z)).collect())
     }));
-    for (k, estimate) in solution.estimates.iter().enumerate() {
-        let name = || estimate.name.clone();
-        if !estimate.identifiable {
-            let interval = estimate.interval;
-            warnings.push(Warning::NotIdentifiable {
-                name: name(),
-                interval,
-            });
-        } else if solution.optimum.point.free[k].abs() >= FARTHEST {
-            let value = estimate.value;
-            warnings.push(Warning::AtBound { name: name(), value });
-        }
-        for (index, other) in solution.estimates.iter().take(k).enumerate() {
-            let correlation = solution.covariance.correlation(k, index);
-            if let Some(correlation) = correlation.filter(|c| c.abs() > CORRELATED) {
-                let first = other.name.clone();
-                warnings.push(Warning::Correlated {
-                    first,
-                    second: name(),
-                    correlation,
-                });
-            }
-        }
-    }
-    let indices: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] < OUTLIER).collect();
-    if !indices.is_empty() {
-        warnings.push(Warning::Outliers(indices));
-    }
-    if solution.noise_estimated && degrees_of_freedom < FEW {
-        warnings.push(Warning::FewObservations(degrees_of_freedom));
-    }
     warnings
 }

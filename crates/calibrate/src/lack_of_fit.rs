@@ -9,7 +9,7 @@
 //! what the parameters can do, which is the score test (N. R. Draper, H. Smith, Applied Regression
 //! Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
 
 use crate::Fit;
@@ -20,20 +20,20 @@ const LEFT: f64 = 1e-9;
 /// Fewest residuals that are judged.
 const FEWEST: f64 = 3.0;
 
-/// What terms more in the model would say of the residuals.
-#[derive(Debug, Clone, PartialEq)]
+/// What a term more in the model would say of the residuals.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TermTest {
-    /// Sizes of the terms, to first order.
-    pub sizes: Vec<f64>,
-    /// Their standard errors.
-    pub standard_errors: Vec<f64>,
-    /// Probability that noise alone calls for so large terms.
+    /// Size of the term, to first order.
+    pub size: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Probability that noise alone calls for so large a term.
     pub probability: f64,
 }
 
 impl TermTest {
-    /// Tests terms with these columns, an entry for each observation, all at once. `None` where the
-    /// parameters can do what the terms do, or nothing is left to judge by.
+    /// Tests a term with this column, an entry for each observation. `None` if the parameters can do what
+    /// the term does, or nothing is left to judge by.
     ///
     /// ```
     /// use calibrate::{Calibration, ModelError, Parameter, Scale, TermTest};
@@ -43,47 +43,35 @@ impl TermTest {
     /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.map(|x| p[0] * x).to_vec()) };
     /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
     /// let fit = Calibration::new(&model, vec![slope], vec![3.01, 3.98, 5.02, 5.99, 7.01, 7.99])?.fit()?;
-    /// let offset = TermTest::of(&fit, &[&[1.0; 6]]).expect("a constant is no line through the origin");
-    /// assert!((offset.sizes[0] - 2.0).abs() < 0.1 && offset.probability < 1e-3);
+    /// let offset = TermTest::of(&fit, &[1.0; 6]).expect("a constant is no line through the origin");
+    /// assert!((offset.size - 2.0).abs() < 0.1 && offset.probability < 1e-3);
     /// # Ok::<(), calibrate::CalibrationError>(())
     /// ```
-    pub fn of(fit: &Fit, columns: &[&[f64]]) -> Option<Self> {
-        let (rows, count) = (fit.residuals.len(), columns.len());
-        if columns.iter().any(|column| column.len() != rows) {
+    pub fn of(fit: &Fit, column: &[f64]) -> Option<Self> {
+        if column.len() != fit.residuals.len() {
             return None;
         }
-        let columns: Vec<DVector<f64>> = columns.iter().map(|column| fit.standardised(column)).collect();
+        let column = fit.standardised(column);
         // Half the second derivatives of the deviance; outliers of a robust fit hardly count.
-        let weight = |row: usize| fit.curvatures[row] * fit.weights[row];
-        let weighted = DMatrix::from_fn(rows, count, |row, k| columns[k][row] * weight(row));
-        let plain = DMatrix::from_fn(rows, count, |row, k| columns[k][row]);
-        let across = fit.jacobian.rows(0, rows).tr_mul(&weighted);
-        let full = plain.tr_mul(&weighted);
-        let left = &full - across.tr_mul(&(&fit.covariance * &across));
-        if (0..count).any(|k| left[(k, k)].is_nan() || left[(k, k)] <= LEFT * full[(k, k)]) {
+        let weights = DVector::from_column_slice(&fit.weights).component_mul(&fit.curvatures);
+        let weighted = column.component_mul(&weights);
+        let across = fit.jacobian.tr_mul(&weighted);
+        let full = column.dot(&weighted);
+        let left = full - across.dot(&(&fit.covariance * &across));
+        if left.is_nan() || left <= LEFT * full {
             return None;
         }
-        let slope = weighted.tr_mul(&fit.standardised(&fit.residuals));
-        let solved = left.cholesky()?;
-        let sizes = solved.solve(&slope);
-        let gain = slope.dot(&sizes);
-        let terms = count as f64;
-        let freedom = fit.degrees_of_freedom - terms;
-        let probability = if fit.noise_estimated {
-            // The noise without what the terms explain.
-            let rest = (fit.degrees_of_freedom - gain).max(f64::MIN_POSITIVE);
-            1.0 - FisherSnedecor::new(terms, freedom)
-                .ok()
-                .filter(|_| freedom >= 1.0)?
-                .cdf(gain / terms * freedom / rest)
-        } else {
-            1.0 - ChiSquared::new(terms).ok()?.cdf(gain)
-        };
-        let inverse = solved.inverse();
+        let size = weighted.dot(&DVector::from_vec(fit.standardised_noise())) / left;
+        let (gain, freedom) = (size * size * left, fit.degrees_of_freedom);
         Some(Self {
-            sizes: sizes.iter().copied().collect(),
-            standard_errors: (0..count).map(|k| inverse[(k, k)].sqrt()).collect(),
-            probability,
+            size,
+            standard_error: left.sqrt().recip(),
+            probability: if fit.noise_estimated {
+                // The noise without what the term explains.
+                probability_of_gain(freedom, (freedom - gain).max(0.0), freedom - 1.0, None)?
+            } else {
+                probability_of_gain(gain, 0.0, freedom, Some(1.0))?
+            },
         })
     }
 }
@@ -100,9 +88,9 @@ pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     Binomial::new(0.5, chances).map_or(1.0, |binomial| binomial.cdf(changes))
 }
 
-/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals
-/// falls from `before` to `after`, with this
-/// `freedom` left, where the residuals are in units of a noise that is known (`known`) or estimated. `None` of too few.
+/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals falls
+/// from `before` to `after`, with these degrees of freedom left. Noise is `known`, in the unit of the
+/// residuals, or estimated from them. `None` of too few.
 pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<f64>) -> Option<f64> {
     let gain = (before - after).max(0.0);
     match known {

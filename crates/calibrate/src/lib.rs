@@ -17,16 +17,14 @@ mod loss;
 mod model;
 mod options;
 mod parameter;
-mod problem;
 mod profile;
 mod search;
 mod solution;
 mod tuning;
 mod warning;
-mod whitening;
 
 pub use calibration::Calibration;
-pub use discrepancy::Discrepancy;
+pub use discrepancy::smooth_functions;
 pub use emulator::Emulator;
 pub use error::CalibrationError;
 pub use estimate::{Estimate, Interval};
@@ -36,6 +34,6 @@ pub use lack_of_fit::{
 };
 pub use loss::Loss;
 pub use model::{Model, ModelError, Part};
-pub use options::{Options, Profiles};
+pub use options::Options;
 pub use parameter::{Parameter, Prior, Scale};
 pub use warning::Warning;

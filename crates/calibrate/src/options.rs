@@ -2,17 +2,6 @@
 
 use crate::{CalibrationError, Loss};
 
-/// What the intervals are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Profiles {
-    /// Profiles of the likelihood.
-    #[default]
-    All,
-    /// Symmetric in each parameter's coordinate: a rough answer for few model runs.
-    None,
-}
-
 /// How to fit.
 ///
 /// ```
@@ -33,8 +22,9 @@ pub struct Options {
     pub relative_noise: f64,
     /// Probability that an interval holds the true value.
     pub confidence: f64,
-    /// What the intervals are.
-    pub profiles: Profiles,
+    /// Whether intervals are those of the profile likelihood; without, they are symmetric in each
+    /// parameter's coordinate: a rough answer for few model runs.
+    pub profiles: bool,
 }
 
 impl Default for Options {
@@ -44,25 +34,27 @@ impl Default for Options {
             max_evaluations: 2000,
             relative_noise: 1e-9,
             confidence: 0.95,
-            profiles: Profiles::All,
+            profiles: true,
         }
     }
 }
 
 impl Options {
     pub(crate) fn check(&self) -> Result<(), CalibrationError> {
-        let invalid = |name: &str, value, allowed| {
-            Err(CalibrationError::invalid(
-                format!("option {name}"),
-                value,
-                allowed,
-            ))
-        };
+        let invalid = |what: &str, value, allowed| Err(CalibrationError::invalid(what, value, allowed));
         if !(0.5..=0.9999).contains(&self.confidence) {
-            return invalid("confidence", self.confidence, "between 0.5 and 0.9999");
+            return invalid(
+                "confidence of the intervals",
+                self.confidence,
+                "between 0.5 and 0.9999",
+            );
         }
         if !(0.0..=0.1).contains(&self.relative_noise) {
-            return invalid("relative_noise", self.relative_noise, "between 0 and 0.1");
+            return invalid(
+                "relative noise of the model",
+                self.relative_noise,
+                "between 0 and 0.1",
+            );
         }
         if let Loss::Tukey { threshold } = self.loss
             && !(threshold.is_finite() && threshold >= 0.5)
@@ -70,7 +62,7 @@ impl Options {
             return invalid("threshold of the loss", threshold, "finite and at least 0.5");
         }
         if self.max_evaluations == 0 {
-            return invalid("max_evaluations", 0.0, "at least 1");
+            return invalid("largest number of model runs", 0.0, "at least 1");
         }
         Ok(())
     }

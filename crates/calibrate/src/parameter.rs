@@ -45,10 +45,10 @@ pub struct Prior {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,
-    lower: f64,
-    upper: f64,
-    scale: Scale,
-    prior: Option<Prior>,
+    pub(crate) lower: f64,
+    pub(crate) upper: f64,
+    pub(crate) scale: Scale,
+    pub(crate) prior: Option<Prior>,
     /// What a value of 1 adds to each prediction, where that is all that it does.
     term: Option<Arc<[f64]>>,
 }
@@ -122,29 +122,17 @@ impl Parameter {
         &self.name
     }
 
-    /// Lower bound.
-    pub fn lower(&self) -> f64 {
-        self.lower
-    }
-
-    /// Upper bound.
-    pub fn upper(&self) -> f64 {
-        self.upper
-    }
-
-    /// In what it is fitted.
-    pub fn scale(&self) -> Scale {
-        self.scale
-    }
-
-    /// What is known beforehand.
-    pub fn prior(&self) -> Option<Prior> {
-        self.prior
-    }
-
     /// What a value of 1 adds to each prediction; `None` for a parameter of the model.
     pub fn column(&self) -> Option<&[f64]> {
         self.term.as_deref()
+    }
+
+    /// s of a value.
+    fn coordinate(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Logarithmic => value.ln(),
+        }
     }
 
     /// Lowest s and the range of s.
@@ -153,16 +141,8 @@ impl Parameter {
         (lower, self.coordinate(self.upper) - lower)
     }
 
-    /// s of a value.
-    pub(crate) fn coordinate(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => value,
-            Scale::Logarithmic => value.ln(),
-        }
-    }
-
     /// Value at a share of the range.
-    pub(crate) fn value(&self, share: f64) -> f64 {
+    pub(crate) fn value_at(&self, share: f64) -> f64 {
         let (lower, range) = self.range();
         let coordinate = lower + range * share;
         let value = match self.scale {
@@ -172,27 +152,40 @@ impl Parameter {
         value.clamp(self.lower, self.upper)
     }
 
-    /// Derivative of the value by the free variable at a share.
-    pub(crate) fn slope(&self, share: f64) -> f64 {
-        let by_coordinate = match self.scale {
-            Scale::Linear => 1.0,
-            Scale::Logarithmic => self.value(share),
-        };
-        by_coordinate * self.range().1 * share * (1.0 - share)
+    /// Value at a free variable.
+    pub(crate) fn value(&self, free: f64) -> f64 {
+        self.value_at(share(free))
     }
 
-    /// Distance from the prior at a share, in its sigmas, and its derivative by the free variable.
-    pub(crate) fn prior_residual(&self, share: f64) -> Option<[f64; 2]> {
+    /// Derivative of the value by the free variable.
+    pub(crate) fn slope(&self, free: f64) -> f64 {
+        let by_coordinate = match self.scale {
+            Scale::Linear => 1.0,
+            Scale::Logarithmic => self.value(free),
+        };
+        by_coordinate * self.range().1 * share_slope(free)
+    }
+
+    /// Distance from the prior in its sigmas, and its derivative by the free variable.
+    pub(crate) fn prior_residual(&self, free: f64) -> Option<[f64; 2]> {
         let prior = self.prior?;
         let (lower, range) = self.range();
-        let off = lower + range * share - self.coordinate(prior.value);
-        Some([off, range * share * (1.0 - share)].map(|length| length / prior.sigma))
+        let off = lower + range * share(free) - self.coordinate(prior.value);
+        Some([off, range * share_slope(free)].map(|length| length / prior.sigma))
     }
 }
 
 /// Share of the range at a free variable; beyond the farthest nothing changes.
 pub(crate) fn share(free: f64) -> f64 {
     1.0 / (1.0 + (-free.clamp(-FARTHEST, FARTHEST)).exp())
+}
+
+/// Derivative of the share by the free variable.
+pub(crate) fn share_slope(free: f64) -> f64 {
+    if free.abs() > FARTHEST {
+        return 0.0;
+    }
+    share(free) * (1.0 - share(free))
 }
 
 /// Free variable at a share.
@@ -217,12 +210,12 @@ mod tests {
         fn transformation(lower in 1e-3..10.0_f64, ratio in 1.5..1e6_f64, z in -6.5..6.5_f64, logarithmic: bool) {
             let scale = if logarithmic { Scale::Logarithmic } else { Scale::Linear };
             let parameter = Parameter::new("p", lower, lower * ratio, scale).unwrap();
-            let value = parameter.value(share(z));
+            let value = parameter.value(z);
             prop_assert!((lower..=lower * ratio).contains(&value));
             prop_assert!((free(share(z)) - z).abs() < 1e-6);
             let h = 1e-4;
-            let slope = (parameter.value(share(z + h)) - parameter.value(share(z - h))) / (2.0 * h);
-            prop_assert!((slope / parameter.slope(share(z)) - 1.0).abs() < 1e-4);
+            let slope = (parameter.value(z + h) - parameter.value(z - h)) / (2.0 * h);
+            prop_assert!((slope / parameter.slope(z) - 1.0).abs() < 1e-4);
         }
     }
 }

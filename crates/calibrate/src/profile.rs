@@ -10,14 +10,12 @@
 //! that makes an interval: by four standard errors. For a true value at the bound itself, one such distance
 //! would close one of forty intervals by chance.
 
-use nalgebra::DVector;
-
 use crate::CalibrationError;
 use crate::covariance::Covariance;
 use crate::descent::{Optimum, descend};
 use crate::likelihood::{Likelihood, Point};
 use crate::parameter::FARTHEST;
-use crate::tuning::{ACCURACY, BETTER, GRID, JUMP};
+use crate::tuning::{ACCURACY, GRID, JUMP};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
@@ -40,11 +38,8 @@ impl ProfilePoint {
 }
 
 /// The profile of one parameter.
-#[derive(Clone)]
 pub(crate) struct Profile {
     parameter: usize,
-    /// Index of the optimum.
-    middle: usize,
     /// In the order of the parameter.
     pub points: Vec<ProfilePoint>,
     /// Free variables at the lower and the upper end; `None` where the likelihood does not close.
@@ -55,32 +50,19 @@ pub(crate) struct Profile {
 
 impl Profile {
     /// Free variables and the rise at them, ascending, as far as the model has an answer.
-    pub fn curve(&self) -> impl Iterator<Item = (f64, f64)> {
-        let k = self.parameter;
-        let mut points: Vec<&ProfilePoint> = self.points.iter().chain(&self.at_ends).collect();
-        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
-        let finite = points.into_iter().filter(|point| point.rise.is_finite());
-        finite.map(move |point| (point.point.free[k], point.rise))
+    pub fn curve(&self) -> Vec<(f64, f64)> {
+        let points = self.points.iter().chain(&self.at_ends);
+        let all = points.map(|point| (point.point.free[self.parameter], point.rise));
+        let mut curve: Vec<(f64, f64)> = all.filter(|(_, rise)| rise.is_finite()).collect();
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curve
     }
 
-    /// Whether a point lies below both values between which it lies.
-    fn lies_above(&self, point: &ProfilePoint) -> bool {
-        let k = self.parameter;
-        let next = self
-            .points
-            .partition_point(|other| other.point.free[k] < point.point.free[k]);
-        let around = [next.checked_sub(1), Some(next)];
-        let mut around = around
-            .into_iter()
-            .flatten()
-            .filter_map(|index| self.points.get(index));
-        around.all(|other| point.rise < other.rise - BETTER)
-    }
-
-    /// Points within reach of the optimum, beyond some that are not.
-    pub fn beyond_barrier(&self, wanted: f64) -> impl Iterator<Item = &ProfilePoint> {
+    /// Points within reach of the optimum, which is at `here`, beyond some that are not.
+    pub fn beyond_barrier(&self, here: f64, wanted: f64) -> impl Iterator<Item = &ProfilePoint> {
         let inside = move |point: &&ProfilePoint| point.root() < wanted;
-        let (below, above) = self.points.split_at(self.middle);
+        let is_below = |point: &ProfilePoint| point.point.free[self.parameter] < here;
+        let (below, above) = self.points.split_at(self.points.partition_point(is_below));
         let below = below.iter().rev().skip_while(inside).filter(inside);
         below.chain(above.iter().skip_while(inside).filter(inside))
     }
@@ -98,71 +80,49 @@ pub(crate) struct Profiler<'a> {
 }
 
 impl Profiler<'_> {
-    /// The profiles of the first `count` parameters. What one of them finds is true for all: where a
-    /// point of another, or a minimum elsewhere, lies below a profile, the others are in a wrong valley
-    /// there.
-    pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
-        let first = (0..count)
-            .map(|k| self.profile(k, &[]))
-            .collect::<Result<Vec<_>, _>>()?;
-        let minima: Vec<ProfilePoint> = self.others.iter().cloned().map(|point| self.at(point)).collect();
-        let again = |profile: &Profile| {
-            let foreign = first.iter().filter(|other| other.parameter != profile.parameter);
-            let within = foreign.flat_map(|other| &other.points).chain(&minima);
-            let within = within.filter(|point| point.root() < EXCLUSION * self.wanted);
-            let below: Vec<&ProfilePoint> = within.filter(|point| profile.lies_above(point)).collect();
-            if below.is_empty() {
-                return Ok(profile.clone());
-            }
-            self.profile(profile.parameter, &below)
-        };
-        first.iter().map(again).collect()
-    }
-
-    /// The profile of parameter `k`, from the optimum to both bounds, and from there and from `known`
-    /// points back.
-    fn profile(&self, k: usize, known: &[&ProfilePoint]) -> Result<Profile, CalibrationError> {
-        let here = self.optimum.point.free[k];
+    /// The profile of parameter `k`: from the optimum to both bounds, and from there to the other bound and
+    /// back, of which the lower counts.
+    pub fn profile(&self, k: usize) -> Result<Profile, CalibrationError> {
         let mut points = vec![ProfilePoint {
             point: self.optimum.point.clone(),
             rise: 0.0,
         }];
         for bound in [-FARTHEST, FARTHEST] {
-            for z in self.values(k, here, bound) {
+            points.reverse();
+            for z in self.values(k, bound) {
                 points.push(self.fit_others(k, z, &points[points.len() - 1])?);
+            }
+        }
+        // A valley elsewhere may be narrower than a step of the grid.
+        let far = |point: &&Point| (&point.free - &self.optimum.point.free).amax() >= JUMP;
+        points.extend(self.others.iter().filter(far).map(|point| self.at(point.clone())));
+        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
+        for index in (0..points.len() - 1).rev() {
+            self.lower(k, &mut points, index, index + 1)?;
+        }
+        for index in 1..points.len() {
+            self.lower(k, &mut points, index, index - 1)?;
+        }
+        let (mut ends, mut at_ends) = ([None; 2], Vec::new());
+        for end in &mut ends {
+            if let Some((value, near)) = self.end(k, &points)? {
+                *end = Some(value);
+                at_ends.push(near);
             }
             points.reverse();
         }
-        points.extend(known.iter().map(|&point| point.clone()));
-        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
-        for index in (0..points.len() - 1).rev() {
-            points[index] = self.lower(k, &points[index], &points[index + 1])?;
-        }
-        for index in 1..points.len() {
-            points[index] = self.lower(k, &points[index], &points[index - 1])?;
-        }
-        let mut profile = Profile {
+        Ok(Profile {
             parameter: k,
-            middle: points
-                .iter()
-                .take_while(|point| point.point.free[k] < here)
-                .count(),
             points,
-            ends: [None; 2],
-            at_ends: Vec::new(),
-        };
-        for upper in [false, true] {
-            if let Some((end, near)) = self.end(k, &profile.points, upper)? {
-                profile.ends[usize::from(upper)] = Some(end);
-                profile.at_ends.push(near);
-            }
-        }
-        Ok(profile)
+            ends,
+            at_ends,
+        })
     }
 
     /// Half of the values of parameter `k` but its estimate: to a bound, at distances that grow by one
     /// factor from half a standard error on.
-    fn values(&self, k: usize, here: f64, bound: f64) -> Vec<f64> {
+    fn values(&self, k: usize, bound: f64) -> Vec<f64> {
+        let here = self.optimum.point.free[k];
         let (count, farthest) = (GRID / 2, bound - here);
         let error = self.covariance.standard_error(k).unwrap_or(f64::INFINITY);
         let first = (0.5 * error / farthest.abs()).min(1.0 / count as f64);
@@ -175,7 +135,7 @@ impl Profiler<'_> {
 
     /// Fits all parameters but `k`, held at `z`, from where a neighbour has them.
     fn fit_others(&self, k: usize, z: f64, from: &ProfilePoint) -> Result<ProfilePoint, CalibrationError> {
-        let mut start: DVector<f64> = from.point.free.clone();
+        let mut start = from.point.free.clone();
         start[k] = z;
         let point = descend(self.likelihood, self.optimum.deviance, start, Some(k))?;
         Ok(self.at(point))
@@ -186,61 +146,53 @@ impl Profiler<'_> {
         ProfilePoint { point, rise }
     }
 
-    /// The lower of a point and what its neighbour leads to there. Where the others move as one from
-    /// point to point, both are the same.
+    /// Takes what a neighbour leads to, if it is lower. Where the others move as one from point to point,
+    /// both are the same.
     fn lower(
         &self,
         k: usize,
-        point: &ProfilePoint,
-        neighbour: &ProfilePoint,
-    ) -> Result<ProfilePoint, CalibrationError> {
-        let (here, there) = (&point.point.free, &neighbour.point.free);
-        let moved = (0..here.len())
-            .filter(|&other| other != k)
-            .map(|other| (here[other] - there[other]).abs());
-        if moved.fold(0.0, f64::max) < JUMP || !neighbour.rise.is_finite() {
-            return Ok(point.clone());
+        points: &mut [ProfilePoint],
+        index: usize,
+        neighbour: usize,
+    ) -> Result<(), CalibrationError> {
+        let (here, there) = (&points[index].point.free, &points[neighbour].point.free);
+        let mut moved = here - there;
+        moved[k] = 0.0;
+        if moved.amax() >= JUMP && points[neighbour].rise.is_finite() {
+            let other = self.fit_others(k, here[k], &points[neighbour])?;
+            if other.rise < points[index].rise {
+                points[index] = other;
+            }
         }
-        let other = self.fit_others(k, here[k], neighbour)?;
-        Ok(if other.rise < point.rise {
-            other
-        } else {
-            point.clone()
-        })
+        Ok(())
     }
 
-    /// The free variable at an end, and a point next to it: what lies beyond a barrier and is not excluded
-    /// belongs to the interval.
+    /// The free variable at the end before the first of these points, which begin at a bound, and a point
+    /// next to it: what lies beyond a barrier and is not excluded belongs to the interval.
     fn end(
         &self,
         k: usize,
         points: &[ProfilePoint],
-        upper: bool,
     ) -> Result<Option<(f64, ProfilePoint)>, CalibrationError> {
-        let inward: Vec<&ProfilePoint> = if upper {
-            points.iter().rev().collect()
-        } else {
-            points.iter().collect()
-        };
-        let inside = inward.iter().position(|point| point.root() < self.wanted);
-        let Some(inside) = inside.filter(|&index| index > 0 && inward[0].root() >= EXCLUSION * self.wanted)
-        else {
+        let inside = points.iter().position(|point| point.root() < self.wanted);
+        let is_excluded = points[0].root() >= EXCLUSION * self.wanted;
+        let Some(inside) = inside.filter(|&index| index > 0 && is_excluded) else {
             return Ok(None);
         };
-        let (mut inner, mut outer) = (inward[inside].clone(), inward[inside - 1].clone());
+        let mut around = [points[inside].clone(), points[inside - 1].clone()];
         let off = |point: &ProfilePoint| (point.root() - self.wanted).abs();
         for _ in 0..HALVINGS {
-            if off(&inner).min(off(&outer)) < ACCURACY * self.wanted {
+            if off(&around[0]).min(off(&around[1])) < ACCURACY * self.wanted {
                 break;
             }
-            let z = 0.5 * (inner.point.free[k] + outer.point.free[k]);
-            let middle = self.lower(k, &self.fit_others(k, z, &inner)?, &outer)?;
-            if middle.root() < self.wanted {
-                inner = middle;
-            } else {
-                outer = middle;
-            }
+            let z = 0.5 * (around[0].point.free[k] + around[1].point.free[k]);
+            let mut middle = [self.fit_others(k, z, &around[0])?, around[1].clone()];
+            self.lower(k, &mut middle, 0, 1)?;
+            let [middle, _] = middle;
+            let place = usize::from(middle.root() >= self.wanted);
+            around[place] = middle;
         }
+        let [inner, outer] = around;
         let (a, b) = (inner.point.free[k], outer.point.free[k]);
         // Beyond an infinite rise the model has no answer.
         let share = ((self.wanted - inner.root()) / (outer.root() - inner.root())).clamp(0.0, 1.0);

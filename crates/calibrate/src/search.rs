@@ -6,7 +6,7 @@ use crate::covariance::parameters_from_data;
 use crate::descent::{Optimum, descend};
 use crate::deviance::Deviance;
 use crate::likelihood::{Likelihood, Point};
-use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, STARTS};
+use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
 use crate::{CalibrationError, parameter};
 
 /// Repeats after which a loop is taken to go in a circle: those that end need half as many.
@@ -35,100 +35,105 @@ fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
     }
 }
 
-/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places
-/// of a scan.
+/// What a search found on the emulator.
+pub(crate) struct Found {
+    pub optimum: Optimum,
+    /// Where other descents ended.
+    pub others: Vec<Point>,
+    /// By how much the optimum lies below the start.
+    pub gain: f64,
+}
+
+/// Searches the optimum from `start` and from the best places of a scan. It is `start` itself if no other is
+/// better by more than a fraction of a standard error.
 ///
 /// # Errors
 ///
-/// [`CalibrationError::NotConverged`] where no descent comes to an end.
+/// [`CalibrationError::NotConverged`] if no descent comes to an end.
 pub(crate) fn optimum(
-    likelihood: &mut Likelihood<'_>,
-    start: Option<DVector<f64>>,
-    known_noise: bool,
-) -> Result<(Optimum, Vec<Point>), CalibrationError> {
-    let (data, count) = (
-        likelihood.problem.observations.len(),
-        likelihood.problem.parameters.len(),
-    );
-    let places = all_over(count, SCAN * (1 + count));
-    let mut points: Vec<(f64, Point)> = places
-        .into_iter()
-        .map(|place| likelihood.point(place.map(parameter::free)))
-        .map(|point| (score(&point.residuals, data, known_noise), point))
-        .filter(|(score, _)| score.is_finite())
-        .collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let scanned = points.into_iter().map(|(_, point)| point.free);
-    let starts = start.into_iter().chain(scanned.take(STARTS));
-    let mut best: Result<Optimum, CalibrationError> = Err(CalibrationError::NotConverged);
+    likelihood: &Likelihood<'_>,
+    start: Option<&DVector<f64>>,
+) -> Result<Found, CalibrationError> {
+    let (problem, known) = (likelihood.problem, likelihood.problem.knows_noise);
+    let dimensions = likelihood.of_model.len();
+    let mut scanned = Vec::new();
+    for place in all_over(dimensions, SCAN * (1 + dimensions)) {
+        // Terms from the middle of their ranges.
+        let mut free = DVector::zeros(problem.parameters.len());
+        for (&k, &share) in likelihood.of_model.iter().zip(&place) {
+            free[k] = parameter::free(share);
+        }
+        let point = likelihood.point(free);
+        let score = score(&point.residuals, problem.observations.len(), known);
+        if score.is_finite() {
+            scanned.push((score, point.free));
+        }
+    }
+    scanned.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let best_of_scan = scanned.into_iter().map(|(_, free)| free).take(STARTS);
+    let mut best: Option<Optimum> = None;
     let mut others = Vec::new();
-    for start in starts {
-        best = match best {
-            Err(_) => refine(likelihood, start, known_noise),
-            Ok(best) => {
-                let other = descend(likelihood, best.deviance, start, None)?;
-                others.push(other.clone());
-                if best.deviance.total(&other.residuals) < best.value() - BETTER {
-                    others.push(best.point.clone());
-                    refine(likelihood, other.free, known_noise).or(Ok(best))
+    for from in start.into_iter().cloned().chain(best_of_scan) {
+        let lower = match &best {
+            None => Some(from),
+            Some(best) => {
+                let other = descend(likelihood, best.deviance, from, None)?;
+                let is_lower = best.deviance.total(&other.residuals) < best.value() - BETTER;
+                others.push(if is_lower {
+                    best.point.clone()
                 } else {
-                    Ok(best)
-                }
+                    other.clone()
+                });
+                is_lower.then_some(other.free)
             }
         };
+        let found = lower.and_then(|from| refine(likelihood, from, known).ok());
+        best = found.or(best);
     }
-    Ok((best?, others))
+    let best = best.ok_or(CalibrationError::NotConverged)?;
+    let last = start.map(|start| likelihood.point(start.clone()));
+    let gain = last.as_ref().map_or(f64::INFINITY, |last| {
+        best.deviance.total(&last.residuals) - best.value()
+    });
+    let optimum = match last {
+        Some(last) if gain < SETTLED * SETTLED => Optimum::at(likelihood, last, best.deviance),
+        _ => best,
+    };
+    Ok(Found {
+        optimum,
+        others,
+        gain,
+    })
 }
 
-/// Descends, adapting the scale of the noise: of the residuals beside a discrepancy without its smooth part
-/// e, σ² = eᵀe/(n − p − Σ λ²s²/(1 + λ²s²)), whose last term counts the smooth functions that it has taken
-/// from them (W. H. Fellner, "Robust estimation of variance components", Technometrics 28, 1986).
+/// Descends, adapting the scale of the noise.
 ///
 /// # Errors
 ///
 /// As for [`optimum`].
 pub(crate) fn refine(
-    likelihood: &mut Likelihood<'_>,
+    likelihood: &Likelihood<'_>,
     mut start: DVector<f64>,
     known_noise: bool,
 ) -> Result<Optimum, CalibrationError> {
     let problem = likelihood.problem;
-    let (data, least) = (problem.observations.len(), problem.least_noise());
-    let first = Deviance {
+    let data = problem.observations.len();
+    let least = problem.model_noise().fold(f64::MIN_POSITIVE, f64::max);
+    let mut deviance = Deviance {
         loss: problem.options.loss,
         data,
         spread: 1.0,
         normalisation: 1.0,
     };
+    let freedom = (data as f64 - problem.asked as f64).max(1.0);
     let residuals = likelihood.point(start.clone()).residuals;
-    let freedom = (data as f64 - problem.parameters.len() as f64).max(1.0);
-    let mut deviance = first.scaled(&residuals, known_noise, freedom, least);
+    deviance = deviance.scaled(&residuals, known_noise, freedom, least);
     for round in 0..MAX_ROUNDS {
         let point = descend(likelihood, deviance, start, None)?;
-        let jacobian = likelihood.jacobian(&point.free);
-        let mut found = Optimum {
-            point,
-            jacobian,
-            deviance,
-        };
-        let freedom = data as f64 - parameters_from_data(&found);
-        let residuals = &found.point.residuals;
-        let change = |new: f64, old: f64| (new / old).ln().abs();
-        let mut whitened = 0.0;
-        if let Some(whitening) = likelihood.whitening.as_mut().filter(|_| !known_noise) {
-            let mut plain = residuals.clone();
-            whitening.undo(&mut plain);
-            let data = plain.rows(0, data).into_owned();
-            let square = (&data - whitening.smooth(&data)).norm_squared();
-            let taken = whitening.freedom();
-            whitening.set_noise((square / (freedom - taken).max(1.0)).sqrt().max(least));
-            whitened = (whitening.freedom() - taken).abs();
-        }
-        let mut next = deviance.scaled(residuals, known_noise, freedom.max(0.5), least);
-        let moved = change(next.spread, deviance.spread);
-        // κ jumps as a residual crosses the loss's threshold, and only weighs data against priors.
-        let weighed = change(next.normalisation, deviance.normalisation);
-        if moved < SCALE_TOLERANCE && weighed < 10.0 * SCALE_TOLERANCE && whitened < 0.1 {
+        let mut found = Optimum::at(likelihood, point, deviance);
+        let freedom = (data as f64 - parameters_from_data(&found)).max(0.5);
+        let mut next = deviance.scaled(&found.point.residuals, known_noise, freedom, least);
+        if (next.noise() / deviance.noise()).ln().abs() < SCALE_TOLERANCE {
             found.deviance = next;
             return Ok(found);
         }

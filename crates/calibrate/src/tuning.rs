@@ -30,11 +30,11 @@ pub(crate) const HIGH: f64 = 5.0;
 pub(crate) const ACCURACY: f64 = 0.03;
 /// Distance, in standard errors, by which an optimum may move once the model has run there, and from which
 /// on intervals are looked at.
-pub(crate) const SETTLED: f64 = 0.05;
+pub(crate) const SETTLED: f64 = 0.02;
 pub(crate) const NEAR: f64 = 1.0;
-/// Distance, in standard errors of all readings together, of the ends at which a finer model runs first:
-/// two of the four ends of two parameters that are hardly told apart.
-pub(crate) const APART: f64 = 1.0;
+/// Standard error far from the only run, in that of all readings together: two of the four ends of two
+/// parameters that are hardly told apart then run first on a finer model.
+pub(crate) const UNKNOWN: f64 = 3.0;
 /// Change of the noise's scale, as a share, at which the rounds of fit and scale end.
 pub(crate) const SCALE_TOLERANCE: f64 = 0.01;
 /// Fall of the deviance that makes another optimum the better one: a quarter of a standard error.

@@ -35,28 +35,13 @@ pub enum Warning {
         /// Its best value.
         value: f64,
     },
-    /// Two parameters are hardly distinguishable.
-    #[error("{first} and {second} are hardly distinguishable: their correlation is {correlation:.4}")]
-    Correlated {
-        /// One.
-        first: String,
-        /// The other.
-        second: String,
-        /// Their correlation.
-        correlation: f64,
-    },
-    /// Observations that hardly count in a robust fit, by their indices from 0.
-    #[error("{} observations look like outliers, index {}", .0.len(), listed(.0, ToString::to_string))]
-    Outliers(Vec<usize>),
     /// Other values of the parameters, in their order and far from the best ones, fit about as well. The
     /// intervals hold both.
-    #[error("other values, far from the best ones, fit about as well: {}", listed(.0, |v| format!("{v:.4e}")))]
+    #[error("other values, far from the best ones, fit about as well: {}", listed(.0))]
     Ambiguous(Vec<f64>),
-    /// So few degrees of freedom are left that the noise itself is hardly known.
-    #[error("only {0:.1} degrees of freedom are left to estimate the noise")]
-    FewObservations(f64),
 }
 
-fn listed<T>(values: &[T], word: impl Fn(&T) -> String) -> String {
-    values.iter().map(word).collect::<Vec<_>>().join(" ")
+fn listed(values: &[f64]) -> String {
+    let words: Vec<String> = values.iter().map(|value| format!("{value:.4e}")).collect();
+    words.join(" ")
 }

@@ -1,6 +1,6 @@
 //! Whatever the numbers and the model: a fit or an error, never a panic.
 
-use calibrate::{Calibration, Loss, ModelError, Options, Parameter, Prior, Profiles, Scale};
+use calibrate::{Calibration, Loss, ModelError, Options, Parameter, Prior, Scale};
 use proptest::prelude::*;
 
 fn any_number() -> impl Strategy<Value = f64> {
@@ -94,7 +94,7 @@ proptest! {
         hostile.max_evaluations = evaluations;
         hostile.confidence = among(confidence, !ordinary, default.confidence);
         hostile.relative_noise = among(noise, !ordinary, default.relative_noise);
-        hostile.profiles = if profiles { Profiles::All } else { Profiles::None };
+        hostile.profiles = profiles;
         let mut few = default;
         few.max_evaluations = evaluations.max(1);
         let calibration = match calibration.clone().with_options(hostile) {
