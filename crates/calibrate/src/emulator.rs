@@ -52,12 +52,8 @@ impl Emulator {
             krigings: Vec::new(),
             optimum: None,
         };
-        let ranges = |other: &Self| -> Vec<_> {
-            let range = |p: &Parameter| (p.lower, p.upper, p.scale);
-            other.parameters.iter().map(range).collect()
-        };
         let is_other =
-            |coarse: &Arc<Self>| ranges(coarse) != ranges(&emulator) || coarse.parts != emulator.parts;
+            |coarse: &Arc<Self>| coarse.parameters != emulator.parameters || coarse.parts != emulator.parts;
         if emulator.trend.as_ref().is_some_and(is_other) {
             let what = "number of parameters of a fit that begins with a coarser one";
             let allowed = "the same parameters and observations as there";

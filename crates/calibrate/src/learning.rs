@@ -118,7 +118,5 @@ fn doubtful(likelihood: &Likelihood<'_>, solution: &Solution) -> Vec<DVector<f64
         .collect();
     let mut doubt = likelihood.emulator.doubt(&weights);
     doubt.learn(&likelihood.place(&optimum.point.free));
-    let supports = solution.supports.iter();
-    let places = supports.map(|support| (likelihood.place(&support.point.free), support.allowed));
-    doubt.asked(places.collect())
+    doubt.asked(solution.supports.clone())
 }

@@ -6,7 +6,7 @@ use crate::covariance::parameters_from_data;
 use crate::descent::{Optimum, descend};
 use crate::deviance::Deviance;
 use crate::likelihood::{Likelihood, Point};
-use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
+use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, STARTS};
 use crate::{CalibrationError, parameter};
 
 /// Repeats after which a loop is taken to go in a circle: those that end need half as many.
@@ -35,17 +35,8 @@ fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
     }
 }
 
-/// What a search found on the emulator.
-pub(crate) struct Found {
-    pub optimum: Optimum,
-    /// Where other descents ended.
-    pub others: Vec<Point>,
-    /// By how much the optimum lies below the start.
-    pub gain: f64,
-}
-
-/// Searches the optimum from `start` and from the best places of a scan. It is `start` itself if no other is
-/// better by more than a fraction of a standard error.
+/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places of
+/// a scan.
 ///
 /// # Errors
 ///
@@ -53,7 +44,7 @@ pub(crate) struct Found {
 pub(crate) fn optimum(
     likelihood: &Likelihood<'_>,
     start: Option<&DVector<f64>>,
-) -> Result<Found, CalibrationError> {
+) -> Result<(Optimum, Vec<Point>), CalibrationError> {
     let (problem, known) = (likelihood.problem, likelihood.problem.knows_noise);
     let dimensions = likelihood.of_model.len();
     let mut scanned = Vec::new();
@@ -90,20 +81,7 @@ pub(crate) fn optimum(
         let found = lower.and_then(|from| refine(likelihood, from, known).ok());
         best = found.or(best);
     }
-    let best = best.ok_or(CalibrationError::NotConverged)?;
-    let last = start.map(|start| likelihood.point(start.clone()));
-    let gain = last.as_ref().map_or(f64::INFINITY, |last| {
-        best.deviance.total(&last.residuals) - best.value()
-    });
-    let optimum = match last {
-        Some(last) if gain < SETTLED * SETTLED => Optimum::at(likelihood, last, best.deviance),
-        _ => best,
-    };
-    Ok(Found {
-        optimum,
-        others,
-        gain,
-    })
+    Ok((best.ok_or(CalibrationError::NotConverged)?, others))
 }
 
 /// Descends, adapting the scale of the noise.

@@ -1,5 +1,6 @@
 //! An optimum on the emulator, and what is known around it.
 
+use nalgebra::DVector;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::covariance::{Covariance, parameters_from_data, quantile};
@@ -7,20 +8,13 @@ use crate::descent::Optimum;
 use crate::estimate::{Estimate, Interval};
 use crate::likelihood::{Likelihood, Point};
 use crate::profile::{EXCLUSION, Profile, ProfilePoint, Profiler};
-use crate::search::{self, Found, MAX_ROUNDS};
-use crate::tuning::{BETTER, HIDDEN, HIGH, NEAR, SURE};
+use crate::search::{self, MAX_ROUNDS};
+use crate::tuning::{BETTER, HIDDEN, HIGH, NEAR, SETTLED, SURE};
 use crate::{Calibration, CalibrationError, Loss, Parameter, Scale, Warning};
 
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not
 /// believed.
 const MISFIT: f64 = 0.001;
-
-/// A place on which the answer rests, and the standard error of all readings together up to which the
-/// emulator is believed there.
-pub(crate) struct Support {
-    pub point: Point,
-    pub allowed: f64,
-}
 
 pub(crate) struct Solution {
     pub optimum: Optimum,
@@ -28,7 +22,9 @@ pub(crate) struct Solution {
     pub estimates: Vec<Estimate>,
     /// Whether the intervals are those that were asked for.
     pub is_complete: bool,
-    pub supports: Vec<Support>,
+    /// Places on which it rests, and the standard error of all readings together up to which the emulator
+    /// is believed there.
+    pub supports: Vec<(DVector<f64>, f64)>,
     /// A minimum elsewhere that fits about as well.
     pub rival: Option<Point>,
     /// Whether the noise was estimated from the residuals, and if so, because the sigmas are not believed.
@@ -36,34 +32,34 @@ pub(crate) struct Solution {
     pub misfit: Option<Warning>,
 }
 
-/// Searches the optimum on a likelihood, from `start` too, and describes it: with profiles, if they are
-/// asked for, once it lies near the start.
+/// Searches the optimum on a likelihood and describes it: with profiles, if they are asked for, once it lies
+/// near the start, which is the optimum if no other is better by more than a fraction of a standard error.
 ///
 /// # Errors
 ///
 /// [`CalibrationError::NotConverged`].
 pub(crate) fn solve(
     likelihood: &Likelihood<'_>,
-    start: Option<&nalgebra::DVector<f64>>,
+    start: Option<&DVector<f64>>,
 ) -> Result<Solution, CalibrationError> {
     let problem = likelihood.problem;
-    let Found {
-        mut optimum,
-        others,
-        gain,
-    } = search::optimum(likelihood, start)?;
-    let is_near = gain < NEAR || problem.coarse.is_some();
-    let profiled = if problem.options.profiles && is_near {
-        problem.asked
-    } else {
-        0
-    };
+    let (mut optimum, others) = search::optimum(likelihood, start)?;
+    let last = start.map(|start| likelihood.point(start.clone()));
     for _ in 0..MAX_ROUNDS {
         let misfit = misfit(problem, &optimum);
         if misfit.is_some() {
             // The sigmas are not believed: only their ratios are.
             optimum = search::refine(likelihood, optimum.point.free, false)?;
         }
+        let value = |point: &Point| optimum.deviance.total(&point.residuals);
+        let gain = last
+            .as_ref()
+            .map_or(f64::INFINITY, |last| value(last) - optimum.value());
+        if let Some(last) = last.clone().filter(|_| gain < SETTLED * SETTLED) {
+            optimum = Optimum::at(likelihood, last, optimum.deviance);
+        }
+        let is_near = gain < NEAR || problem.coarse.is_some();
+        let is_profiled = problem.options.profiles && is_near;
         let noise_estimated = !problem.knows_noise || misfit.is_some() || problem.options.loss.is_robust();
         let tail = 0.5 * (1.0 - problem.options.confidence);
         let covariance = Covariance::of(&optimum);
@@ -74,9 +70,9 @@ pub(crate) fn solve(
             covariance: &covariance,
             others: &others,
         };
-        let profiles: Vec<Profile> = (0..profiled)
-            .map(|k| profiler.profile(k))
-            .collect::<Result<_, _>>()?;
+        let profiled = 0..if is_profiled { problem.asked } else { 0 };
+        let profiles = profiled.map(|k| profiler.profile(k));
+        let profiles: Vec<Profile> = profiles.collect::<Result<_, _>>()?;
         let points = profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise));
         if let Some(lower) = lowest.filter(|lowest| lowest.rise < -BETTER) {
@@ -85,7 +81,7 @@ pub(crate) fn solve(
         }
         return Ok(Solution {
             estimates: estimates(&profiler, &profiles),
-            is_complete: profiled > 0 || !problem.options.profiles,
+            is_complete: is_profiled || !problem.options.profiles,
             supports: supports(&profiler, &profiles),
             rival: rival(&profiler, &profiles),
             noise_estimated,
@@ -119,18 +115,43 @@ pub(crate) fn freedom(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
 
 /// All parameters that are asked for; without profiles, their intervals are symmetric.
 fn estimates(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<Estimate> {
-    let problem = profiler.likelihood.problem;
+    let (problem, wanted) = (profiler.likelihood.problem, profiler.wanted);
     let one = |(k, parameter): (usize, &Parameter)| {
         let free = profiler.optimum.point.free[k];
+        let (best, profile) = (parameter.value(free), profiles.get(k));
         let error = profiler.covariance.standard_error(k);
         let error = error.map(|error| error * parameter.slope(free));
-        estimate(
-            parameter,
-            parameter.value(free),
-            error,
-            profiles.get(k),
-            profiler.wanted,
-        )
+        let symmetric = |sign: f64| {
+            let reach = sign * wanted * error?;
+            let end = match parameter.scale {
+                Scale::Linear => best + reach,
+                Scale::Logarithmic => best * (reach / best).exp(),
+            };
+            (parameter.lower < end && end < parameter.upper).then_some(end)
+        };
+        let [lower, upper] = match profile {
+            Some(profile) => profile.ends.map(|end| end.map(|free| parameter.value(free))),
+            None => [-1.0, 1.0].map(symmetric),
+        };
+        // Where the model is steepest nowhere near, as at its largest value, only the interval tells how
+        // exactly the parameter is known.
+        let half = lower
+            .zip(upper)
+            .map(|(lower, upper)| 0.5 * (upper - lower) / wanted);
+        let by_slopes = error.filter(|error| half.is_none_or(|half| *error <= 2.0 * half));
+        let curve = profile.map_or_else(Vec::new, Profile::curve);
+        let interval = Interval { lower, upper };
+        Estimate {
+            name: parameter.name().to_owned(),
+            value: best,
+            standard_error: by_slopes.or(half),
+            interval,
+            identifiable: interval.is_closed(),
+            profile: curve
+                .into_iter()
+                .map(|(free, rise)| (parameter.value(free), rise))
+                .collect(),
+        }
     };
     problem.parameters[..problem.asked]
         .iter()
@@ -139,53 +160,9 @@ fn estimates(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<Estimate> {
         .collect()
 }
 
-/// The estimate of one parameter with this standard error.
-fn estimate(
-    parameter: &Parameter,
-    best: f64,
-    error: Option<f64>,
-    profile: Option<&Profile>,
-    wanted: f64,
-) -> Estimate {
-    let ends = match profile {
-        Some(profile) => profile.ends.map(|end| end.map(|free| parameter.value(free))),
-        None => [-1.0, 1.0].map(|sign| {
-            let reach = sign * wanted * error?;
-            let end = match parameter.scale {
-                Scale::Linear => best + reach,
-                Scale::Logarithmic => best * (reach / best).exp(),
-            };
-            (parameter.lower < end && end < parameter.upper).then_some(end)
-        }),
-    };
-    let [lower, upper] = ends;
-    let interval = Interval { lower, upper };
-    // Where the model is steepest nowhere near, as at its largest value, only the interval tells how exactly
-    // the parameter is known.
-    let half = lower
-        .zip(upper)
-        .map(|(lower, upper)| 0.5 * (upper - lower) / wanted);
-    let standard_error = match (error, half) {
-        (Some(error), Some(half)) if error > 2.0 * half => Some(half),
-        (error, half) => error.or(half),
-    };
-    let curve = profile.map_or_else(Vec::new, Profile::curve);
-    Estimate {
-        name: parameter.name().to_owned(),
-        value: best,
-        standard_error,
-        interval,
-        identifiable: interval.is_closed(),
-        profile: curve
-            .into_iter()
-            .map(|(free, rise)| (parameter.value(free), rise))
-            .collect(),
-    }
-}
-
 /// The ends of the intervals, the bounds that they leave out, and all low places: there the emulator may err
 /// by a part of what would make another answer.
-fn supports(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<Support> {
+fn supports(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<(DVector<f64>, f64)> {
     let Profiler {
         likelihood,
         optimum,
@@ -199,9 +176,9 @@ fn supports(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<Support> {
         .map(|(noise, weight)| weight * noise * noise)
         .sum::<f64>()
         .sqrt();
-    let support = |point: &ProfilePoint, least: f64, threshold: f64| Support {
-        point: point.point.clone(),
-        allowed: least.max(noise).max(0.25 * (point.root() - threshold).abs()),
+    let support = |point: &ProfilePoint, least: f64, threshold: f64| {
+        let allowed = least.max(noise).max(0.25 * (point.root() - threshold).abs());
+        (likelihood.place(&point.point.free), allowed)
     };
     let mut supports = Vec::new();
     for profile in profiles {

@@ -1,7 +1,8 @@
-//! Numbers found by experiment, most of them with the fits of `tests/calibration_coverage.rs`, which this
-//! workspace keeps: friction and shape factor of a cable from 60 readings.
+//! Numbers found by experiment, with the fits of `tests/calibration_coverage.rs`, which this workspace keeps:
+//! friction and shape factor of a cable from 60 readings, twelve truths. Runs are those of a fit in the mean.
 
-/// First runs for each parameter of the model and one more.
+/// First runs for each parameter of the model and one more. Half of them learn as much later and may
+/// overlook a valley.
 pub(crate) const FIRST_RUNS: usize = 8;
 /// Length of correlation of an emulator, as a share of a parameter's range. Where runs lie as close as they
 /// do around an optimum it hardly matters.
@@ -10,7 +11,8 @@ pub(crate) const LENGTH: f64 = 0.5;
 /// model's relative noise. With 1e-8, a model without noise is not followed to 1e-6 of its parameters
 /// (tests/closed_form.rs). A larger one takes what a model really does at short range for noise.
 pub(crate) const NUGGETS: (f64, f64) = (1e-12, 1e-8);
-/// Places of the emulator that are scanned for each parameter and one more, and descents from the best.
+/// Places of the emulator that are scanned for each parameter of the model and one more, and descents from
+/// the best. A wave of unknown length, with many minima (tests/closed_form.rs), needs half of them.
 pub(crate) const SCAN: usize = 64;
 pub(crate) const STARTS: usize = 4;
 /// Values of a parameter at which its profile is computed, the estimate among them.
@@ -28,9 +30,10 @@ pub(crate) const HIGH: f64 = 5.0;
 /// Accuracy of the root of the rise at an end, as a share of it. The end itself is interpolated, ten times
 /// as exactly.
 pub(crate) const ACCURACY: f64 = 0.03;
-/// Distance, in standard errors, by which an optimum may move once the model has run there, and from which
-/// on intervals are looked at.
+/// Distance, in standard errors, by which an optimum may move once the model has run there. With 0.05
+/// estimates are off by as much (tests/terms.rs).
 pub(crate) const SETTLED: f64 = 0.02;
+/// Gain of the deviance by the last runs below which intervals are looked at.
 pub(crate) const NEAR: f64 = 1.0;
 /// Standard error far from the only run, in that of all readings together: two of the four ends of two
 /// parameters that are hardly told apart then run first on a finer model.

@@ -6,6 +6,7 @@ mod common;
 use calibrate::{
     Calibration, CalibrationError, Estimate, Fit, ModelError, Parameter, Scale, smooth_functions,
 };
+use proptest::prelude::*;
 
 const COUNT: usize = 40;
 const NOISE: f64 = 0.02;
@@ -143,5 +144,28 @@ fn functions_of_other_observations_are_refused() {
     for function in [vec![1.0; 3], vec![f64::NAN; 4]] {
         let error = calibration.clone().with_discrepancy(&[function]).unwrap_err();
         assert!(matches!(error, CalibrationError::Invalid { .. }), "{error}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// Whatever the model misses, and whatever is allowed for it: what may be wrong knows no more.
+    #[test]
+    fn no_interval_becomes_narrower(
+        seed in 0_u64..1000,
+        (off, size) in (0.0..0.5_f64, 1e-4..1.0_f64),
+        constant in -0.5..0.5_f64,
+        known: bool,
+    ) {
+        let mut data = measured(off, seed);
+        data.iter_mut().for_each(|value| *value += constant);
+        let sigma = known.then_some(NOISE);
+        let (plain, wider) = (fit(data.clone(), None, sigma), fit(data, Some(size), sigma));
+        let [plain, wider] = [plain, wider].map(|fit| fit.estimates[0].interval);
+        let open = (f64::NEG_INFINITY, f64::INFINITY);
+        prop_assert!(wider.lower.unwrap_or(open.0) <= plain.lower.unwrap_or(open.0));
+        prop_assert!(wider.upper.unwrap_or(open.1) >= plain.upper.unwrap_or(open.1));
+        prop_assert!(wider.is_closed() <= plain.is_closed());
     }
 }
