@@ -1,6 +1,6 @@
 //! From the final fit to what the user reads.
 
-use calibrate::{Estimate, Fit, Loss, Warning};
+use calibrate::{Estimate, Fit, Loss};
 
 use super::ground;
 use super::judgement::{LEFT_OUT, judge};
@@ -74,12 +74,7 @@ fn warnings(
     judged: Vec<String>,
 ) -> Vec<String> {
     let mut warnings = judged;
-    // Outliers are told by pass and line.
-    let own = fit
-        .warnings
-        .iter()
-        .filter(|warning| !matches!(warning, Warning::Outliers { .. }));
-    warnings.extend(own.map(ToString::to_string));
+    warnings.extend(fit.warnings.iter().map(ToString::to_string));
     for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
         if *error > MESH_SHIFT {
             warnings.push(format!(
