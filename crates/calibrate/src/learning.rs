@@ -10,10 +10,14 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::likelihood::Likelihood;
-use crate::search::{MAX_ROUNDS, all_over};
+use crate::search::all_over;
 use crate::solution::{Solution, solve};
 use crate::tuning::FIRST_RUNS;
 use crate::{Calibration, CalibrationError, Emulator, ModelError};
+
+/// Rounds after which the emulator is taken not to learn any more: five parameters of two series with the
+/// ripple of a mesh take thirty.
+const ROUNDS: usize = 80;
 
 /// An emulator that has seen the model run at its first places.
 ///
@@ -48,7 +52,7 @@ pub(crate) fn converge(
     emulator: &mut Emulator,
 ) -> Result<Solution, CalibrationError> {
     let mut last: Option<DVector<f64>> = None;
-    for _ in 0..MAX_ROUNDS {
+    for _ in 0..ROUNDS {
         let likelihood = Likelihood::new(problem, emulator);
         let mut solution = solve(&likelihood, last.as_ref())?;
         let free = solution.optimum.point.free.clone();
@@ -64,6 +68,13 @@ pub(crate) fn converge(
             emulator.optimum = Some(optimum);
             return Ok(solution);
         }
+        eprintln!(
+            "DBG places {} complete {} known {} runs {}",
+            places.len(),
+            solution.is_complete,
+            emulator.known(&optimum).is_some(),
+            emulator.evaluations()
+        );
         run(problem, emulator, places)?;
         last = Some(free);
     }

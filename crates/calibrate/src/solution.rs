@@ -55,7 +55,10 @@ pub(crate) fn solve(
         let gain = last
             .as_ref()
             .map_or(f64::INFINITY, |last| value(last) - optimum.value());
-        if let Some(last) = last.clone().filter(|_| gain < SETTLED * SETTLED) {
+        // Of the ripple between runs, the parameters follow their share.
+        let share = (problem.asked as f64 / problem.observations.len() as f64).sqrt();
+        let least = SETTLED.max(share * noise(problem, &optimum)).powi(2);
+        if let Some(last) = last.clone().filter(|_| gain < least) {
             optimum = Optimum::at(likelihood, last, optimum.deviance);
         }
         let is_near = gain < NEAR || problem.coarse.is_some();
@@ -75,7 +78,7 @@ pub(crate) fn solve(
         let profiles: Vec<Profile> = profiles.collect::<Result<_, _>>()?;
         let points = profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise));
-        if let Some(lower) = lowest.filter(|lowest| lowest.rise < -BETTER) {
+        if let Some(lower) = lowest.filter(|lowest| lowest.rise < -least.max(BETTER)) {
             optimum = search::refine(likelihood, lower.point.free.clone(), problem.knows_noise)?;
             continue;
         }
@@ -91,6 +94,14 @@ pub(crate) fn solve(
         });
     }
     Err(CalibrationError::NotConverged)
+}
+
+/// The model's own noise, in standard errors of all readings together.
+fn noise(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
+    let weights = optimum.deviance.weights(&optimum.point.residuals);
+    let squares = problem.model_noise().zip(&weights);
+    let squares = squares.map(|(noise, weight)| weight * noise * noise);
+    squares.sum::<f64>().sqrt()
 }
 
 /// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
@@ -169,15 +180,10 @@ fn supports(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<(DVector<f64>,
         wanted,
         ..
     } = *profiler;
-    // Of the model's own noise nothing can be learned.
-    let weights = optimum.deviance.weights(&optimum.point.residuals);
-    let noise = likelihood.problem.model_noise().zip(&weights);
-    let noise = noise
-        .map(|(noise, weight)| weight * noise * noise)
-        .sum::<f64>()
-        .sqrt();
+    // Of the model's own noise nothing can be learned far out.
+    let hidden = HIDDEN.max(noise(likelihood.problem, optimum));
     let support = |point: &ProfilePoint, least: f64, threshold: f64| {
-        let allowed = least.max(noise).max(0.25 * (point.root() - threshold).abs());
+        let allowed = least.max(0.25 * (point.root() - threshold).abs());
         (likelihood.place(&point.point.free), allowed)
     };
     let mut supports = Vec::new();
@@ -189,7 +195,7 @@ fn supports(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<(DVector<f64>,
         supports.extend(bounds.map(|point| support(point, SURE, EXCLUSION * wanted)));
         if likelihood.problem.coarse.is_none() {
             let low = profile.points.iter().filter(|point| point.root() < HIGH);
-            supports.extend(low.map(|point| support(point, HIDDEN, wanted)));
+            supports.extend(low.map(|point| support(point, hidden, wanted)));
         }
     }
     supports
