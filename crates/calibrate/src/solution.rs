@@ -9,7 +9,7 @@ use crate::estimate::{Estimate, Interval};
 use crate::likelihood::{Likelihood, Point};
 use crate::profile::{EXCLUSION, Profile, ProfilePoint, Profiler};
 use crate::search::{self, MAX_ROUNDS};
-use crate::tuning::{BETTER, HIDDEN, HIGH, NEAR, SETTLED, SURE};
+use crate::tuning::{BETTER, FAR, HIDDEN, HIGH, NEAR, SETTLED, SURE};
 use crate::{Calibration, CalibrationError, Loss, Parameter, Scale, Warning};
 
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not
@@ -57,7 +57,7 @@ pub(crate) fn solve(
             .map_or(f64::INFINITY, |last| value(last) - optimum.value());
         // Of the ripple between runs, the parameters follow their share.
         let share = (problem.asked as f64 / problem.observations.len() as f64).sqrt();
-        let least = SETTLED.max(share * noise(problem, &optimum)).powi(2);
+        let least = SETTLED.max(FAR.min(share * noise(problem, &optimum))).powi(2);
         if let Some(last) = last.clone().filter(|_| gain < least) {
             optimum = Optimum::at(likelihood, last, optimum.deviance);
         }

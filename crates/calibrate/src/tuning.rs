@@ -33,6 +33,8 @@ pub(crate) const ACCURACY: f64 = 0.03;
 /// Distance, in standard errors, by which an optimum may move once the model has run there. With 0.05
 /// estimates are off by as much (tests/terms.rs).
 pub(crate) const SETTLED: f64 = 0.02;
+/// The same with a ripple between runs that is larger.
+pub(crate) const FAR: f64 = 0.2;
 /// Gain of the deviance by the last runs below which intervals are looked at.
 pub(crate) const NEAR: f64 = 1.0;
 /// Standard error far from the only run, in that of all readings together: two of the four ends of two
