@@ -183,8 +183,11 @@ fn faults_are_told_and_never_called_identifiable() {
     judge(4, 1.0);
 }
 
+/// `DRAWS=25` in front takes fewer of each kind, of which more may fail by chance.
 #[test]
 #[ignore = "1000 fits: see CONTRIBUTING.md for the command"]
 fn faults_are_told_in_a_thousand_series() {
-    judge(100, 0.0);
+    let draws = std::env::var("DRAWS").ok().and_then(|draws| draws.parse().ok());
+    let draws: u64 = draws.unwrap_or(100);
+    judge(draws, if draws < 100 { 2.0 } else { 0.0 });
 }

@@ -280,10 +280,12 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
     // A fork: generators of neighbouring seeds begin with related numbers.
     let mut random = Rng::with_seed(seed).fork();
     let exact = table.readings(TRUE_COEFFICIENT, b);
-    let measured = exact
+    let errors: Vec<f64> = exact
         .iter()
-        .map(|force| force + noise * testkit::gaussian(&mut random))
+        .map(|_| noise * testkit::gaussian(&mut random))
         .collect();
+    let measured = exact.iter().zip(&errors).map(|(force, error)| force + error);
+    let measured = measured.collect();
     let model = |p: &[f64]| Ok::<_, ModelError>(table.readings(p[0], p[1]));
     let parameter = |name, (from, to, _)| Parameter::new(name, from, to, Scale::Logarithmic);
     let calibration = parameter("dynamic_coefficient", COEFFICIENTS)
@@ -291,13 +293,8 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
         .and_then(|parameters| Calibration::new(&model, parameters, measured))
         .map_err(|error| error.to_string())?;
     let squares = |residuals: &[f64]| residuals.iter().map(|r| r * r).sum::<f64>();
-    let of_truth: Vec<f64> = exact
-        .iter()
-        .zip(calibration.observations())
-        .map(|(a, b)| a - b)
-        .collect();
     let outcome = |fit: Fit| {
-        let rise = fit.degrees_of_freedom * (squares(&of_truth) / squares(&fit.residuals) - 1.0);
+        let rise = fit.degrees_of_freedom * (squares(&errors) / squares(&fit.residuals) - 1.0);
         match (judge(&fit.estimates[1], b, rise), fit.estimates[0].identifiable) {
             (Draw::Wrong, false) => Draw::HalfOpenWrong,
             (Draw::Right | Draw::Missed, false) => Draw::HalfOpen,
@@ -305,8 +302,7 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
         }
     };
     // As `creepage calibrate` fits.
-    let fitted = calibration.fit_emulated(None);
-    Ok(fitted.map_or(Draw::Failed, |(fit, _)| outcome(fit)))
+    Ok(calibration.fit().map_or(Draw::Failed, outcome))
 }
 
 /// `rise` is that of the deviance from the fit to the true values.

@@ -4,16 +4,14 @@
 //! explains. These fits run on the coarsest mesh, corrected by what the final one says more at the optimum, where most runs are known. What
 //! they find is looked at on the final mesh.
 
-use calibrate::{Fit, Model, Profiles, probability_of_gain};
+use calibrate::{Fit, probability_of_gain};
 
 use super::meshes::Final;
-use super::problem::{Effort, Problem};
+use super::problem::Problem;
 use super::terms::{Cell, Term, term};
 use super::unknown::Quantity;
 use crate::Error;
 
-/// Distance to the minimum, in standard errors, at which these fits are good enough.
-const TOLERANCE: f64 = 0.1;
 /// Probability on the coarsest mesh below which the final one is asked.
 const WORTH_ASKING: f64 = 0.3;
 /// Model runs that each may take.
@@ -39,22 +37,20 @@ pub fn alternatives<'a>(
     rows: &[usize],
 ) -> Result<[Option<Alternative<'a>>; 2], Error> {
     let values = found.fit.values();
-    let Ok(coarse) = problem.model(0, None).predict(problem.of_model(&values)) else {
-        return Ok([None, None]);
-    };
-    let mut correction = coarse;
-    problem.add_terms(&mut correction, &values);
-    for (correction, fitted) in correction.iter_mut().zip(&found.fit.fitted) {
-        *correction = fitted - *correction;
-    }
+    let coarse = problem.predict(0, 1.0, &values)?;
     let fits = Fits {
         problem,
         found,
-        correction,
-        values,
+        correction: found
+            .fit
+            .fitted
+            .iter()
+            .zip(coarse)
+            .map(|(fine, coarse)| fine - coarse)
+            .collect(),
         rows,
     };
-    let Some(plain) = fits.coarsely(None)? else {
+    let Some(plain) = fits.fit(0, None)? else {
         return Ok([None, None]);
     };
     // The final fit is one without the error as well; scatter between meshes must not count for the error.
@@ -78,7 +74,7 @@ pub fn alternatives<'a>(
             .collect();
         for cell in &open {
             let error = term(cell, quantity, &name(cell), problem.options)?;
-            let Some(mut fit) = fits.coarsely(Some(error.clone()))? else {
+            let Some(mut fit) = fits.fit(0, Some(error.clone()))? else {
                 continue;
             };
             let probability =
@@ -87,7 +83,7 @@ pub fn alternatives<'a>(
                 continue;
             };
             if (chance < WORTH_ASKING || is_open)
-                && let Some(finer) = fits.finally(error, fit.values())?
+                && let Some(finer) = fits.fit(found.level, Some(error))?
                 && let Some(finer_chance) = probability(last, &finer)
             {
                 (fit, chance) = (finer, finer_chance);
@@ -113,53 +109,33 @@ struct Fits<'a> {
     problem: &'a Problem<'a>,
     found: &'a Final,
     correction: Vec<f64>,
-    values: Vec<f64>,
     rows: &'a [usize],
 }
 
 impl Fits<'_> {
-    /// A fit on the coarsest mesh, with a term more or without; nothing where it does not converge.
-    fn coarsely(&self, more: Option<Term>) -> Result<Option<Fit>, Error> {
-        let start = self
-            .values
-            .iter()
-            .copied()
-            .chain(more.iter().map(|_| 0.0))
-            .collect();
-        self.fit(more, start, 0)
-    }
-
-    /// A fit on the final mesh from `start`.
-    fn finally(&self, more: Term, start: Vec<f64>) -> Result<Option<Fit>, Error> {
-        self.fit(Some(more), start, self.found.mesh.level)
-    }
-
-    fn fit(&self, more: Option<Term>, start: Vec<f64>, level: u32) -> Result<Option<Fit>, Error> {
+    /// A fit on a level of meshes, the coarsest or the final one, with a term more or without; nothing where
+    /// it does not converge.
+    fn fit(&self, level: u32, more: Option<Term>) -> Result<Option<Fit>, Error> {
         let terms: Vec<Term> = self.problem.terms.iter().cloned().chain(more).collect();
         let problem = Problem {
             terms: &terms,
             ..*self.problem
         };
-        let is_final = level == self.found.mesh.level;
+        let is_final = level == self.found.level;
         let correction = if is_final {
-            self.found.mesh.correction()
+            self.found.correction.clone()
         } else {
             Some(self.correction.clone())
         };
         let model = problem.model(level, correction);
-        let effort = Effort {
-            profiles: Profiles::None,
-            tolerance: TOLERANCE,
-            runs: RUNS,
-        };
-        let calibration = problem.calibration(&model, Some(start), &effort)?;
-        let found = if is_final {
-            calibration.fit_emulated(Some(&self.found.emulator))
+        let known = if is_final {
+            &self.found.fit.emulator
         } else {
-            calibration.scanned().fit_emulated(None)
+            &self.found.coarsest
         };
-        match found {
-            Ok((fit, _)) => Ok(Some(fit)),
+        let calibration = problem.calibration(&model, false, RUNS)?;
+        match calibration.with_coarse(known.clone()).fit() {
+            Ok(fit) => Ok(Some(fit)),
             Err(_) if problem.watch.is_stopped() => Err(Error::Stopped),
             Err(_) => Ok(None),
         }
@@ -167,7 +143,7 @@ impl Fits<'_> {
 
     /// Sum of the squared residuals in units of the sigmas.
     fn square(&self, fit: &Fit) -> f64 {
-        let residuals = fit.standardised_residuals();
+        let residuals = fit.standardised_noise();
         self.rows.iter().map(|&row| residuals[row].powi(2)).sum()
     }
 }

@@ -1,6 +1,6 @@
 //! From the final fit to what the user reads.
 
-use calibrate::{Estimate, Fit, Loss, Warning};
+use calibrate::{Estimate, Fit, Loss};
 
 use super::ground;
 use super::judgement::{LEFT_OUT, judge};
@@ -59,11 +59,11 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
     let largest = most(&found.fit.fitted);
     ModelErrorEstimate {
         relative: if largest > 0.0 {
-            0.5 * most(&found.mesh.difference) / largest
+            0.5 * most(&found.difference) / largest
         } else {
             0.0
         },
-        standard_errors: found.mesh.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
+        standard_errors: found.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
     }
 }
 
@@ -74,12 +74,7 @@ fn warnings(
     judged: Vec<String>,
 ) -> Vec<String> {
     let mut warnings = judged;
-    // Outliers are told by pass and line.
-    let own = fit
-        .warnings
-        .iter()
-        .filter(|warning| !matches!(warning, Warning::Outliers { .. }));
-    warnings.extend(own.map(ToString::to_string));
+    warnings.extend(fit.warnings.iter().map(ToString::to_string));
     for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
         if *error > MESH_SHIFT {
             warnings.push(format!(
@@ -110,7 +105,7 @@ fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> Fitte
 }
 
 fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
-    let mesh = |model: &SeriesModel| model.mesh(found.mesh.level);
+    let mesh = |model: &SeriesModel| model.mesh(found.level);
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
     let fit = &found.fit;
     Ok(FitMethod {
@@ -127,11 +122,11 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
             Loss::Tukey { .. } => "tukey",
             _ => "other",
         },
-        intervals: intervals(fit),
+        intervals: intervals(fit, problem.options.discrepancy),
     })
 }
 
-fn intervals(fit: &Fit) -> String {
+fn intervals(fit: &Fit, discrepancy: Option<f64>) -> String {
     let noise = if fit.noise_estimated {
         format!(
             ", Student's t with {} degrees of freedom",
@@ -140,7 +135,7 @@ fn intervals(fit: &Fit) -> String {
     } else {
         " with the given sigmas".into()
     };
-    let error = fit.discrepancy.map_or_else(String::new, |share| {
+    let error = discrepancy.map_or_else(String::new, |share| {
         format!(
             ", beside a smooth error of the model of {} % of the largest reading",
             four_digits(100.0 * share)

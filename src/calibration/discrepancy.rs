@@ -7,7 +7,7 @@
 
 use std::ops::RangeInclusive;
 
-use calibrate::{CalibrationError, Discrepancy};
+use calibrate::{CalibrationError, smooth_functions};
 
 use super::cell::Observed;
 use super::error::FitError;
@@ -23,15 +23,15 @@ pub const LENGTH: f64 = 2.0;
 /// Shares that may be asked for: below is less than an instrument shows, above is no knowledge.
 pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
 
-/// Among all readings, of a `share` of the largest.
+/// Functions of all readings, by a sum of which the model may be off, of a `share` of the largest.
 pub fn discrepancy(
     series: &[Series<'_>],
     models: &[SeriesModel],
     share: f64,
-) -> Result<Discrepancy, FitError> {
+) -> Result<Vec<Vec<f64>>, FitError> {
     if !SHARES.contains(&share) {
-        return Err(FitError::Calibration(CalibrationError::InvalidOption {
-            name: "discrepancy",
+        return Err(FitError::Calibration(CalibrationError::Invalid {
+            what: "option discrepancy".into(),
             value: share,
             allowed: "a share of 0.0001 to 10",
         }));
@@ -58,14 +58,22 @@ pub fn discrepancy(
         }
         .into());
     }
-    let covariance = |i: usize, j: usize| {
-        let ((one, place, scale), (other, elsewhere, factor)) = (&rows[i], &rows[j]);
-        let distance = (place - elsewhere) / LENGTH;
-        if one == other {
-            scale * factor * (-0.5 * distance * distance).exp()
-        } else {
-            0.0
+    let places: Vec<f64> = rows.iter().map(|(_, place, _)| *place).collect();
+    let bells = smooth_functions(&places, LENGTH);
+    let mut instruments: Vec<(usize, Observed)> = rows.iter().map(|(own, ..)| *own).collect();
+    instruments.dedup();
+    let mut functions = Vec::new();
+    for (index, instrument) in instruments.iter().enumerate() {
+        if instruments[..index].contains(instrument) {
+            continue;
         }
-    };
-    Ok(Discrepancy::new(rows.len(), covariance, share)?)
+        let size = |(own, _, scale): &((usize, Observed), f64, f64)| {
+            if own == instrument { share * scale } else { 0.0 }
+        };
+        functions.extend(bells.iter().map(|bell| -> Vec<f64> {
+            let own = bell.iter().zip(&rows);
+            own.map(|(value, row)| value * size(row)).collect()
+        }));
+    }
+    Ok(functions)
 }

@@ -1,6 +1,6 @@
 //! What another ground than the scene's would do to a fit that takes it as it is.
 
-use calibrate::{CalibrationError, Model};
+use calibrate::TermTest;
 
 use super::error::FitError;
 use super::meshes::Final;
@@ -19,13 +19,8 @@ pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>
         return Ok(None);
     }
     let values = found.fit.values();
-    let at = |stiffness| {
-        // A difference of a tenth needs no fine mesh.
-        let mut model = problem.model(0, None);
-        model.stiffness = stiffness;
-        let predicted = model.predict(problem.of_model(&values));
-        predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })
-    };
+    // A difference of a tenth needs no fine mesh.
+    let at = |stiffness| problem.predict(0, stiffness, &values);
     let (soft, here) = (at(1.0 - SOFTER)?, at(1.0)?);
     let change: Vec<f64> = soft.iter().zip(&here).map(|(soft, here)| soft - here).collect();
     let shifts = found.fit.shift(&change);
@@ -47,10 +42,8 @@ pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>
         return Ok(None);
     }
     // In units of this softening.
-    let test = found.fit.test_terms(&[&change]);
-    let hidden = test
-        .as_ref()
-        .is_none_or(|test| test.standard_errors[0] * SHOWN > 1.0);
+    let test = TermTest::of(&found.fit, &change);
+    let hidden = test.as_ref().is_none_or(|test| test.standard_error * SHOWN > 1.0);
     let shown = if hidden {
         "and these readings cannot show it"
     } else {

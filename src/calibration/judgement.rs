@@ -65,7 +65,7 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         .filter(|row| !outliers.contains(row))
         .collect();
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
-    let hidden = fit.discrepancy.is_some() || !mistakes.is_empty();
+    let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
     let alternatives = if fit.degrees_of_freedom < FEWEST || hidden {
         [None, None]
     } else {
@@ -178,7 +178,7 @@ fn explanation(
         None => format!(
             "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with --deflection{}",
             fit_it(Quantity::ZeroOffset),
-            words_if(fit.discrepancy.is_none(), "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them")
+            words_if(problem.options.discrepancy.is_none(), "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them")
         ),
     };
     let explained = fit

@@ -1,130 +1,112 @@
-//! A fit on ever finer meshes, until a finer one hardly moves the parameters.
+//! A fit on ever finer meshes, until the coarser one would hardly move the parameters.
 
-use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, Profiles};
+use calibrate::{CalibrationError, Emulator, Fit};
 
 use super::error::FitError;
 use super::model::SeriesModel;
-use super::problem::{Effort, FIRST_LEVEL, LAST_LEVEL, Problem};
+use super::problem::{FIRST_LEVEL, LAST_LEVEL, Problem};
 
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
 pub const MESH_SHIFT: f64 = 0.8;
-/// Distance to the minimum, in standard errors, at which a fit is good enough to look at its mesh, and in the end.
-const PILOT_TOLERANCE: f64 = 0.3;
-const TOLERANCE: f64 = 0.05;
 
 pub struct Final {
     pub fit: Fit,
-    /// What was learned of the forces on its mesh.
-    pub emulator: Emulator,
-    pub mesh: MeshChoice,
+    /// What was learned of the forces on the coarsest mesh.
+    pub coarsest: Emulator,
+    pub level: u32,
+    /// How much more than the coarser mesh the finer one of two says, and how many standard errors that moves
+    /// each parameter.
+    pub difference: Vec<f64>,
+    pub shift: Vec<f64>,
+    /// What was added to what the mesh predicts.
+    pub correction: Option<Vec<f64>>,
     /// Model runs, all levels together.
     pub evaluations: usize,
 }
 
-/// The level of meshes of the final fit.
-pub struct MeshChoice {
-    pub level: u32,
-    /// What the finer mesh of the last two that were compared says more there, and how many standard errors that moves each parameter.
-    pub difference: Vec<f64>,
-    pub shift: Vec<f64>,
-    /// Whether that is still to be added.
-    corrected: bool,
-    /// Where a fit on this level or the one below led.
-    values: Vec<f64>,
-    /// What was learned of the forces on the last level that was fitted.
-    emulator: Emulator,
-}
-
-impl MeshChoice {
-    /// What is added to the predictions on its level.
-    pub fn correction(&self) -> Option<Vec<f64>> {
-        self.corrected.then(|| self.difference.clone())
-    }
-}
-
-/// Fits with at most `limit` model runs, with intervals of this kind.
-pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Final, FitError> {
-    let (mesh, mut evaluations) = find_level(problem, limit, profiles)?;
-    let model = problem.model(mesh.level, mesh.correction());
-    let effort = Effort {
+/// Fits with at most `limit` model runs, with profiles or without: on the coarsest mesh, whose runs cost
+/// least, then on the first that may answer. Where the one below it would move a parameter too far, on the
+/// finest one, to which is added what the next says more at the optimum.
+pub fn fit(problem: &Problem<'_>, limit: usize, profiles: bool) -> Result<Final, FitError> {
+    let mut fits = Fits {
+        problem,
+        limit,
         profiles,
-        tolerance: TOLERANCE,
-        runs: limit.saturating_sub(evaluations),
+        evaluations: 0,
     };
-    let calibration = problem.calibration(&model, Some(mesh.values.clone()), &effort)?;
-    let (fit, emulator) = emulated(&calibration, Some(&mesh.emulator), limit)?;
-    evaluations += fit.evaluations;
-    Ok(Final {
-        fit,
-        emulator,
-        mesh,
-        evaluations,
-    })
-}
-
-/// The coarsest level that moves the parameters hardly away from those of the level below, and the model runs that it took.
-fn find_level(
-    problem: &Problem<'_>,
-    limit: usize,
-    wanted: Profiles,
-) -> Result<(MeshChoice, usize), FitError> {
-    let mut evaluations = 0;
-    let mut level = 0;
-    let mut start = None;
-    let mut coarser: Option<Emulator> = None;
-    loop {
-        let model = problem.model(level, None);
-        let effort = Effort {
-            // What is learned on coarse meshes costs least: there the intervals are explored too.
-            profiles: if level < FIRST_LEVEL {
-                wanted
-            } else {
-                Profiles::None
-            },
-            tolerance: PILOT_TOLERANCE,
-            runs: limit.saturating_sub(evaluations),
-        };
-        let calibration = problem.calibration(&model, start, &effort)?;
-        let (fit, emulator) = emulated(&calibration, coarser.as_ref(), limit)?;
-        let values = fit.values();
-        let mut finer = problem
-            .model(level + 1, None)
-            .predict(problem.of_model(&values))
-            .map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?;
-        problem.add_terms(&mut finer, &values);
-        evaluations += fit.evaluations + 1;
-        let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
+    let meshed = problem.models.iter().any(SeriesModel::is_meshed);
+    let first = fits.on(0, None, None)?;
+    let coarsest = first.emulator.clone();
+    let (mut level, mut fit) = (0, first);
+    if !meshed {
+        level = FIRST_LEVEL;
+        fit = fits.on(level, Some(&fit), None)?;
+        let coarser = fits.once(level - 1, &fit.values())?;
+        let difference: Vec<f64> = fit.fitted.iter().zip(&coarser).map(|(a, b)| a - b).collect();
         let shift = fit.shift(&difference);
-        let enough = level + 1 >= FIRST_LEVEL && shift.iter().all(|shift| shift.abs() <= MESH_SHIFT);
-        let last = level == LAST_LEVEL || problem.models.iter().any(SeriesModel::is_meshed);
-        if enough || last {
-            let found = MeshChoice {
-                level: if last { level } else { level + 1 },
-                corrected: last,
-                values,
+        if shift.iter().all(|shift| shift.abs() <= MESH_SHIFT) {
+            return Ok(Final {
+                fit,
+                coarsest,
+                level,
                 difference,
                 shift,
-                emulator,
-            };
-            return Ok((found, evaluations));
+                correction: None,
+                evaluations: fits.evaluations,
+            });
         }
-        start = Some(values);
-        coarser = Some(emulator);
-        level += 1;
+        level = LAST_LEVEL;
+        fit = fits.on(level, Some(&fit), None)?;
     }
+    let finer = fits.once(level + 1, &fit.values())?;
+    let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
+    let shift = fit.shift(&difference);
+    Ok(Final {
+        fit: fits.on(level, Some(&fit), Some(difference.clone()))?,
+        coarsest,
+        level,
+        shift,
+        correction: Some(difference.clone()),
+        difference,
+        evaluations: fits.evaluations,
+    })
 }
 
-/// Fits with what is left of the runs; an error states the `limit` of them all.
-fn emulated(
-    calibration: &Calibration<'_>,
-    coarser: Option<&Emulator>,
+struct Fits<'a> {
+    problem: &'a Problem<'a>,
     limit: usize,
-) -> Result<(Fit, Emulator), FitError> {
-    calibration.fit_emulated(coarser).map_err(|error| {
-        match error {
-            CalibrationError::EvaluationLimit { .. } => CalibrationError::EvaluationLimit { limit },
-            other => other,
+    profiles: bool,
+    evaluations: usize,
+}
+
+impl Fits<'_> {
+    /// A fit on a level of meshes, which begins with what a fit on a coarser one learned.
+    fn on(
+        &mut self,
+        level: u32,
+        coarse: Option<&Fit>,
+        correction: Option<Vec<f64>>,
+    ) -> Result<Fit, FitError> {
+        let model = self.problem.model(level, correction);
+        let left = self.limit.saturating_sub(self.evaluations);
+        let mut calibration = self.problem.calibration(&model, self.profiles, left)?;
+        if let Some(coarse) = coarse {
+            calibration = calibration.with_coarse(coarse.emulator.clone());
         }
-        .into()
-    })
+        let fit = calibration.fit().map_err(|error| match error {
+            // Of all levels together.
+            CalibrationError::EvaluationLimit { .. } => {
+                CalibrationError::EvaluationLimit { limit: self.limit }
+            }
+            other => other,
+        })?;
+        self.evaluations += fit.evaluations;
+        Ok(fit)
+    }
+
+    /// What a level predicts with these values of all parameters.
+    fn once(&mut self, level: u32, values: &[f64]) -> Result<Vec<f64>, FitError> {
+        self.evaluations += 1;
+        self.problem.predict(level, 1.0, values)
+    }
 }

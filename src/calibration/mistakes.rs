@@ -1,7 +1,5 @@
 //! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
 
-use calibrate::{CalibrationError, Model};
-
 use super::cell::Observed;
 use super::error::FitError;
 use super::problem::Problem;
@@ -12,16 +10,9 @@ const NEARLY_ALL: f64 = 0.9;
 /// Ratios of measured to expected force that mean a thousand: from 0.03 to 1, friction moves the force by less than 30.
 const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
-/// What the scenes' own values predict, on the coarsest mesh.
-fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, FitError> {
-    let values = problem.scene_values();
-    let predicted = problem.model(0, None).predict(problem.of_model(&values));
-    Ok(predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?)
-}
-
 /// What looks mistaken beside what the scenes' own values predict.
 pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, FitError> {
-    let expected = &predicted_by_scene(problem)?;
+    let expected = problem.predict(0, 1.0, &problem.scene_values())?;
     let measured: Vec<f64> = problem
         .series
         .iter()

@@ -35,7 +35,7 @@ mod terms;
 mod unknown;
 mod watch;
 
-use ::calibrate::{Options, Profiles};
+use ::calibrate::Options;
 
 pub use ::calibrate::{CalibrationError, Loss};
 #[cfg(feature = "plot")]
@@ -133,12 +133,7 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
 fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, FitError> {
     let mistakes = mistakes::mistakes(problem)?;
     // What follows from a wrong sign or unit is not worth intervals.
-    let profiles = if mistakes.is_empty() {
-        Profiles::All
-    } else {
-        Profiles::None
-    };
-    match meshes::fit(problem, limit, profiles) {
+    match meshes::fit(problem, limit, mistakes.is_empty()) {
         Ok(found) => Ok(answer::answer(problem, &found, mistakes)?),
         Err(FitError::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
             key: "data",

@@ -1,6 +1,6 @@
 //! What is known and what is asked, as the crate `calibrate` takes it.
 
-use calibrate::{Calibration, Loss, Options, Prior, Profiles};
+use calibrate::{Calibration, CalibrationError, Loss, Model, Options, Prior};
 
 use super::discrepancy::discrepancy;
 use super::error::FitError;
@@ -33,14 +33,6 @@ pub struct Problem<'a> {
     pub memory: &'a Memory,
 }
 
-pub struct Effort {
-    pub profiles: Profiles,
-    /// Distance to the minimum, in standard errors, at which the fit is good enough.
-    pub tolerance: f64,
-    /// Model runs that are left.
-    pub runs: usize,
-}
-
 impl Problem<'_> {
     /// The model on a level of meshes; `correction` is added to what it predicts.
     pub fn model(&self, level: u32, correction: Option<Vec<f64>>) -> CableModel<'_> {
@@ -55,27 +47,31 @@ impl Problem<'_> {
         }
     }
 
-    /// What the model takes of the values of all parameters.
-    pub fn of_model<'v>(&self, values: &'v [f64]) -> &'v [f64] {
-        &values[..self.unknowns.len()]
-    }
-
-    /// Adds the terms to what the model predicts.
-    pub fn add_terms(&self, predicted: &mut [f64], values: &[f64]) {
-        for (term, size) in self.terms.iter().zip(&values[self.unknowns.len()..]) {
+    /// What a level of meshes predicts with these values of all parameters, on ground of this stiffness.
+    pub fn predict(&self, level: u32, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, FitError> {
+        let model = CableModel {
+            stiffness,
+            ..self.model(level, None)
+        };
+        let (of_model, of_terms) = values.split_at(self.unknowns.len());
+        let mut predicted = model
+            .predict(of_model)
+            .map_err(|source| CalibrationError::NoAnswer { places: 1, source })?;
+        for (term, size) in self.terms.iter().zip(of_terms) {
             let column = term.parameter.column().unwrap_or_default();
             for (value, entry) in predicted.iter_mut().zip(column) {
                 *value += size * entry;
             }
         }
+        Ok(predicted)
     }
 
-    /// Scans all over the range where there is no `start` from a coarser mesh.
+    /// Of at most so many model runs.
     pub fn calibration<'m>(
         &self,
         model: &'m CableModel<'m>,
-        start: Option<Vec<f64>>,
-        effort: &Effort,
+        profiles: bool,
+        runs: usize,
     ) -> Result<Calibration<'m>, FitError> {
         let mut parameters = self
             .unknowns
@@ -93,16 +89,13 @@ impl Problem<'_> {
             calibration = calibration.with_relative_sigmas(relative)?;
         }
         if let Some(share) = self.options.discrepancy {
-            calibration = calibration.with_discrepancy(discrepancy(self.series, self.models, share)?)?;
+            calibration = calibration.with_discrepancy(&discrepancy(self.series, self.models, share)?)?;
         }
         let mut options = Options::default();
         options.loss = self.options.loss;
-        options.scan = start.is_some().then_some(0);
-        options.start = Some(start.unwrap_or_else(|| self.scene_values()));
-        options.tolerance = effort.tolerance;
-        options.max_evaluations = effort.runs.max(1);
+        options.max_evaluations = runs.max(1);
         options.relative_noise = RIPPLE[model.level.min(LAST_LEVEL) as usize];
-        options.profiles = effort.profiles;
+        options.profiles = profiles;
         Ok(calibration.with_options(options)?)
     }
 

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use calibrate::{Calibration, Model, ModelError, Options, Parameter, Profiles, Scale};
+use calibrate::{Calibration, Model, ModelError, Options, Parameter, Scale};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 const PASSES: u32 = 40;
@@ -39,10 +39,7 @@ fn bench(criterion: &mut Criterion) {
             .expect("a calibration")
     };
     let mut group = criterion.benchmark_group("two parameters, 40 readings");
-    for (name, profiles) in [
-        ("optimum", Profiles::None),
-        ("optimum and profiles", Profiles::All),
-    ] {
+    for (name, profiles) in [("optimum", false), ("optimum and profiles", true)] {
         let calibration = calibration(profiles);
         group.bench_function(name, |bencher| {
             bencher.iter(|| black_box(&calibration).fit().expect("a fit"));

@@ -1,43 +1,32 @@
-//! A calibration: model, parameters, observations and options.
+//! What is given, and the front door: a calibration is put together, then fitted.
 
 use std::fmt;
 use std::sync::Arc;
 
-use nalgebra::DVector;
+use crate::learning;
+use crate::{CalibrationError, Emulator, Fit, Model, Options, Parameter, Part, Prior};
 
-use crate::whitening::Whitening;
-use crate::{CalibrationError, Discrepancy, Loss, Model, Options, Parameter, Part};
-
-/// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
-const SCAN: usize = 8;
-/// Least noise of the model itself, as a share of its largest prediction: rounding.
-const ROUNDING: f64 = 1e-12;
+/// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
+const RESOLUTION: f64 = 1e-7;
+/// Bounds of a coefficient of the discrepancy, in its standard deviations.
+const FARTHEST: f64 = 10.0;
 
 /// A model to be fitted to observations.
-///
-/// ```
-/// use calibrate::{Calibration, ModelError, Parameter, Scale};
-///
-/// // A line through the origin, measured at 1, 2, 3 and 4 with a standard deviation of 0.1.
-/// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok([1.0, 2.0, 3.0, 4.0].map(|x| p[0] * x).to_vec()) };
-/// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
-/// let calibration = Calibration::new(&model, vec![slope], vec![2.1, 3.9, 6.05, 7.95])?.with_sigmas(vec![0.1; 4])?;
-/// let fit = calibration.fit()?;
-/// assert!((fit.estimates[0].value - 2.0).abs() < 0.02);
-/// # Ok::<(), calibrate::CalibrationError>(())
-/// ```
 #[derive(Clone)]
 pub struct Calibration<'a> {
     pub(crate) model: &'a dyn Model,
+    /// Those asked for, and in a fit with a discrepancy its coefficients.
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) observations: Vec<f64>,
     /// 1 where the noise is to be estimated.
     pub(crate) sigmas: Vec<f64>,
     pub(crate) knows_noise: bool,
     pub(crate) options: Options,
-    pub(crate) discrepancy: Option<Discrepancy>,
-    /// That of the noise that is being tried.
-    pub(crate) whitening: Option<Arc<Whitening>>,
+    /// How many parameters are asked for.
+    pub(crate) asked: usize,
+    /// Coefficients of the functions by which the model may be off.
+    discrepancy: Vec<Parameter>,
+    pub(crate) coarse: Option<Arc<Emulator>>,
 }
 
 impl fmt::Debug for Calibration<'_> {
@@ -52,65 +41,65 @@ impl fmt::Debug for Calibration<'_> {
 }
 
 impl<'a> Calibration<'a> {
-    /// Fits `parameters` of `model` to `observations`, whose noise is the same for all and is estimated from the residuals.
+    /// Fits `parameters` of `model` to `observations`, whose noise is the same for all and is estimated
+    /// from the residuals.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::DuplicateParameter`], [`CalibrationError::InvalidObservation`], and
-    /// [`CalibrationError::TooFewObservations`] where there are no parameters or more than observations could determine.
+    /// [`CalibrationError::DuplicateParameter`], and [`CalibrationError::Invalid`] for an observation that is
+    /// no number and a column of another length.
     pub fn new(
         model: &'a dyn Model,
         parameters: Vec<Parameter>,
         observations: Vec<f64>,
     ) -> Result<Self, CalibrationError> {
         for (index, parameter) in parameters.iter().enumerate() {
-            let name = parameter.name();
+            let name = parameter.name().to_owned();
             if parameters[..index].iter().any(|other| other.name() == name) {
-                return Err(CalibrationError::DuplicateParameter {
-                    name: name.to_owned(),
-                });
+                return Err(CalibrationError::DuplicateParameter { name });
             }
+            let entries = parameter.column().map_or(observations.len(), <[f64]>::len);
+            check_count(
+                &format!("entries in the column of {name}"),
+                entries,
+                observations.len(),
+            )?;
         }
-        for parameter in &parameters {
-            if let Some(column) = parameter
-                .column()
-                .filter(|column| column.len() != observations.len())
-            {
-                return Err(CalibrationError::InvalidParameter {
-                    name: parameter.name().to_owned(),
-                    quantity: "length of its column",
-                    value: column.len() as f64,
-                    allowed: "an entry for each observation",
-                });
-            }
-        }
-        check_each(&observations, "value", "finite", f64::is_finite)?;
+        check_each(&observations, "value", "finite", |_| true)?;
         Ok(Self {
             model,
+            asked: parameters.len(),
             parameters,
             sigmas: vec![1.0; observations.len()],
             observations,
             knows_noise: false,
             options: Options::default(),
-            discrepancy: None,
-            whitening: None,
+            discrepancy: Vec::new(),
+            coarse: None,
         })
     }
 
-    /// The model may be off by a smooth function of the observations, of given size.
+    /// The model may be off by a sum of these functions of the observations, in their unit, each times a
+    /// coefficient of its own that is normally distributed about 0 with variance 1: by a Gaussian process
+    /// whose covariance is Σ f fᵀ, such as that of [`smooth_functions`](crate::smooth_functions) (M. C.
+    /// Kennedy, A. O'Hagan, "Bayesian calibration of computer models", Journal of the Royal Statistical
+    /// Society B 63, 2001). Its size is given, not fitted: few independent values of a smooth error are seen
+    /// in a series, so that observations hardly tell it. No interval becomes narrower by it.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`] for one of another number of observations.
-    pub fn with_discrepancy(mut self, discrepancy: Discrepancy) -> Result<Self, CalibrationError> {
-        if discrepancy.count() != self.observations.len() {
-            return Err(CalibrationError::InvalidOption {
-                name: "observations of the discrepancy",
-                value: discrepancy.count() as f64,
-                allowed: "as many as there are",
-            });
+    /// [`CalibrationError::Invalid`] unless each function has a finite value for each observation.
+    pub fn with_discrepancy(mut self, functions: &[Vec<f64>]) -> Result<Self, CalibrationError> {
+        let prior = Prior {
+            value: 0.0,
+            sigma: 1.0,
+        };
+        self.discrepancy.clear();
+        for function in functions {
+            check_count("values of a function", function.len(), self.observations.len())?;
+            let term = Parameter::term("discrepancy", -FARTHEST, FARTHEST, function)?;
+            self.discrepancy.push(term.with_prior(prior)?);
         }
-        self.discrepancy = Some(discrepancy);
         Ok(self)
     }
 
@@ -118,115 +107,132 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::SigmaCount`], and [`CalibrationError::InvalidObservation`] unless every sigma is finite and positive.
+    /// [`CalibrationError::Invalid`] unless there is a finite and positive one for each observation.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        if sigmas.len() != self.observations.len() {
-            return Err(CalibrationError::SigmaCount {
-                sigmas: sigmas.len(),
-                observations: self.observations.len(),
-            });
-        }
-        let positive = |s: f64| s.is_finite() && s > 0.0;
-        check_each(&sigmas, "sigma", "finite and positive", positive)?;
+        check_count("sigmas", sigmas.len(), self.observations.len())?;
+        check_each(&sigmas, "sigma", "finite and positive", |sigma| sigma > 0.0)?;
         (self.sigmas, self.knows_noise) = (sigmas, true);
         Ok(self)
     }
 
-    /// The standard deviations of the observations are known but for a factor that all share, which is fitted.
+    /// The standard deviations of the observations are known but for a factor that all share, which is
+    /// fitted.
     ///
     /// # Errors
     ///
     /// As for [`with_sigmas`](Self::with_sigmas).
     pub fn with_relative_sigmas(self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        let calibration = self.with_sigmas(sigmas)?;
+        let known = self.with_sigmas(sigmas)?;
         Ok(Self {
             knows_noise: false,
-            ..calibration
+            ..known
         })
-    }
-
-    /// The same calibration, scanned all over the range beside its start.
-    #[must_use]
-    pub fn scanned(mut self) -> Self {
-        self.options.scan = None;
-        self
     }
 
     /// How to fit.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`].
+    /// [`CalibrationError::Invalid`].
     pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
-        options.check(self.parameters.len())?;
+        options.check()?;
         self.options = options;
         Ok(self)
     }
 
-    /// The parameters.
-    pub fn parameters(&self) -> &[Parameter] {
-        &self.parameters
+    /// What an earlier fit of the same parameters and observations learned of a coarser model: this one
+    /// runs first where the answer of that fit rests, and learns what the coarser model misses.
+    #[must_use]
+    pub fn with_coarse(mut self, coarse: Emulator) -> Self {
+        self.coarse = Some(Arc::new(coarse));
+        self
     }
 
-    /// The observations.
-    pub fn observations(&self) -> &[f64] {
-        &self.observations
-    }
-
-    /// Noise that the model's predictions have at least, in units of the sigmas.
-    pub(crate) fn least_noise(&self) -> f64 {
-        let share = self.options.relative_noise.max(ROUNDING);
-        let sizes = self.observations.iter().zip(&self.sigmas);
-        let noise = sizes.map(|(value, sigma)| share * value.abs() / sigma);
-        noise.fold(f64::MIN_POSITIVE, f64::max)
-    }
-
-    /// Number of parameters with prior knowledge.
-    pub(crate) fn priors(&self) -> usize {
-        self.parameters.iter().filter(|p| p.prior().is_some()).count()
-    }
-
-    pub(crate) fn scan(&self) -> usize {
-        self.options.scan.unwrap_or(SCAN * (1 + self.of_model().len()))
-    }
-
-    /// What acts on which predictions: by default every parameter of the model on all.
-    pub(crate) fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
-        let (observations, parameters) = (self.observations.len(), self.of_model().len());
-        let parts = self.model.parts();
-        if parts.is_empty() {
-            return Ok(vec![Part {
-                predictions: observations,
-                parameters: (0..parameters).collect(),
-            }]);
+    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it.
+    ///
+    /// ```
+    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
+    ///
+    /// let passes = [5.0, 10.0, 20.0, 40.0, 80.0];
+    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+    ///     Ok(passes.iter().map(|n: &f64| p[0] * (1.0 - (-n / p[1]).exp())).collect())
+    /// };
+    /// let parameters = vec![
+    ///     Parameter::new("saturated_force", 100.0, 2000.0, Scale::Logarithmic)?,
+    ///     Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
+    /// ];
+    /// let calibration = Calibration::new(&model, parameters, vec![124.0, 214.0, 351.0, 472.0, 541.0])?;
+    /// let fit = calibration.fit()?;
+    /// assert!(fit.estimates[0].interval.contains(550.0));
+    /// // What was learned spares runs where the model becomes finer.
+    /// let again = calibration.with_coarse(fit.emulator.clone()).fit()?;
+    /// assert!(again.evaluations < fit.evaluations);
+    /// # Ok::<(), calibrate::CalibrationError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError`] if there are too few observations, the model has no answer anywhere, the fit
+    /// does not converge or needs more model runs than allowed.
+    pub fn fit(&self) -> Result<Fit, CalibrationError> {
+        self.check()?;
+        let mut emulator = learning::begin(self)?;
+        let mut solution = learning::converge(self, &mut emulator)?;
+        if self.discrepancy.is_empty() {
+            return Ok(Fit::new(self, emulator, solution));
         }
-        let predictions: usize = parts.iter().map(|part| part.predictions).sum();
-        if predictions != observations {
-            return Err(CalibrationError::InvalidOption {
-                name: "predictions of the model's parts",
-                value: predictions as f64,
-                allowed: "as many as there are observations",
-            });
+        let plain = solution.estimates;
+        let mut wider = self.clone();
+        wider.parameters.extend_from_slice(&self.discrepancy);
+        solution = learning::converge(&wider, &mut emulator)?;
+        for (estimate, plain) in solution.estimates.iter_mut().zip(&plain) {
+            // A model that may be wrong knows no more than one that may not.
+            estimate.interval = estimate.interval.with(&plain.interval);
+            estimate.identifiable = estimate.interval.is_closed();
         }
-        let indices = || parts.iter().flat_map(|part| &part.parameters);
-        if let Some(&index) = indices().find(|&&index| index >= parameters) {
-            return Err(CalibrationError::InvalidOption {
-                name: "index of a parameter of the model's parts",
-                value: index as f64,
-                allowed: "below the number of the model's parameters",
-            });
-        }
-        Ok(parts)
+        Ok(Fit::new(&wider, emulator, solution))
     }
 
-    /// Indices of the parameters that the model takes.
+    /// The indices of the parameters that the model takes.
     pub(crate) fn of_model(&self) -> Vec<usize> {
         let of_model = |&k: &usize| self.parameters[k].column().is_none();
         (0..self.parameters.len()).filter(of_model).collect()
     }
 
+    /// Number of parameters with prior knowledge.
+    pub(crate) fn priors(&self) -> usize {
+        self.parameters.iter().filter(|p| p.prior.is_some()).count()
+    }
+
+    /// Noise of each prediction of the model itself, in units of the sigmas.
+    pub(crate) fn model_noise(&self) -> impl Iterator<Item = f64> {
+        let share = self.options.relative_noise.max(RESOLUTION);
+        let sizes = self.observations.iter().zip(&self.sigmas);
+        sizes.map(move |(value, sigma)| share * value.abs() / sigma)
+    }
+
+    /// What acts on which predictions: by default every parameter of the model on all.
+    pub(crate) fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
+        let (observations, count) = (self.observations.len(), self.of_model().len());
+        let mut parts = self.model.parts();
+        if parts.is_empty() {
+            parts.push(Part {
+                predictions: observations,
+                parameters: (0..count).collect(),
+            });
+        }
+        let predictions = parts.iter().map(|part| part.predictions).sum();
+        check_count("predictions of the model's parts", predictions, observations)?;
+        let mut indices = parts.iter().flat_map(|part| &part.parameters);
+        if let Some(&index) = indices.find(|&&index| index >= count) {
+            let (what, allowed) = ("index of a parameter of a part", "below the number of parameters");
+            return Err(CalibrationError::invalid(what, index as f64, allowed));
+        }
+        Ok(parts)
+    }
+
     /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.
-    pub(crate) fn check_count(&self) -> Result<(), CalibrationError> {
+    fn check(&self) -> Result<(), CalibrationError> {
         let (observations, parameters) = (self.observations.len(), self.parameters.len());
         let unknown = parameters - self.priors();
         let needed = if self.knows_noise {
@@ -241,42 +247,34 @@ impl<'a> Calibration<'a> {
                 needed,
             });
         }
-        if self.discrepancy.is_some() && self.options.loss != Loss::Squares {
-            return Err(CalibrationError::InvalidOption {
-                name: "threshold of the loss",
-                value: self.options.loss.threshold().unwrap_or(f64::NAN),
-                allowed: "least squares beside a discrepancy",
-            });
-        }
         Ok(())
     }
+}
 
-    /// Free variables of the values to try first.
-    pub(crate) fn start(&self) -> Option<DVector<f64>> {
-        let free = |(parameter, &value): (&Parameter, &f64)| {
-            let inside = value.clamp(parameter.lower(), parameter.upper());
-            parameter.free(parameter.coordinate(inside))
-        };
-        let start = self.options.start.as_ref()?;
-        Some(DVector::from_vec(
-            self.parameters.iter().zip(start).map(free).collect(),
-        ))
+fn check_count(what: &str, found: usize, wanted: usize) -> Result<(), CalibrationError> {
+    if found == wanted {
+        return Ok(());
     }
+    let what = format!("number of {what}");
+    Err(CalibrationError::invalid(
+        what,
+        found as f64,
+        "one for each observation",
+    ))
 }
 
 fn check_each(
     values: &[f64],
-    quantity: &'static str,
+    quantity: &str,
     allowed: &'static str,
     holds: impl Fn(f64) -> bool,
 ) -> Result<(), CalibrationError> {
-    match values.iter().position(|&value| !holds(value)) {
-        None => Ok(()),
-        Some(index) => Err(CalibrationError::InvalidObservation {
-            index,
-            quantity,
-            value: values[index],
-            allowed,
-        }),
-    }
+    let Some(index) = values
+        .iter()
+        .position(|&value| !(value.is_finite() && holds(value)))
+    else {
+        return Ok(());
+    };
+    let what = format!("{quantity} of observation {index}");
+    Err(CalibrationError::invalid(what, values[index], allowed))
 }

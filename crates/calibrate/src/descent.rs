@@ -1,40 +1,27 @@
-//! A descent by Levenberg–Marquardt, as a solver that argmin's executor drives: argmin has none of its own.
-//!
-//! Model runs are expensive, so J follows by Broyden's update (K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least
-//! Squares Problems, 2004, section 3.4) and is computed anew where a step fails.
+//! A descent of the deviance on an emulator: argmin's trust region with Steihaug's steps, and the
+//! Gauss–Newton approximation Jᵀ diag(w) J of the Hessian (J. Nocedal, S. J. Wright, Numerical
+//! Optimization, 2006, algorithms 4.1 and 7.2, section 10.3).
 
-use argmin::core::{
-    Error, Executor, IterState, KV, Problem, Solver, State, TerminationReason, TerminationStatus,
-};
+use std::cell::RefCell;
+
+use argmin::core::{CostFunction, Error, Gradient, Hessian, IterState, Problem, Solver, State};
+use argmin::solver::trustregion::{Steihaug, TrustRegion};
 use nalgebra::{DMatrix, DVector};
 
 use crate::CalibrationError;
-use crate::deviance::Deviance;
-use crate::evaluator::Evaluator;
-use crate::point::Point;
-use crate::step::{Damping, Quadratic};
+use crate::deviance::{Deviance, information};
+use crate::likelihood::{Likelihood, Point};
+use crate::parameter::FARTHEST;
+use crate::tuning::LONGEST_STEP;
 
-/// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
-pub(crate) const NOISY: f64 = 0.5;
-/// Share of the usual steps of derivatives where no step lowers the deviance: they were too long for a model that bends, in direction of a
-/// parameter that the data hardly know. Of 200 direct fits of a steep law 39 failed without it (tests/calibration_coverage.rs).
-const SHORTER: f64 = 0.25;
-
-/// How to descend.
-#[derive(Clone)]
-pub(crate) struct Descent<'a> {
-    pub evaluator: &'a Evaluator<'a>,
-    pub deviance: Deviance,
-    /// A parameter that stays where it is.
-    pub held: Option<usize>,
-    /// J as it is near the start, if it is known.
-    pub jacobian: Option<DMatrix<f64>>,
-    /// Whether J must be computed anew before convergence is declared.
-    pub verified: bool,
-    /// Length of the next step, in standard errors, at which the descent has converged.
-    pub tolerance: f64,
-    pub iterations: u64,
-}
+/// Length of the next step, in standard errors, at which a descent has converged.
+const CONVERGED: f64 = 1e-2;
+/// Iterations of a descent: far more than one takes that gets anywhere.
+const MAX_ITERATIONS: usize = 100;
+/// Added to the diagonal of the Hessian: as much as knowing a free variable to ±4, so that one of which the
+/// data know nothing stays about where it is. Relative to the information in data that determine a
+/// parameter it is nothing.
+const RIDGE: f64 = 1.0 / 16.0;
 
 /// Where a descent ended.
 #[derive(Debug, Clone)]
@@ -42,187 +29,148 @@ pub(crate) struct Optimum {
     pub point: Point,
     pub jacobian: DMatrix<f64>,
     pub deviance: Deviance,
-    pub iterations: u64,
-    /// Length of the next step in standard errors.
-    pub offset: f64,
-    /// Whether it is within the tolerance.
-    pub converged: bool,
 }
 
 impl Optimum {
+    pub fn at(likelihood: &Likelihood<'_>, point: Point, deviance: Deviance) -> Self {
+        Self {
+            jacobian: likelihood.jacobian(&point.free),
+            point,
+            deviance,
+        }
+    }
+
     pub fn value(&self) -> f64 {
         self.deviance.total(&self.point.residuals)
     }
 }
 
-impl Descent<'_> {
-    /// Descends from `start`, whether or not that converges.
-    pub fn run(self, start: Point) -> Result<Optimum, CalibrationError> {
-        let (deviance, iterations) = (self.deviance, self.iterations);
-        let solver = LevenbergMarquardt {
-            cost: deviance.total(&start.residuals),
-            trust: if self.jacobian.is_some() {
-                Trust::Updated
-            } else {
-                Trust::Lost
-            },
-            jacobian: self.jacobian.clone(),
-            point: start,
-            damping: Damping::FIRST,
-            steps: 1.0,
-            offset: f64::INFINITY,
-            descent: self,
-        };
-        // Ctrl-C is the caller's.
-        let executor = Executor::new((), solver)
-            .ctrlc(false)
-            .configure(|state| state.max_iters(iterations));
-        let found = executor.run().map_err(own)?;
-        let status = found.state.get_termination_status();
-        let converged = *status == TerminationStatus::Terminated(TerminationReason::SolverConverged);
-        let iterations = found.state.get_iter();
-        let LevenbergMarquardt {
-            point,
-            jacobian,
-            offset,
-            ..
-        } = found.solver;
-        let jacobian = jacobian.ok_or(CalibrationError::NotConverged { iterations, offset })?;
-        Ok(Optimum {
-            point,
-            jacobian,
-            deviance,
-            iterations,
-            offset,
-            converged,
-        })
+type Iteration = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
+
+/// Descends from free variables at which the emulator has an answer; one that is `held` stays.
+///
+/// # Errors
+///
+/// [`CalibrationError::NotConverged`] if numbers are too large to go on.
+pub(crate) fn descend(
+    likelihood: &Likelihood<'_>,
+    deviance: Deviance,
+    start: DVector<f64>,
+    held: Option<usize>,
+) -> Result<Point, CalibrationError> {
+    let moving: Vec<usize> = (0..start.len()).filter(|&k| Some(k) != held).collect();
+    let first = likelihood.point(start);
+    if moving.is_empty() || !deviance.total(&first.residuals).is_finite() {
+        return Ok(first);
     }
-}
-
-/// An error that has passed through argmin comes out as it went in.
-fn own(error: Error) -> CalibrationError {
-    error
-        .downcast::<CalibrationError>()
-        .unwrap_or_else(|source| CalibrationError::Optimiser {
-            source: source.into(),
-        })
-}
-
-/// What is known of J where the descent stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Trust {
-    /// It was computed there.
-    Exact,
-    /// It was computed nearby, or has followed by Broyden's update.
-    Updated,
-    /// It must be computed anew.
-    Lost,
-}
-
-struct LevenbergMarquardt<'a> {
-    descent: Descent<'a>,
-    point: Point,
-    cost: f64,
-    jacobian: Option<DMatrix<f64>>,
-    trust: Trust,
-    damping: Damping,
-    /// Share of the usual steps of derivatives.
-    steps: f64,
-    offset: f64,
-}
-
-impl LevenbergMarquardt<'_> {
-    /// The deviance around the present point; J is computed first where it must be.
-    fn quadratic(&mut self, weights: &DVector<f64>) -> Result<(Quadratic, DMatrix<f64>), CalibrationError> {
-        let held = self.descent.held;
-        let jacobian = match self.jacobian.take() {
-            Some(jacobian) if self.trust != Trust::Lost => jacobian,
-            near => {
-                self.trust = Trust::Exact;
-                let steps = self.descent.evaluator.steps(weights, near.as_ref(), self.steps);
-                self.descent.evaluator.jacobian(&self.point.free, &steps, held)?
-            }
-        };
-        let quadratic = Quadratic::new(&self.point, weights, &jacobian, held);
-        self.offset = quadratic.offset();
-        Ok((quadratic, jacobian))
+    let variables = first.free.select_rows(&moving);
+    let surface = Surface {
+        likelihood,
+        deviance,
+        start: &first.free,
+        moving: &moving,
+        hessian: RefCell::default(),
+    };
+    let mut free = first.free.clone();
+    let found = surface
+        .minimise(variables)
+        .map_err(|_| CalibrationError::NotConverged)?;
+    for (&k, z) in moving.iter().zip(&found) {
+        free[k] = z.clamp(-FARTHEST, FARTHEST);
     }
+    Ok(likelihood.point(free))
+}
 
-    /// One trial step; the answer says why it was the last, if it was.
-    fn advance(&mut self) -> Result<Option<TerminationReason>, CalibrationError> {
-        let descent = &self.descent;
-        let (deviance, tolerance, verified) = (descent.deviance, descent.tolerance, descent.verified);
-        let weights = deviance.weights(&self.point.residuals);
-        let (mut here, mut jacobian) = self.quadratic(&weights)?;
-        let spent = self.damping.is_spent();
-        let doubtful = if self.trust == Trust::Updated {
-            spent || (verified && self.offset < tolerance)
-        } else {
-            spent && self.offset >= NOISY && self.steps > SHORTER
-        };
-        if doubtful {
-            if self.trust == Trust::Exact {
-                self.steps = SHORTER;
+/// The deviance over the variables that move.
+struct Surface<'a> {
+    likelihood: &'a Likelihood<'a>,
+    deviance: Deviance,
+    start: &'a DVector<f64>,
+    moving: &'a [usize],
+    /// At the variables of the last gradient.
+    hessian: RefCell<DMatrix<f64>>,
+}
+
+impl Surface<'_> {
+    fn minimise(self, variables: DVector<f64>) -> Result<DVector<f64>, Error> {
+        // Conjugate gradients end after as many steps as there are variables, but for rounding.
+        let steps = Steihaug::new().with_max_iters(2 * variables.len() as u64);
+        let mut region = TrustRegion::new(steps).with_max_radius(LONGEST_STEP)?;
+        let mut problem = Problem::new(self);
+        let mut state = region
+            .init(&mut problem, Iteration::new().param(variables.clone()))?
+            .0;
+        for _ in 0..MAX_ITERATIONS {
+            if has_converged(&state) {
+                break;
             }
-            self.trust = Trust::Lost;
-            self.jacobian = Some(jacobian);
-            self.damping = Damping::FIRST;
-            (here, jacobian) = self.quadratic(&weights)?;
+            state = region.next_iter(&mut problem, state)?.0;
         }
-        let reason = if self.offset < tolerance {
-            Some(TerminationReason::SolverConverged)
-        } else if self.damping.is_spent() {
-            Some(TerminationReason::SolverExit(
-                "no step lowers the deviance".into(),
-            ))
-        } else {
-            None
-        };
-        if reason.is_some() {
-            self.jacobian = Some(jacobian);
-            return Ok(reason);
+        Ok(state.take_param().unwrap_or(variables))
+    }
+
+    fn point(&self, variables: &DVector<f64>) -> Point {
+        let mut free = self.start.clone();
+        for (&k, &z) in self.moving.iter().zip(variables) {
+            free[k] = z;
         }
-        if let Some(step) = here.step(self.damping.value()) {
-            let free = &self.point.free + &step.change;
-            let residuals = self.descent.evaluator.residuals(&free)?;
-            let cost = deviance.total(&residuals);
-            let share = (self.cost - cost) / step.gain.max(f64::MIN_POSITIVE);
-            let poor = self.damping.judge(share);
-            let was = self.trust;
-            if cost < self.cost {
-                // Broyden's update: exact along the step, unchanged across it.
-                let missed = &residuals - &self.point.residuals - &jacobian * &step.change;
-                jacobian += missed / step.change.norm_squared() * step.change.transpose();
-                self.point = Point { free, residuals };
-                self.cost = cost;
-                self.trust = Trust::Updated;
-            }
-            // A J that was not computed here is the first suspect; with one that was, the step was too long.
-            if poor && was == Trust::Updated {
-                self.trust = Trust::Lost;
-            }
-        } else {
-            self.damping.judge(f64::NAN);
-        }
-        self.jacobian = Some(jacobian);
-        Ok(None)
+        self.likelihood.point(free)
     }
 }
 
-/// The iteration as argmin keeps it: point and deviance.
-type Iteration = IterState<DVector<f64>, (), (), (), (), f64>;
+/// By the length of the undamped step in standard errors, √(½ gᵀH⁻¹g) (D. M. Bates, D. G. Watts, "A
+/// relative offset orthogonality convergence criterion", Technometrics 23, 1981).
+fn has_converged(state: &Iteration) -> bool {
+    let factor = state.get_hessian().and_then(|hessian| hessian.clone().cholesky());
+    let both = state.get_gradient().zip(factor);
+    both.is_some_and(|(gradient, factor)| 0.5 * gradient.dot(&factor.solve(gradient)) < CONVERGED * CONVERGED)
+}
 
-impl Solver<(), Iteration> for LevenbergMarquardt<'_> {
-    fn name(&self) -> &'static str {
-        "Levenberg-Marquardt"
+/// How far beyond its bound a variable is, where nothing changes any more and a spring draws it back.
+fn beyond(z: f64) -> f64 {
+    z - z.clamp(-FARTHEST, FARTHEST)
+}
+
+impl CostFunction for Surface<'_> {
+    type Param = DVector<f64>;
+    type Output = f64;
+
+    fn cost(&self, variables: &DVector<f64>) -> Result<f64, Error> {
+        let springs: f64 = variables.iter().map(|&z| beyond(z).powi(2)).sum();
+        Ok(self.deviance.total(&self.point(variables).residuals) + springs)
     }
+}
 
-    fn next_iter(&mut self, _: &mut Problem<()>, state: Iteration) -> Result<(Iteration, Option<KV>), Error> {
-        let reason = self.advance()?;
-        let state = state.param(self.point.free.clone()).cost(self.cost);
-        Ok(match reason {
-            Some(reason) => (state.terminate_with(reason), None),
-            None => (state, None),
-        })
+impl Gradient for Surface<'_> {
+    type Param = DVector<f64>;
+    type Gradient = DVector<f64>;
+
+    fn gradient(&self, variables: &DVector<f64>) -> Result<DVector<f64>, Error> {
+        let point = self.point(variables);
+        let jacobian = self.likelihood.jacobian(&point.free).select_columns(self.moving);
+        let weights = self.deviance.weights(&point.residuals);
+        let springs = variables.map(|z| 2.0 * beyond(z));
+        let mut hessian = 2.0 * information(&jacobian, &weights);
+        for (k, &spring) in springs.iter().enumerate() {
+            hessian[(k, k)] += 2.0 * if spring == 0.0 { RIDGE } else { 1.0 };
+        }
+        let gradient = 2.0 * jacobian.tr_mul(&weights.component_mul(&point.residuals)) + springs;
+        // Steihaug's steps panic where a number is none.
+        let mut entries = gradient.iter().chain(&hessian);
+        if !entries.all(|entry| entry.abs() < 1e60) {
+            return Err(CalibrationError::NotConverged.into());
+        }
+        *self.hessian.borrow_mut() = hessian;
+        Ok(gradient)
+    }
+}
+
+impl Hessian for Surface<'_> {
+    type Param = DVector<f64>;
+    type Hessian = DMatrix<f64>;
+
+    /// At the variables of the last gradient, which the trust region always asks for first.
+    fn hessian(&self, _: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
+        Ok(self.hessian.borrow().clone())
     }
 }

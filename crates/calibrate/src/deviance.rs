@@ -4,14 +4,14 @@
 //!
 //! D = κ · 2 Σ ρ(u) + Σ (prior residual)².
 //!
-//! κ makes D comparable with χ² whatever the loss and whether or not σ was known: κ = A/B with A the mean of ψ′(u) and
-//! B = Σψ²(u)/(n − p) (P. J. Huber, Robust Statistics, 1981, section 7.6; for least squares κ is 1/σ̂²). The inverse
-//! covariance is then κ A JᵀJ/s² plus that of the priors.
+//! κ makes D comparable with χ² whatever the loss and whether or not σ was known: κ = A/B with A the mean
+//! of ψ′(u) and B = Σψ²(u)/(n − p) (P. J. Huber, Robust Statistics, 1981, section 7.6; for least squares κ
+//! is 1/σ̂²). The inverse covariance is then κ A JᵀJ/s² plus that of the priors.
 
-use nalgebra::{DMatrix, DVector, DVectorView};
+use nalgebra::{DMatrix, DVector};
 use statrs::statistics::{Data, OrderStatistics};
 
-use crate::loss::Rho;
+use crate::Loss;
 
 /// Makes the median of |r| under Gaussian noise a standard deviation.
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
@@ -21,7 +21,7 @@ const LEAST_CURVATURE: f64 = 0.1;
 /// The function that is minimised.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Deviance {
-    pub loss: Rho,
+    pub loss: Loss,
     /// Number of data residuals; those of the priors follow.
     pub data: usize,
     /// s.
@@ -34,11 +34,8 @@ impl Deviance {
     /// D of the residuals; infinite where the model has no answer.
     pub fn total(&self, residuals: &DVector<f64>) -> f64 {
         let (data, priors) = residuals.as_slice().split_at(self.data.min(residuals.len()));
-        let data: f64 = match self.loss {
-            Rho::Squares => squares(data) / (self.spread * self.spread),
-            loss => data.iter().map(|r| 2.0 * loss.value(r / self.spread)).sum(),
-        };
-        let priors = squares(priors);
+        let data: f64 = data.iter().map(|r| self.loss.doubled(r / self.spread)).sum();
+        let priors: f64 = priors.iter().map(|r| r * r).sum();
         let total = self.normalisation * data + priors;
         if total.is_nan() { f64::INFINITY } else { total }
     }
@@ -56,68 +53,49 @@ impl Deviance {
 
     fn rows(&self, residuals: &DVector<f64>, data: impl Fn(f64) -> f64) -> DVector<f64> {
         let factor = self.normalisation / (self.spread * self.spread);
-        DVector::from_iterator(
-            residuals.len(),
-            residuals.iter().enumerate().map(|(row, r)| {
-                if row < self.data {
-                    factor * data(r / self.spread)
-                } else {
-                    1.0
-                }
-            }),
-        )
+        DVector::from_fn(residuals.len(), |row, _| {
+            if row < self.data {
+                factor * data(residuals[row] / self.spread)
+            } else {
+                1.0
+            }
+        })
     }
 
     /// A.
     fn mean_curvature(&self, residuals: &DVector<f64>) -> f64 {
-        if !self.loss.is_robust() {
-            return 1.0;
-        }
-        let sum: f64 = residuals
-            .iter()
-            .take(self.data)
-            .map(|r| self.loss.curvature(r / self.spread))
-            .sum();
+        let data = residuals.iter().take(self.data);
+        let sum: f64 = data.map(|r| self.loss.curvature(r / self.spread)).sum();
         (sum / self.data as f64).max(LEAST_CURVATURE)
     }
 
-    /// κ from residuals with these degrees of freedom, whose noise is at least `least` in units of σ.
-    pub fn normalised(self, residuals: &DVector<f64>, degrees_of_freedom: f64, least: f64) -> Self {
-        let sum: f64 = residuals
-            .iter()
-            .take(self.data)
-            .map(|r| (self.loss.weight(r / self.spread) * r / self.spread).powi(2))
-            .sum();
-        let least = (least / self.spread).powi(2);
-        Self {
-            normalisation: self.mean_curvature(residuals) / (sum / degrees_of_freedom).max(least),
-            ..self
+    /// The same with s, of a robust loss, and κ, of a noise that is not known, as these residuals have
+    /// them. They have so many degrees of freedom and a noise of at least `least` in units of σ.
+    pub fn scaled(mut self, residuals: &DVector<f64>, known: bool, freedom: f64, least: f64) -> Self {
+        let data = || residuals.iter().take(self.data);
+        if self.loss.is_robust() && !known {
+            // Outliers do not move a median.
+            let median = Data::new(data().map(|r| r.abs()).collect::<Vec<f64>>()).median();
+            let lost = (self.data as f64 / freedom).sqrt();
+            self.spread = (MEDIAN_TO_SIGMA * median * lost).max(least);
         }
-    }
-
-    /// s from the median of the residuals, which outliers do not move.
-    pub fn with_median_spread(self, residuals: &DVector<f64>, degrees_of_freedom: f64, least: f64) -> Self {
-        let sizes: Vec<f64> = residuals.iter().take(self.data).map(|r| r.abs()).collect();
-        let median = Data::new(sizes).median();
-        let lost = (self.data as f64 / degrees_of_freedom).sqrt();
-        Self {
-            spread: (MEDIAN_TO_SIGMA * median * lost).max(least),
-            ..self
+        if self.loss.is_robust() || !known {
+            let slope = |r: &f64| (self.loss.weight(r / self.spread) * r / self.spread).powi(2);
+            let sum: f64 = residuals.iter().take(self.data).map(slope).sum();
+            let mean = (sum / freedom).max((least / self.spread).powi(2));
+            self.normalisation = self.mean_curvature(residuals) / mean;
         }
+        self
     }
 
     /// Standard deviation of the noise in units of σ.
-    pub fn noise(&self, residuals: &DVector<f64>) -> f64 {
+    pub fn noise(&self) -> f64 {
         if self.loss.is_robust() {
             self.spread
         } else {
-            self.spread * (self.mean_curvature(residuals) / self.normalisation).sqrt()
+            self.spread / self.normalisation.sqrt()
         }
     }
-}
-
-fn squares(residuals: &[f64]) -> f64 {
-    DVectorView::from_slice(residuals, residuals.len()).norm_squared()
 }
 
 /// Jᵀ diag(w) J.
@@ -126,5 +104,5 @@ pub(crate) fn information(jacobian: &DMatrix<f64>, weights: &DVector<f64>) -> DM
     for (mut row, weight) in weighted.row_iter_mut().zip(weights.iter()) {
         row *= *weight;
     }
-    jacobian.transpose() * weighted
+    jacobian.tr_mul(&weighted)
 }

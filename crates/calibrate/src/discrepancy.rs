@@ -1,24 +1,18 @@
-//! Where the model is not the truth: a smooth error of it, as a part of the residuals' covariance.
-//!
-//! Observations are the model, noise of covariance σ² S², and δ f, where f is a Gaussian process of mean 0 and known covariance K (M. C. Kennedy,
-//! A. O'Hagan, "Bayesian calibration of computer models", Journal of the Royal Statistical Society B 63, 2001; J. Brynjarsdóttir, A. O'Hagan,
-//! "Learning about physical parameters: the importance of model discrepancy", Inverse Problems 30, 2014). With Cholesky's factor K = F Fᵀ and
-//! the singular vectors U and values s of S⁻¹ F, the standardised residuals have the covariance σ² (I + λ² U s² Uᵀ), λ = δ/σ. Its root
-//! whitens them, and a fit of least squares goes on as without.
+//! Smooth functions, by a sum of which a model may be off.
 
-use std::sync::Arc;
+/// Distance of neighbouring functions, in lengths of correlation: their squares then sum up to 1 within
+/// 1e-3.
+const SPACING: f64 = 0.75;
+/// How far beyond the places functions begin, in lengths of correlation.
+const MARGIN: f64 = 2.0;
 
-use nalgebra::{DMatrix, DVector};
-
-use crate::CalibrationError;
-
-/// Variance beside the largest one below which nothing is left of K: far less than readings show.
-pub(crate) const NOTHING: f64 = 1e-10;
-
-/// A smooth error of the model, of given size.
+/// Functions of `places`, each with a value at each place, of which a sum with independent standard normal
+/// coefficients is a Gaussian process: its covariance at a distance d is exp(−d²/(2 length²)). They are bells
+/// φ(x) = √(h/length) (2/π)^(1/4) exp(−(x − s)²/length²) whose centres s lie h apart. None if a place or
+/// the length is no finite number, the length is not positive, or there would be more than a thousand.
 ///
 /// ```
-/// use calibrate::{Calibration, Discrepancy, ModelError, Parameter, Scale};
+/// use calibrate::{Calibration, ModelError, Parameter, Scale, smooth_functions};
 ///
 /// // A line of slope 1 with a wave on it, read to 0.01; the model is the line alone.
 /// let places: Vec<f64> = (1..=20).map(|k| 0.05 * f64::from(k)).collect();
@@ -27,82 +21,46 @@ pub(crate) const NOTHING: f64 = 1e-10;
 /// let line = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.iter().map(|x| p[0] * x).collect()) };
 /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
 /// let plain = Calibration::new(&line, vec![slope], measured)?;
-/// let smooth = |i: usize, j: usize| (-0.5 * ((places[i] - places[j]) / 0.5).powi(2)).exp();
-/// let allowed = plain.clone().with_discrepancy(Discrepancy::new(20, smooth, 0.1)?)?;
+/// // It may be off by 0.1, over lengths of 0.5.
+/// let mut functions = smooth_functions(&places, 0.5);
+/// functions.iter_mut().flatten().for_each(|value| *value *= 0.1);
+/// let allowed = plain.clone().with_discrepancy(&functions)?;
 /// assert!(!plain.fit()?.estimates[0].interval.contains(1.0));
 /// assert!(allowed.fit()?.estimates[0].interval.contains(1.0));
 /// # Ok::<(), calibrate::CalibrationError>(())
 /// ```
-#[derive(Debug, Clone)]
-pub struct Discrepancy {
-    /// F.
-    pub(crate) factor: Arc<DMatrix<f64>>,
-    /// δ.
-    pub(crate) size: f64,
+pub fn smooth_functions(places: &[f64], length: f64) -> Vec<Vec<f64>> {
+    let lower = places.iter().copied().fold(f64::INFINITY, f64::min) - MARGIN * length;
+    let upper = places.iter().copied().fold(f64::NEG_INFINITY, f64::max) + MARGIN * length;
+    let count = (upper - lower) / (SPACING * length);
+    if !(0.0..1000.0).contains(&count) {
+        return Vec::new();
+    }
+    let size = SPACING.sqrt() * std::f64::consts::FRAC_2_PI.powf(0.25);
+    let bell = |index: usize| -> Vec<f64> {
+        let centre = lower + index as f64 * SPACING * length;
+        let value = |place: &f64| size * (-((place - centre) / length).powi(2)).exp();
+        places.iter().map(value).collect()
+    };
+    (0..=count.ceil() as usize).map(bell).collect()
 }
 
-impl Discrepancy {
-    /// A process with this covariance between `count` observations where δ is 1, and this `size` δ. It is
-    /// given, not fitted: few independent values of a smooth error are seen in a series, so that observations
-    /// hardly tell its size.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::InvalidOption`] unless `size` is finite and positive and the covariance finite,
-    /// with variances of at least 0 and one above it.
-    pub fn new(
-        count: usize,
-        covariance: impl Fn(usize, usize) -> f64,
-        size: f64,
-    ) -> Result<Self, CalibrationError> {
-        let invalid = |name, value, allowed| CalibrationError::InvalidOption { name, value, allowed };
-        if !(size.is_finite() && size > 0.0) {
-            return Err(invalid("size of the discrepancy", size, "finite and positive"));
-        }
-        let mut left: Vec<f64> = (0..count).map(|row| covariance(row, row)).collect();
-        if let Some(&value) = left.iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
-            return Err(invalid(
-                "variance of the discrepancy",
-                value,
-                "finite and at least 0",
-            ));
-        }
-        let least = NOTHING * left.iter().copied().fold(0.0, f64::max);
-        // Cholesky's factorisation with pivots: few columns hold all of a smooth process.
-        let mut columns: Vec<DVector<f64>> = Vec::new();
-        while let Some(pivot) = (0..count).max_by(|&a, &b| left[a].total_cmp(&left[b]))
-            && left[pivot] > least
-            && columns.len() < count
-        {
-            let explained = |row: usize| {
-                columns
-                    .iter()
-                    .map(|column| column[row] * column[pivot])
-                    .sum::<f64>()
-            };
-            let column = DVector::from_fn(count, |row, _| {
-                (covariance(row, pivot) - explained(row)) / left[pivot].sqrt()
-            });
-            if let Some(&value) = column.iter().find(|value| !value.is_finite()) {
-                return Err(invalid("covariance of the discrepancy", value, "finite"));
-            }
-            for (left, entry) in left.iter_mut().zip(column.iter()) {
-                *left -= entry * entry;
-            }
-            left[pivot] = 0.0;
-            columns.push(column);
-        }
-        if columns.is_empty() {
-            return Err(invalid("largest variance of the discrepancy", 0.0, "positive"));
-        }
-        let factor = DMatrix::from_fn(count, columns.len(), |row, column| columns[column][row]);
-        Ok(Self {
-            factor: Arc::new(factor),
-            size,
-        })
-    }
+#[cfg(test)]
+mod tests {
+    use super::smooth_functions;
 
-    pub(crate) fn count(&self) -> usize {
-        self.factor.nrows()
+    #[test]
+    fn covariance_is_that_of_the_process() {
+        let places: Vec<f64> = (0..50).map(|k| 0.37 * f64::from(k)).collect();
+        let functions = smooth_functions(&places, 2.0);
+        for (i, one) in places.iter().enumerate() {
+            for (j, other) in places.iter().enumerate() {
+                let found: f64 = functions.iter().map(|f| f[i] * f[j]).sum();
+                let wanted = (-0.125 * (one - other).powi(2)).exp();
+                assert!((found - wanted).abs() < 1e-3, "{found} {wanted}");
+            }
+        }
+        assert!(smooth_functions(&[1.0, f64::NAN], f64::NAN).is_empty());
+        assert!(smooth_functions(&[1.0, 1e9], 1.0).is_empty());
     }
 }

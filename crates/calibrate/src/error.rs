@@ -6,13 +6,11 @@ use crate::ModelError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CalibrationError {
-    /// A parameter is not well defined.
-    #[error("parameter {name}: {quantity} is {value}; allowed: {allowed}")]
-    InvalidParameter {
-        /// The parameter's name.
-        name: String,
-        /// What of it.
-        quantity: &'static str,
+    /// Something that was given is out of its range.
+    #[error("{what} is {value}; allowed: {allowed}")]
+    Invalid {
+        /// What was given.
+        what: String,
         /// What was found.
         value: f64,
         /// What is allowed.
@@ -24,40 +22,10 @@ pub enum CalibrationError {
         /// The name.
         name: String,
     },
-    /// An option is out of its range.
-    #[error("option {name} is {value}; allowed: {allowed}")]
-    InvalidOption {
-        /// The option.
-        name: &'static str,
-        /// What was found.
-        value: f64,
-        /// What is allowed.
-        allowed: &'static str,
-    },
-    /// An observation is not a number, or its sigma is not positive.
-    #[error("observation {index}: {quantity} is {value}; allowed: {allowed}")]
-    InvalidObservation {
-        /// Its index, from 0.
-        index: usize,
-        /// What of it.
-        quantity: &'static str,
-        /// What was found.
-        value: f64,
-        /// What is allowed.
-        allowed: &'static str,
-    },
-    /// Sigmas and observations differ in number.
-    #[error("there are {sigmas} sigmas for {observations} observations")]
-    SigmaCount {
-        /// Number of sigmas.
-        sigmas: usize,
-        /// Number of observations.
-        observations: usize,
-    },
     /// The observations cannot determine the parameters.
     #[error(
-        "{observations} observations cannot determine {parameters} parameters; needed: {needed} (one more than parameters without prior \
-         knowledge if the noise is to be estimated as well)"
+        "{observations} observations cannot determine {parameters} parameters; needed: {needed} (one more than \
+         parameters without prior knowledge if the noise is to be estimated as well)"
     )]
     TooFewObservations {
         /// Number of observations.
@@ -75,66 +43,38 @@ pub enum CalibrationError {
         /// Number of predictions.
         found: usize,
     },
-    /// The model failed at every start.
-    #[error("the model has no answer at any of {starts} starts")]
-    NoFeasibleStart {
-        /// Number of starts.
-        starts: usize,
+    /// The model failed wherever it ran first.
+    #[error("the model has no answer at any of {places} places all over the range")]
+    NoAnswer {
+        /// Number of places.
+        places: usize,
         /// Why the last one failed.
-        source: ModelError,
-    },
-    /// The model failed on both sides of a point, so that it has no derivative there.
-    #[error("the model has no answer on either side of {name} = {value}, where a derivative is needed")]
-    NoDerivative {
-        /// The parameter.
-        name: String,
-        /// Its value.
-        value: f64,
-        /// Why the model failed.
         source: ModelError,
     },
     /// The fit did not converge.
     #[error(
-        "the fit did not converge in {iterations} iterations: the next step would still go {offset:.2e} standard errors far; a model \
-         that is noisier than stated (relative_noise) does this"
+        "the fit did not converge: the model jumps, or its predictions are noisier than they are said to be"
     )]
-    NotConverged {
-        /// Iterations done.
-        iterations: u64,
-        /// Length of the next step in standard errors.
-        offset: f64,
-    },
+    NotConverged,
     /// The model runs that were allowed are spent.
     #[error("{limit} model runs are not enough")]
     EvaluationLimit {
         /// Largest number of model runs.
         limit: usize,
     },
-    /// The optimiser failed for a reason of its own.
-    #[error("the optimiser failed")]
-    Optimiser {
-        /// Why.
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
 }
 
 impl CalibrationError {
-    /// Whether no other start can help.
-    pub(crate) fn is_final(&self) -> bool {
-        matches!(self, Self::EvaluationLimit { .. })
+    pub(crate) fn invalid(what: impl Into<String>, value: f64, allowed: &'static str) -> Self {
+        let what = what.into();
+        Self::Invalid { what, value, allowed }
     }
 
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
-        matches!(
+        !matches!(
             self,
-            Self::InvalidParameter { .. }
-                | Self::DuplicateParameter { .. }
-                | Self::InvalidOption { .. }
-                | Self::InvalidObservation { .. }
-                | Self::SigmaCount { .. }
-                | Self::TooFewObservations { .. }
-                | Self::PredictionLength { .. }
+            Self::NoAnswer { .. } | Self::NotConverged | Self::EvaluationLimit { .. }
         )
     }
 }

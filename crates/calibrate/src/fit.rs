@@ -1,114 +1,155 @@
 //! What a calibration answers.
 
-use std::sync::Arc;
-
 use nalgebra::{DMatrix, DVector};
 
-use crate::whitening::Whitening;
-use crate::{Estimate, Warning};
+use crate::parameter::FARTHEST;
+use crate::solution::{Solution, freedom};
+use crate::{Calibration, Emulator, Estimate, Warning};
 
 /// A calibrated model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Fit {
     /// The parameters, in the order in which they were given.
     pub estimates: Vec<Estimate>,
-    /// Correlation of the parameters by the curvature at the optimum; `None` where one of them has no standard error.
+    /// Correlation of the parameters by the curvature at the optimum; `None` where one of them has no
+    /// standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
     /// Predictions of the calibrated model.
     pub fitted: Vec<f64>,
     /// Observation less prediction.
     pub residuals: Vec<f64>,
+    /// What of each residual is most likely the discrepancy; 0 without one.
+    pub smooth: Vec<f64>,
     /// How much each observation counts: 1 with least squares, less for an outlier in a robust fit.
     pub weights: Vec<f64>,
-    /// Root of the mean square of the residuals, all counted alike.
-    pub residual_rms: f64,
-    /// Share of the observations' variance that the model explains; `None` where they do not vary.
+    /// Share of the observations' variance that the model explains; `None` if they do not vary.
     pub r_squared: Option<f64>,
-    /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the given sigmas.
+    /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the
+    /// given sigmas.
     pub noise: f64,
     /// Observations less the parameters that they determine (a prior determines its share).
     pub degrees_of_freedom: f64,
     /// Whether the noise was estimated, so that intervals rest on Student's t.
     pub noise_estimated: bool,
-    /// Deviance at the optimum.
-    pub deviance: f64,
     /// Model runs.
     pub evaluations: usize,
-    /// Iterations of the descent that led to the optimum.
-    pub iterations: u64,
-    /// Size of the discrepancy as it was given, where the calibration has one.
-    pub discrepancy: Option<f64>,
-    /// What of each residual is most likely the discrepancy; 0 without one.
-    pub smooth: Vec<f64>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
-    /// The optimum in free variables and the derivatives of the standardised residuals by them.
-    pub(crate) free: DVector<f64>,
+    /// What was learned of the model.
+    pub emulator: Emulator,
+    /// Derivatives of the observations' standardised residuals by the free variables at the optimum.
     pub(crate) jacobian: DMatrix<f64>,
-    /// Half the second derivative of the deviance by each of them.
-    pub(crate) curvatures: Vec<f64>,
-    pub(crate) whitening: Option<Arc<Whitening>>,
-    pub(crate) sigmas: Vec<f64>,
+    /// Half the second derivative of the deviance by each of these residuals.
+    pub(crate) curvatures: DVector<f64>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,
+    sigmas: DVector<f64>,
 }
 
 impl Fit {
+    /// The answer of a solution at whose optimum the model ran.
+    pub(crate) fn new(problem: &Calibration<'_>, emulator: Emulator, solution: Solution) -> Self {
+        let (optimum, count) = (&solution.optimum, problem.observations.len());
+        let deviance = optimum.deviance;
+        let observed = DVector::from_column_slice(&problem.observations);
+        let sigmas = DVector::from_column_slice(&problem.sigmas);
+        let standardised = optimum.point.residuals.rows(0, count).into_owned();
+        let mut smooth = DVector::zeros(count);
+        for (parameter, &z) in problem
+            .parameters
+            .iter()
+            .zip(&optimum.point.free)
+            .skip(problem.asked)
+        {
+            let column = DVector::from_column_slice(parameter.column().unwrap_or_default());
+            smooth += column * parameter.value(z);
+        }
+        let residuals = &smooth - standardised.component_mul(&sigmas);
+        let variation = observed.add_scalar(-observed.mean()).norm_squared();
+        let weight = |r: &f64| deviance.loss.weight(r / deviance.spread);
+        let curvatures = deviance.curvatures(&optimum.point.residuals);
+        let covariance = &solution.covariance;
+        let correlations = |i| (0..problem.asked).map(|j| covariance.correlation(i, j)).collect();
+        Self {
+            warnings: warnings(problem, &solution),
+            correlation: (0..problem.asked).map(correlations).collect(),
+            fitted: (&observed - &residuals).data.into(),
+            r_squared: (variation > 0.0).then(|| 1.0 - residuals.norm_squared() / variation),
+            residuals: residuals.data.into(),
+            smooth: smooth.data.into(),
+            weights: standardised.iter().map(weight).collect(),
+            noise: if solution.noise_estimated {
+                deviance.noise()
+            } else {
+                1.0
+            },
+            degrees_of_freedom: freedom(problem, optimum),
+            noise_estimated: solution.noise_estimated,
+            evaluations: emulator.evaluations(),
+            emulator,
+            jacobian: optimum.jacobian.rows(0, count).into_owned(),
+            curvatures: curvatures.rows(0, count).into_owned(),
+            covariance: solution.covariance.matrix,
+            estimates: solution.estimates,
+            sigmas,
+        }
+    }
+
     /// The best values, in the order of the parameters.
     pub fn values(&self) -> Vec<f64> {
         self.estimates.iter().map(|estimate| estimate.value).collect()
-    }
-
-    /// Residuals in units of their sigmas.
-    pub fn standardised_residuals(&self) -> Vec<f64> {
-        self.residuals
-            .iter()
-            .zip(&self.sigmas)
-            .map(|(residual, sigma)| residual / sigma)
-            .collect()
-    }
-
-    /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
-    pub fn standardised_noise(&self) -> Vec<f64> {
-        let parts = self.residuals.iter().zip(&self.smooth).zip(&self.sigmas);
-        parts
-            .map(|((residual, smooth), sigma)| (residual - smooth) / sigma)
-            .collect()
-    }
-
-    /// What a change of the observations changes of the residuals; those it does not name stay.
-    pub(crate) fn standardised(&self, change: &[f64]) -> DVector<f64> {
-        let mut change = DVector::from_fn(self.sigmas.len(), |row, _| {
-            change.get(row).map_or(0.0, |change| change / self.sigmas[row])
-        });
-        if let Some(whitening) = &self.whitening {
-            whitening.apply(&mut change);
-        }
-        change
-    }
-
-    /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the
-    /// observations' unit: what an error of the model does to the parameters. 0 for what has no standard error.
-    pub fn shift(&self, change: &[f64]) -> Vec<f64> {
-        let count = self.free.len();
-        let mut gradient = DVector::zeros(count);
-        for (row, (change, curvature)) in self.standardised(change).iter().zip(&self.curvatures).enumerate() {
-            for k in 0..count {
-                gradient[k] -= self.jacobian[(row, k)] * curvature * change;
-            }
-        }
-        let moved = &self.covariance * gradient;
-        (0..count)
-            .map(|k| {
-                let error = self.covariance[(k, k)].sqrt();
-                if error > 0.0 { moved[k] / error } else { 0.0 }
-            })
-            .collect()
     }
 
     /// The estimate of the parameter called `name`.
     pub fn estimate(&self, name: &str) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }
+
+    /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
+    pub fn standardised_noise(&self) -> Vec<f64> {
+        let parts = self.residuals.iter().zip(&self.smooth);
+        let noise = parts.map(|(residual, smooth)| residual - smooth);
+        self.standardised(&noise.collect::<Vec<_>>()).data.into()
+    }
+
+    /// Numbers in the unit of the observations, in those of the sigmas; 0 if there are too few.
+    pub(crate) fn standardised(&self, values: &[f64]) -> DVector<f64> {
+        let value = |row: usize| values.get(row).copied().unwrap_or(0.0);
+        DVector::from_fn(self.sigmas.len(), |row, _| value(row) / self.sigmas[row])
+    }
+
+    /// By how many standard errors each estimate would move, to first order, if the model predicted
+    /// `change` more, in the observations' unit: what an error of the model does to the parameters. 0
+    /// for what has no standard error.
+    pub fn shift(&self, change: &[f64]) -> Vec<f64> {
+        let weighted = self.standardised(change).component_mul(&self.curvatures);
+        let moved = -(&self.covariance * self.jacobian.tr_mul(&weighted));
+        let shift = |k: usize| {
+            let error = self.covariance[(k, k)].sqrt();
+            if error > 0.0 { moved[k] / error } else { 0.0 }
+        };
+        (0..self.estimates.len()).map(shift).collect()
+    }
+}
+
+/// What is to be said of a solution.
+fn warnings(problem: &Calibration<'_>, solution: &Solution) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
+    for (estimate, free) in solution.estimates.iter().zip(&solution.optimum.point.free) {
+        let (name, interval, value) = (estimate.name.clone(), estimate.interval, estimate.value);
+        if !estimate.identifiable {
+            warnings.push(Warning::NotIdentifiable { name, interval });
+        } else if free.abs() >= FARTHEST {
+            warnings.push(Warning::AtBound { name, value });
+        }
+    }
+    // An interval that is open says more than another minimum does.
+    let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
+    let rival = solution.rival.as_ref().filter(|_| closed);
+    warnings.extend(rival.map(|rival| {
+        let pairs = problem.parameters.iter().take(problem.asked).zip(&rival.free);
+        Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(z)).collect())
+    }));
+    warnings
 }

@@ -1,157 +1,216 @@
-//! Kriging: smooth functions through the runs of a model.
+//! Kriging: smooth functions through the runs of a model, and how far they may be off.
 //!
-//! The predictions are Gaussian processes over the parameters' shares of their ranges: a mean, and deviations from it whose
-//! correlation falls with the distance by Matérn's function of order 5/2 (J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and Analysis
-//! of Computer Experiments", Statistical Science 4, 1989; C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, 2006, chapter
-//! 2 and equation 4.17).
+//! The predictions are Gaussian processes over the parameters' shares of their ranges: a mean, and
+//! deviations from it whose correlation falls with the distance d by Matérn's function of order 5/2,
 //!
-//! The length of correlation is fixed: where runs lie as close as they do around an optimum, it hardly matters.
+//! c = (1 + a + a²/3) e^(−a), a = √5 d/length
+//!
+//! (J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and Analysis of Computer Experiments",
+//! Statistical Science 4, 1989; C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine
+//! Learning, 2006, chapter 2 and equation 4.17). The length is fixed: where runs lie as close as they do
+//! around an optimum, it hardly matters.
+
+use std::ops::Range;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Length of correlation, as a share of a parameter's range.
-const LENGTH: f64 = 0.5;
-/// Nugget, in the variance of the predictions: runs closer than a few ten-thousandths of the ranges are averaged, because ripple is most of
-/// what tells them apart. A larger one, such as the ripple itself measures, would take what a model really does at short range for noise.
-const NUGGET: f64 = 1e-8;
+use crate::tuning::{LENGTH, NUGGETS, UNKNOWN};
 
-/// What runs at some places say of all others.
+/// Distance of places that are one, as a share of the range: far below any standard error.
+const SAME: f64 = 1e-9;
+
+/// Places at which the model ran.
 #[derive(Debug, Clone)]
-pub struct Kriging {
-    /// Shares of the parameters' ranges.
+pub(crate) struct Design {
+    /// Which shares of a place act on the predictions.
+    inputs: Vec<usize>,
     places: Vec<DVector<f64>>,
-    mean: DVector<f64>,
-    /// What each run's neighbourhood adds to the mean, a row each.
-    weights: DMatrix<f64>,
-    /// What `weights` were solved with, and the sum of squares of each prediction about its mean, in units of the correlations.
-    factor: Option<Cholesky<f64, Dyn>>,
-    squares: Vec<f64>,
-}
-
-impl Kriging {
-    /// Through `values`, a row for each place: solves (K + nugget) w = values − mean for all columns at once, the mean by generalised least
-    /// squares.
-    pub fn through(places: Vec<DVector<f64>>, mut values: DMatrix<f64>) -> Self {
-        let (count, width) = values.shape();
-        let correlations = DMatrix::from_fn(count, count, |i, j| correlation(&places[i], &places[j]));
-        // A larger nugget makes the matrix positive definite whatever the rounding; only places that are no numbers defy it.
-        let factor =
-            |nugget| Cholesky::new(&correlations + DMatrix::from_diagonal_element(count, count, nugget));
-        let Some(solved) = [NUGGET, 1e-6, 1e-4, 1e-2, 1.0].into_iter().find_map(factor) else {
-            return Self {
-                mean: values.row_mean().transpose(),
-                weights: DMatrix::zeros(count, width),
-                places,
-                factor: None,
-                squares: vec![0.0; width],
-            };
-        };
-        let ones = solved.solve(&DVector::from_element(count, 1.0));
-        let mean = values.tr_mul(&ones) / ones.sum();
-        for mut row in values.row_iter_mut() {
-            row -= mean.transpose();
-        }
-        let weights = solved.solve(&values);
-        let square = |column| weights.column(column).dot(&values.column(column));
-        Self {
-            squares: (0..width).map(square).collect(),
-            places,
-            mean,
-            weights,
-            factor: Some(solved),
-        }
-    }
-
-    /// Adds what is predicted at a place.
-    pub fn add_to(&self, predicted: &mut [f64], place: &DVector<f64>) {
-        let near = correlations(&self.places, place);
-        let found = self.weights.tr_mul(&near);
-        for ((value, mean), deviation) in predicted.iter_mut().zip(&self.mean).zip(&found) {
-            *value += mean + deviation;
-        }
-    }
-
-    /// What it knows of its own error, where the square of that of prediction k counts `weights[k]`; nothing with less than two runs.
-    pub fn doubt(&self, weights: impl Fn(usize) -> f64) -> Option<Doubt> {
-        let factor = self.factor.clone().filter(|_| self.places.len() > 1)?;
-        let squares = (0..self.squares.len()).map(|k| weights(k) * self.squares[k]);
-        let variance = squares.sum::<f64>() / (self.places.len() - 1) as f64;
-        Some(Doubt {
-            variance: at_least_zero(variance),
-            places: self.places.clone(),
-            factor,
-        })
-    }
-}
-
-/// Variance of predictions, all of them together (Sacks et al., equation 9). It depends on where the model runs, not on what it says there,
-/// so that a run can be weighed before it is made.
-pub struct Doubt {
-    variance: f64,
-    places: Vec<DVector<f64>>,
+    /// Of the correlations between them.
     factor: Cholesky<f64, Dyn>,
 }
 
-impl Doubt {
-    /// At shares of the ranges.
+impl Design {
+    fn new(inputs: Vec<usize>, places: Vec<DVector<f64>>, nugget: f64) -> Self {
+        let count = places.len();
+        let correlations = DMatrix::from_fn(count, count, |i, j| correlation(&places[i], &places[j]));
+        // A larger nugget makes the matrix positive definite whatever the rounding.
+        let factor = [nugget, NUGGETS.1, 1e-4].into_iter().find_map(|nugget| {
+            Cholesky::new(&correlations + DMatrix::from_diagonal_element(count, count, nugget))
+        });
+        Self {
+            inputs,
+            places,
+            factor: factor.unwrap_or_else(|| Cholesky::pack_dirty(DMatrix::identity(count, count))),
+        }
+    }
+
+    fn correlations(&self, place: &DVector<f64>) -> DVector<f64> {
+        let place = place.select_rows(&self.inputs);
+        DVector::from_fn(self.places.len(), |run, _| correlation(&place, &self.places[run]))
+    }
+
+    /// Variance of predictions at a place, as a share of that far from all runs, at a mean that is taken as
+    /// known (Sacks et al., equation 9). It depends on where the model runs, not on what it says there, so
+    /// that a run can be weighed before it is made.
     pub fn variance(&self, place: &DVector<f64>) -> f64 {
-        let near = correlations(&self.places, place);
-        let known = self.factor.solve(&near);
-        let ones = DVector::from_element(near.len(), 1.0);
-        let of_mean = (1.0 - known.sum()).powi(2) / self.factor.solve(&ones).sum();
-        self.variance * at_least_zero(1.0 - near.dot(&known) + of_mean)
+        let near = self.correlations(place);
+        (1.0 - near.dot(&self.factor.solve(&near))).clamp(0.0, 1.0)
     }
 
-    /// What is left of it once the model has run there.
-    pub fn without(&mut self, place: DVector<f64>) {
-        let column = correlations(&self.places, &place).push(1.0 + NUGGET);
+    /// The same places and one more.
+    pub fn learn(&mut self, place: &DVector<f64>) {
+        let column = self.correlations(place).push(1.0 + NUGGETS.1);
         self.factor = self.factor.insert_column(self.places.len(), column);
-        self.places.push(place);
+        self.places.push(place.select_rows(&self.inputs));
     }
 }
 
-/// A variance that rounding may have made negative. What is no number stays so: `max` would take it for 0, and so for sure.
-fn at_least_zero(variance: f64) -> f64 {
-    variance.clamp(0.0, f64::INFINITY)
+/// What runs at some places say of some predictions at all others.
+#[derive(Debug, Clone)]
+pub(crate) struct Kriging {
+    /// Which predictions.
+    pub rows: Range<usize>,
+    pub design: Design,
+    mean: DVector<f64>,
+    /// What each run's neighbourhood adds to the mean, a row each.
+    weights: DMatrix<f64>,
+    /// Sum of squares of each prediction about its mean, in units of the correlations.
+    squares: DVector<f64>,
 }
 
-fn correlations(places: &[DVector<f64>], place: &DVector<f64>) -> DVector<f64> {
-    DVector::from_fn(places.len(), |run, _| correlation(place, &places[run]))
+impl Kriging {
+    /// Through the predictions `rows` of runs: solves (K + nugget) w = values − mean for all of them at
+    /// once.
+    pub fn through(
+        runs: &[(DVector<f64>, DVector<f64>)],
+        inputs: &[usize],
+        rows: Range<usize>,
+        nugget: f64,
+    ) -> Self {
+        let (mut places, mut own): (Vec<DVector<f64>>, Vec<&DVector<f64>>) = Default::default();
+        for (place, predicted) in runs {
+            let place = place.select_rows(inputs);
+            // Runs that differ in other parameters alone say the same.
+            if !places.iter().any(|other| is_same(other, &place)) {
+                places.push(place);
+                own.push(predicted);
+            }
+        }
+        let (count, width) = (places.len(), rows.len());
+        let mut values = DMatrix::from_fn(count, width, |run, row| own[run][rows.start + row]);
+        let mean = values.row_mean().transpose();
+        for (mut column, mean) in values.column_iter_mut().zip(&mean) {
+            column.add_scalar_mut(-mean);
+        }
+        let design = Design::new(inputs.to_vec(), places, nugget);
+        let weights = design.factor.solve(&values);
+        let squares = weights.component_mul(&values).row_sum().transpose();
+        Self {
+            rows,
+            design,
+            mean,
+            weights,
+            squares,
+        }
+    }
+
+    /// What is predicted at a place.
+    pub fn at(&self, place: &DVector<f64>) -> DVector<f64> {
+        &self.mean + self.weights.tr_mul(&self.design.correlations(place))
+    }
+
+    /// Its derivatives by the shares that act on it, each with its index: ∂c/∂u = −5/(3 length²) (1 + a)
+    /// e^(−a) (u − u_run).
+    pub fn slopes(&self, place: &DVector<f64>) -> impl Iterator<Item = (usize, DVector<f64>)> {
+        let Design { inputs, places, .. } = &self.design;
+        let place = place.select_rows(inputs);
+        let factors = DVector::from_fn(places.len(), |run, _| {
+            let a = scaled_distance(&place, &places[run]);
+            -5.0 / (3.0 * LENGTH * LENGTH) * (1.0 + a) * (-a).exp()
+        });
+        inputs.iter().enumerate().map(move |(k, &input)| {
+            let near = |run: usize, _| factors[run] * (place[k] - places[run][k]);
+            (input, self.weights.tr_mul(&DVector::from_fn(factors.len(), near)))
+        })
+    }
+
+    /// Variance of its error far from all runs, if the square of that of prediction k of all counts
+    /// `weights[k]`. One run says nothing of it.
+    pub fn scale(&self, weights: &[f64]) -> f64 {
+        let squares = self.squares.iter().zip(&weights[self.rows.clone()]);
+        let sum: f64 = squares.map(|(square, weight)| weight * square).sum();
+        match self.design.places.len() {
+            0 | 1 => UNKNOWN * UNKNOWN,
+            // NaN propagates; `max` would hide it.
+            runs => (sum / (runs - 1) as f64).clamp(0.0, f64::INFINITY),
+        }
+    }
 }
 
-/// Correlation between two places: Matérn's function of order 5/2.
-fn correlation(a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+/// Whether two places are one.
+pub(crate) fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
+    (a - b).amax() < SAME
+}
+
+fn correlation(one: &DVector<f64>, other: &DVector<f64>) -> f64 {
+    let a = scaled_distance(one, other);
+    (1.0 + a + a * a / 3.0) * (-a).exp()
+}
+
+/// a.
+fn scaled_distance(one: &DVector<f64>, other: &DVector<f64>) -> f64 {
     let square = |(a, b): (&f64, &f64)| (a - b) * (a - b);
-    let distance = a.iter().zip(b).map(square).sum::<f64>().sqrt();
-    let scaled = 5.0_f64.sqrt() * distance / LENGTH;
-    (1.0 + scaled + scaled * scaled / 3.0) * (-scaled).exp()
+    let distance = one.iter().zip(other).map(square).sum::<f64>().sqrt();
+    5.0_f64.sqrt() * distance / LENGTH
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector, dvector};
+    use nalgebra::{DVector, dvector};
 
     use super::Kriging;
 
+    fn through(function: impl Fn(&DVector<f64>) -> f64) -> Kriging {
+        let place = |k: i32| dvector![0.1 + 0.2 * f64::from(k % 5), 0.1 + 0.2 * f64::from(k / 5)];
+        let run = |k| (place(k), dvector![function(&place(k)), 1.0]);
+        Kriging::through(&(0..25).map(run).collect::<Vec<_>>(), &[0, 1], 0..2, 1e-8)
+    }
+
+    /// Slopes are those of differences; a constant has none.
+    #[test]
+    fn slopes_are_those_of_differences() {
+        let kriging = through(|place| (2.0 * place[0]).sin() * (1.0 + place[1]));
+        let (here, step) = (dvector![0.43, 0.61], 1e-5);
+        for (k, slope) in kriging.slopes(&here) {
+            let at = |sign: f64| {
+                let mut place = here.clone();
+                place[k] += sign * step;
+                kriging.at(&place)[0]
+            };
+            let difference = (at(1.0) - at(-1.0)) / (2.0 * step);
+            assert!((slope[0] / difference - 1.0).abs() < 1e-6);
+            assert!(slope[1].abs() < 1e-9);
+        }
+    }
+
     /// Rounding leaves no doubt; what is no number leaves nothing sure.
     #[test]
-    fn doubt_is_a_number() {
-        let places: Vec<DVector<f64>> = (0..25)
-            .map(|k| dvector![0.1 + 0.2 * f64::from(k % 5), 0.1 + 0.2 * f64::from(k / 5)])
-            .collect();
-        let values = DMatrix::from_fn(
-            25,
-            2,
-            |run, column| if column == 0 { places[run].sum() } else { 1.0 },
-        );
-        let mut kriging = Kriging::through(places, values);
-        let at = |kriging: &Kriging| kriging.doubt(|_| 1.0).unwrap().variance(&dvector![0.4, 0.6]);
-        assert!(at(&kriging) > 0.0);
-        kriging.squares = vec![-1e-20, 0.0];
-        assert_eq!(at(&kriging), 0.0);
-        kriging.squares = vec![1.0, f64::NAN];
-        assert!(at(&kriging).is_nan());
-        let doubt = kriging.doubt(|_| 0.0);
-        assert!(doubt.unwrap().variance(&dvector![f64::NAN, 0.6]).is_nan());
+    fn variance_is_a_number() {
+        let mut kriging = through(DVector::sum);
+        assert!(kriging.scale(&[1.0; 2]) > 0.0 && kriging.design.variance(&dvector![0.4, 0.6]) > 0.0);
+        kriging.squares = dvector![-1e-20, 0.0];
+        assert_eq!(kriging.scale(&[1.0; 2]), 0.0);
+        kriging.squares = dvector![1.0, f64::NAN];
+        assert!(kriging.scale(&[1.0; 2]).is_nan());
+    }
+
+    /// A run that is made leaves no doubt where it was, and less around it.
+    #[test]
+    fn a_run_takes_the_doubt() {
+        let mut design = through(DVector::sum).design;
+        let (place, near) = (dvector![0.4, 0.6], dvector![0.42, 0.6]);
+        let before = design.variance(&near);
+        design.learn(&place);
+        assert!(design.variance(&place) < 1e-3 * before && design.variance(&near) < 0.2 * before);
     }
 }

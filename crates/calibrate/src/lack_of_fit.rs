@@ -1,13 +1,15 @@
 //! Whether the residuals of a fit are the noise that the fit takes them for.
 //!
-//! *Signs.* Residuals that are noise change their sign from one to the next as coins do; too few changes show a curve that the model does
-//! not follow (A. Wald, J. Wolfowitz, "On a test whether two samples are from the same population", 1940; here with signs that are
-//! positive and negative alike, so that residuals all of one sign count).
+//! *Signs.* Residuals that are noise change their sign from one to the next as coins do; too few changes
+//! show a curve that the model does not follow (A. Wald, J. Wolfowitz, "On a test whether two samples
+//! are from the same population", 1940; here with signs that are positive and negative alike, so that
+//! residuals all of one sign count).
 //!
-//! *Terms.* Would a term more in the model, such as a constant, explain them? Its column is freed of what the parameters can do,
-//! which is the score test (N. R. Draper, H. Smith, Applied Regression Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
+//! *Terms.* Would a term more in the model, such as a constant, explain them? Its column is freed of
+//! what the parameters can do, which is the score test (N. R. Draper, H. Smith, Applied Regression
+//! Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
 
 use crate::Fit;
@@ -18,75 +20,64 @@ const LEFT: f64 = 1e-9;
 /// Fewest residuals that are judged.
 const FEWEST: f64 = 3.0;
 
-/// What terms more in the model would say of the residuals.
-#[derive(Debug, Clone, PartialEq)]
+/// What a term more in the model would say of the residuals.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TermTest {
-    /// Sizes of the terms, to first order.
-    pub sizes: Vec<f64>,
-    /// Their standard errors.
-    pub standard_errors: Vec<f64>,
-    /// Probability that noise alone calls for so large terms.
+    /// Size of the term, to first order.
+    pub size: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Probability that noise alone calls for so large a term.
     pub probability: f64,
 }
 
-impl Fit {
-    /// Tests terms with these columns, an entry for each observation, all at once. `None` where the parameters can do what the terms do, or
-    /// nothing is left to judge by.
+impl TermTest {
+    /// Tests a term with this column, an entry for each observation. `None` if the parameters can do what
+    /// the term does, or nothing is left to judge by.
     ///
     /// ```
-    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
+    /// use calibrate::{Calibration, ModelError, Parameter, Scale, TermTest};
     ///
     /// // A line through the origin, measured by an instrument whose zero is off by 2.
     /// let places = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
     /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.map(|x| p[0] * x).to_vec()) };
     /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
     /// let fit = Calibration::new(&model, vec![slope], vec![3.01, 3.98, 5.02, 5.99, 7.01, 7.99])?.fit()?;
-    /// let offset = fit.test_terms(&[&[1.0; 6]]).expect("a constant is no line through the origin");
-    /// assert!((offset.sizes[0] - 2.0).abs() < 0.1 && offset.probability < 1e-3);
+    /// let offset = TermTest::of(&fit, &[1.0; 6]).expect("a constant is no line through the origin");
+    /// assert!((offset.size - 2.0).abs() < 0.1 && offset.probability < 1e-3);
     /// # Ok::<(), calibrate::CalibrationError>(())
     /// ```
-    pub fn test_terms(&self, columns: &[&[f64]]) -> Option<TermTest> {
-        let (rows, count) = (self.residuals.len(), columns.len());
-        if columns.iter().any(|column| column.len() != rows) {
+    pub fn of(fit: &Fit, column: &[f64]) -> Option<Self> {
+        if column.len() != fit.residuals.len() {
             return None;
         }
-        let columns: Vec<DVector<f64>> = columns.iter().map(|column| self.standardised(column)).collect();
+        let column = fit.standardised(column);
         // Half the second derivatives of the deviance; outliers of a robust fit hardly count.
-        let weight = |row: usize| self.curvatures[row] * self.weights[row];
-        let weighted = DMatrix::from_fn(rows, count, |row, k| columns[k][row] * weight(row));
-        let plain = DMatrix::from_fn(rows, count, |row, k| columns[k][row]);
-        let across = self.jacobian.rows(0, rows).tr_mul(&weighted);
-        let full = plain.tr_mul(&weighted);
-        let left = &full - across.tr_mul(&(&self.covariance * &across));
-        if (0..count).any(|k| left[(k, k)].is_nan() || left[(k, k)] <= LEFT * full[(k, k)]) {
+        let weights = DVector::from_column_slice(&fit.weights).component_mul(&fit.curvatures);
+        let weighted = column.component_mul(&weights);
+        let across = fit.jacobian.tr_mul(&weighted);
+        let full = column.dot(&weighted);
+        let left = full - across.dot(&(&fit.covariance * &across));
+        if left.is_nan() || left <= LEFT * full {
             return None;
         }
-        let slope = weighted.tr_mul(&self.standardised(&self.residuals));
-        let solved = left.cholesky()?;
-        let sizes = solved.solve(&slope);
-        let gain = slope.dot(&sizes);
-        let terms = count as f64;
-        let freedom = self.degrees_of_freedom - terms;
-        let probability = if self.noise_estimated {
-            // The noise without what the terms explain.
-            let rest = (self.degrees_of_freedom - gain).max(f64::MIN_POSITIVE);
-            1.0 - FisherSnedecor::new(terms, freedom)
-                .ok()
-                .filter(|_| freedom >= 1.0)?
-                .cdf(gain / terms * freedom / rest)
-        } else {
-            1.0 - ChiSquared::new(terms).ok()?.cdf(gain)
-        };
-        let inverse = solved.inverse();
-        Some(TermTest {
-            sizes: sizes.iter().copied().collect(),
-            standard_errors: (0..count).map(|k| inverse[(k, k)].sqrt()).collect(),
-            probability,
+        let size = weighted.dot(&DVector::from_vec(fit.standardised_noise())) / left;
+        let (gain, freedom) = (size * size * left, fit.degrees_of_freedom);
+        Some(Self {
+            size,
+            standard_error: left.sqrt().recip(),
+            probability: if fit.noise_estimated {
+                // The noise without what the term explains.
+                probability_of_gain(freedom, (freedom - gain).max(0.0), freedom - 1.0, None)?
+            } else {
+                probability_of_gain(gain, 0.0, freedom, Some(1.0))?
+            },
         })
     }
 }
 
-/// Probability of so few changes of sign by chance, of residuals in the order in which they were measured; `series` are independent.
+/// Probability of so few changes of sign by chance, of residuals in the order in which they were
+/// measured; `series` are independent.
 pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     let pairs = series.iter().flat_map(|residuals| residuals.windows(2));
     let (mut changes, mut chances) = (0, 0);
@@ -97,8 +88,9 @@ pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     Binomial::new(0.5, chances).map_or(1.0, |binomial| binomial.cdf(changes))
 }
 
-/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals falls from `before` to `after`, with this
-/// `freedom` left, where the residuals are in units of a noise that is known (`known`) or estimated. `None` of too few.
+/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals falls
+/// from `before` to `after`, with these degrees of freedom left. Noise is `known`, in the unit of the
+/// residuals, or estimated from them. `None` of too few.
 pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<f64>) -> Option<f64> {
     let gain = (before - after).max(0.0);
     match known {
@@ -111,9 +103,10 @@ pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<
     }
 }
 
-/// Probability that noise like that between neighbours makes residuals so large, of which `used` are determined by parameters: a ratio of
-/// variances, one from all residuals and one from how far each lies off the line between its neighbours, which a curve hardly moves (J. von Neumann,
-/// "Distribution of the ratio of the mean square successive difference to the variance", 1941). `None` of too few.
+/// Probability that noise like that between neighbours makes residuals so large, of which `used` are
+/// determined by parameters: a ratio of variances, one from all residuals and one from how far each lies
+/// off the line between its neighbours, which a curve hardly moves (J. von Neumann, "Distribution of the
+/// ratio of the mean square successive difference to the variance", 1941). `None` of too few.
 pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
     let all = series.iter().flatten();
     let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
@@ -129,8 +122,9 @@ pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
     Some(1.0 - FisherSnedecor::new(freedom, half).ok()?.cdf(ratio))
 }
 
-/// Probability that noise of known sigmas makes residuals so large, which are in units of these, and of which `used` are determined by
-/// parameters: χ² with what is left, or with one where nothing is, which is cautious.
+/// Probability that noise of known sigmas makes residuals so large, which are in units of these, and of
+/// which `used` are determined by parameters: χ² with what is left, or with one where nothing is, which
+/// is cautious.
 pub fn probability_of_scatter(series: &[Vec<f64>], used: f64) -> f64 {
     let all = series.iter().flatten();
     let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
@@ -144,7 +138,8 @@ mod tests {
 
     #[test]
     fn sigmas_bound_the_scatter() {
-        // 1.96 standard deviations of one residual, and the 95 % quantile of χ² with two degrees of freedom, −2 ln 0.05.
+        // 1.96 standard deviations of one residual, and the 95 % quantile of χ² with two degrees of
+        // freedom, −2 ln 0.05.
         assert!((probability_of_scatter(&[vec![1.959_963_984_540_054]], 1.0) - 0.05).abs() < 1e-9);
         let root = (-0.05_f64.ln()).sqrt();
         assert!((probability_of_scatter(&[vec![root, -root], vec![0.0]], 1.0) - 0.05).abs() < 1e-9);

@@ -1,36 +1,30 @@
 #![doc = include_str!("../README.md")]
 
-mod answer;
 mod calibration;
+mod covariance;
 mod descent;
 mod deviance;
 mod discrepancy;
-mod elsewhere;
-mod emulated;
 mod emulator;
 mod error;
 mod estimate;
-mod evaluator;
 mod fit;
-mod interval;
 mod kriging;
 mod lack_of_fit;
+mod learning;
+mod likelihood;
 mod loss;
 mod model;
-mod noise_rounds;
 mod options;
 mod parameter;
-mod point;
+mod profile;
 mod search;
 mod solution;
-mod station;
-mod step;
-mod uncertainty;
+mod tuning;
 mod warning;
-mod whitening;
 
 pub use calibration::Calibration;
-pub use discrepancy::Discrepancy;
+pub use discrepancy::smooth_functions;
 pub use emulator::Emulator;
 pub use error::CalibrationError;
 pub use estimate::{Estimate, Interval};
@@ -40,6 +34,6 @@ pub use lack_of_fit::{
 };
 pub use loss::Loss;
 pub use model::{Model, ModelError, Part};
-pub use options::{Options, Profiles};
+pub use options::Options;
 pub use parameter::{Parameter, Prior, Scale};
 pub use warning::Warning;

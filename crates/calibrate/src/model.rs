@@ -5,19 +5,20 @@ pub type ModelError = Box<dyn std::error::Error + Send + Sync>;
 
 /// A model with parameters, such as a cable in a duct with an unknown friction coefficient.
 ///
-/// Every function `Fn(&[f64]) -> Result<Vec<f64>, ModelError>` is one. Several series are fitted jointly by one model that
-/// predicts them all, one after the other.
+/// Every function `Fn(&[f64]) -> Result<Vec<f64>, ModelError>` is one. Several series are fitted jointly
+/// by one model that predicts them all, one after the other.
 pub trait Model: Sync {
-    /// Predicted observations, in the order of the observations, for `parameters` in their physical units and in the order in
-    /// which they were given to the calibration.
+    /// Predicted observations, in the order of the observations, for `parameters` in their physical units
+    /// and in the order in which they were given to the calibration.
     ///
     /// # Errors
     ///
-    /// Where the model has no answer. A fit avoids such corners; it fails only if no start has an answer.
+    /// Where the model has no answer. A fit avoids such corners; it fails only if there is no answer at
+    /// any of its first places.
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError>;
 
-    /// Which parameters act on which predictions; nothing where all may act on all. Where each of several series has parameters of its
-    /// own, [`Calibration::fit_emulated`](crate::Calibration::fit_emulated) follows each by itself, and takes fewer runs.
+    /// Which parameters act on which predictions; nothing where all may act on all. Where each of several
+    /// series has parameters of its own, the emulator follows each by itself, and takes fewer runs.
     fn parts(&self) -> Vec<Part> {
         Vec::new()
     }

@@ -2,17 +2,6 @@
 
 use crate::{CalibrationError, Loss};
 
-/// What the intervals are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Profiles {
-    /// Profiles of the likelihood.
-    #[default]
-    All,
-    /// Symmetric in each parameter's coordinate: a rough answer for few model runs.
-    None,
-}
-
 /// How to fit.
 ///
 /// ```
@@ -27,65 +16,53 @@ pub enum Profiles {
 pub struct Options {
     /// How much residuals count.
     pub loss: Loss,
-    /// Values to try first.
-    pub start: Option<Vec<f64>>,
-    /// Points all over the range that are tried beside the start; `None` takes eight a parameter and eight more.
-    pub scan: Option<usize>,
     /// Largest number of model runs.
     pub max_evaluations: usize,
-    /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh. It sets the step of derivatives.
+    /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh.
     pub relative_noise: f64,
-    /// Distance to the minimum, in standard errors, at which a fit has converged.
-    pub tolerance: f64,
     /// Probability that an interval holds the true value.
     pub confidence: f64,
-    /// What the intervals are.
-    pub profiles: Profiles,
+    /// Whether intervals are those of the profile likelihood; without, they are symmetric in each
+    /// parameter's coordinate: a rough answer for few model runs.
+    pub profiles: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
         Self {
             loss: Loss::Squares,
-            start: None,
-            scan: None,
             max_evaluations: 2000,
             relative_noise: 1e-9,
-            tolerance: 0.02,
             confidence: 0.95,
-            profiles: Profiles::All,
+            profiles: true,
         }
     }
 }
 
 impl Options {
-    pub(crate) fn check(&self, parameters: usize) -> Result<(), CalibrationError> {
-        let invalid = |name, value, allowed| Err(CalibrationError::InvalidOption { name, value, allowed });
+    pub(crate) fn check(&self) -> Result<(), CalibrationError> {
+        let invalid = |what: &str, value, allowed| Err(CalibrationError::invalid(what, value, allowed));
         if !(0.5..=0.9999).contains(&self.confidence) {
-            return invalid("confidence", self.confidence, "between 0.5 and 0.9999");
-        }
-        if !(self.tolerance > 0.0 && self.tolerance <= 0.5) {
-            return invalid("tolerance", self.tolerance, "above 0, at most 0.5");
+            return invalid(
+                "confidence of the intervals",
+                self.confidence,
+                "between 0.5 and 0.9999",
+            );
         }
         if !(0.0..=0.1).contains(&self.relative_noise) {
-            return invalid("relative_noise", self.relative_noise, "between 0 and 0.1");
+            return invalid(
+                "relative noise of the model",
+                self.relative_noise,
+                "between 0 and 0.1",
+            );
         }
-        if let Some(threshold) = self.loss.threshold()
+        if let Loss::Tukey { threshold } = self.loss
             && !(threshold.is_finite() && threshold >= 0.5)
         {
             return invalid("threshold of the loss", threshold, "finite and at least 0.5");
         }
-        if let Some(start) = &self.start {
-            if start.len() != parameters {
-                let found = start.len() as f64;
-                return invalid("number of start values", found, "one value a parameter");
-            }
-            if let Some(&value) = start.iter().find(|value| !value.is_finite()) {
-                return invalid("start value", value, "finite");
-            }
-        }
         if self.max_evaluations == 0 {
-            return invalid("max_evaluations", 0.0, "at least 1");
+            return invalid("largest number of model runs", 0.0, "at least 1");
         }
         Ok(())
     }

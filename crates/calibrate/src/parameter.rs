@@ -1,13 +1,11 @@
 //! Parameters, their bounds, and what is known of them before the data.
 //!
-//! A parameter is fitted in a *coordinate* s, its value or the logarithm of it. Bounds hold by a transformation: the fit
-//! moves a free variable z without bounds,
+//! A parameter is fitted in a *coordinate* s, its value or the logarithm of it. Bounds hold by a
+//! transformation: the fit moves a free variable z without bounds, whose *share* of the range is
 //!
-//! s = s_lower + (s_upper − s_lower)/(1 + e^(−z)).
+//! u = 1/(1 + e^(−z)), s = s_lower + (s_upper − s_lower) u.
 
 use std::sync::Arc;
-
-use nalgebra::DVector;
 
 use crate::CalibrationError;
 
@@ -29,7 +27,8 @@ pub enum Scale {
 pub struct Prior {
     /// Most likely value, in the parameter's unit.
     pub value: f64,
-    /// Standard deviation: in the parameter's unit if its scale is linear, relative (of the logarithm) if logarithmic.
+    /// Standard deviation: in the parameter's unit if its scale is linear, relative (of the logarithm)
+    /// if logarithmic.
     pub sigma: f64,
 }
 
@@ -46,10 +45,10 @@ pub struct Prior {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,
-    lower: f64,
-    upper: f64,
-    scale: Scale,
-    prior: Option<Prior>,
+    pub(crate) lower: f64,
+    pub(crate) upper: f64,
+    pub(crate) scale: Scale,
+    pub(crate) prior: Option<Prior>,
     /// What a value of 1 adds to each prediction, where that is all that it does.
     term: Option<Arc<[f64]>>,
 }
@@ -59,17 +58,12 @@ impl Parameter {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidParameter`] unless the bounds are finite, in order, and positive with a logarithmic scale.
+    /// [`CalibrationError::Invalid`] unless the bounds are finite, in order, and positive with a logarithmic scale.
     pub fn new(name: &str, lower: f64, upper: f64, scale: Scale) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| invalid(name, quantity, value, allowed);
-        let positive = scale == Scale::Logarithmic;
-        if !lower.is_finite() || (positive && lower <= 0.0) {
+        let error = |quantity, value, allowed| Err(invalid(name, quantity, value, allowed));
+        if !lower.is_finite() || (scale == Scale::Logarithmic && lower <= 0.0) {
             let allowed = "finite, and positive with a logarithmic scale";
-            return Err(error("lower bound", lower, allowed));
-        }
-        let range = upper - lower;
-        if !(range.is_finite() && range > 0.0) {
-            return Err(error("upper bound", upper, "finite and above the lower bound"));
+            return error("lower bound", lower, allowed);
         }
         let parameter = Self {
             name: name.to_owned(),
@@ -80,18 +74,20 @@ impl Parameter {
             term: None,
         };
         // The logarithms of bounds that nearly touch are the same number.
-        if parameter.range().1 <= 0.0 {
-            return Err(error("upper bound", upper, "finite and above the lower bound"));
+        let width = (upper - lower).min(parameter.range().1);
+        if !(width > 0.0 && (upper - lower).is_finite()) {
+            return error("upper bound", upper, "finite and above the lower bound");
         }
         Ok(parameter)
     }
 
-    /// A parameter that adds its value times `column` to the predictions, an entry each: an error of the instrument, such as its zero. The
+    /// A parameter that adds its value times `column` to the predictions, an entry each: an error of the
+    /// instrument, such as its zero. The
     /// [`Model`](crate::Model) is not given it, so that it costs no runs.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidParameter`] unless the bounds are finite and in order and the column is finite.
+    /// [`CalibrationError::Invalid`] unless the bounds are finite and in order and the column is finite.
     pub fn term(name: &str, lower: f64, upper: f64, column: &[f64]) -> Result<Self, CalibrationError> {
         let parameter = Self::new(name, lower, upper, Scale::Linear)?;
         if let Some(&value) = column.iter().find(|value| !value.is_finite()) {
@@ -107,15 +103,15 @@ impl Parameter {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidParameter`] unless the prior's value lies within the bounds and its sigma is finite and
+    /// [`CalibrationError::Invalid`] unless the prior's value lies within the bounds and its sigma is finite and
     /// positive.
     pub fn with_prior(mut self, prior: Prior) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| invalid(&self.name, quantity, value, allowed);
+        let error = |quantity, value, allowed| Err(invalid(&self.name, quantity, value, allowed));
         if !(self.lower..=self.upper).contains(&prior.value) {
-            return Err(error("prior", prior.value, "a value within the bounds"));
+            return error("prior", prior.value, "a value within the bounds");
         }
         if !(prior.sigma.is_finite() && prior.sigma > 0.0) {
-            return Err(error("sigma of the prior", prior.sigma, "finite and positive"));
+            return error("sigma of the prior", prior.sigma, "finite and positive");
         }
         self.prior = Some(prior);
         Ok(self)
@@ -126,53 +122,16 @@ impl Parameter {
         &self.name
     }
 
-    /// Lower bound.
-    pub fn lower(&self) -> f64 {
-        self.lower
-    }
-
-    /// Upper bound.
-    pub fn upper(&self) -> f64 {
-        self.upper
-    }
-
-    /// In what it is fitted.
-    pub fn scale(&self) -> Scale {
-        self.scale
-    }
-
-    /// What is known beforehand.
-    pub fn prior(&self) -> Option<Prior> {
-        self.prior
-    }
-
     /// What a value of 1 adds to each prediction; `None` for a parameter of the model.
     pub fn column(&self) -> Option<&[f64]> {
         self.term.as_deref()
     }
 
     /// s of a value.
-    pub(crate) fn coordinate(&self, value: f64) -> f64 {
+    fn coordinate(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => value,
             Scale::Logarithmic => value.ln(),
-        }
-    }
-
-    /// Value at s.
-    pub(crate) fn value(&self, coordinate: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => coordinate,
-            Scale::Logarithmic => coordinate.exp(),
-        }
-        .clamp(self.lower, self.upper)
-    }
-
-    /// d value/ds.
-    pub(crate) fn value_slope(&self, coordinate: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => 1.0,
-            Scale::Logarithmic => coordinate.exp(),
         }
     }
 
@@ -182,69 +141,68 @@ impl Parameter {
         (lower, self.coordinate(self.upper) - lower)
     }
 
-    /// Share of the range of s that lies below s.
-    pub(crate) fn share(&self, coordinate: f64) -> f64 {
+    /// Value at a share of the range.
+    pub(crate) fn value_at(&self, share: f64) -> f64 {
         let (lower, range) = self.range();
-        (coordinate - lower) / range
+        let coordinate = lower + range * share;
+        let value = match self.scale {
+            Scale::Linear => coordinate,
+            Scale::Logarithmic => coordinate.exp(),
+        };
+        value.clamp(self.lower, self.upper)
     }
 
-    /// s at z.
-    pub(crate) fn bounded(&self, free: f64) -> f64 {
+    /// Value at a free variable.
+    pub(crate) fn value(&self, free: f64) -> f64 {
+        self.value_at(share(free))
+    }
+
+    /// Derivative of the value by the free variable.
+    pub(crate) fn slope(&self, free: f64) -> f64 {
+        let by_coordinate = match self.scale {
+            Scale::Linear => 1.0,
+            Scale::Logarithmic => self.value(free),
+        };
+        by_coordinate * self.range().1 * share_slope(free)
+    }
+
+    /// Distance from the prior in its sigmas, and its derivative by the free variable.
+    pub(crate) fn prior_residual(&self, free: f64) -> Option<[f64; 2]> {
+        let prior = self.prior?;
         let (lower, range) = self.range();
-        lower + range / (1.0 + (-free).exp())
-    }
-
-    /// z at s; at most [`FARTHEST`] from 0.
-    pub(crate) fn free(&self, coordinate: f64) -> f64 {
-        let share = self.share(coordinate).clamp(0.0, 1.0);
-        (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
-    }
-
-    /// Value at z.
-    pub(crate) fn physical(&self, free: f64) -> f64 {
-        self.value(self.bounded(free))
-    }
-
-    /// ds/dz at z.
-    pub(crate) fn bounded_slope(&self, free: f64) -> f64 {
-        let share = 1.0 / (1.0 + (-free).exp());
-        self.range().1 * share * (1.0 - share)
-    }
-
-    /// Distance of s at z from the prior, in its sigmas.
-    pub(crate) fn prior_residual(&self, free: f64) -> Option<f64> {
-        self.prior
-            .map(|prior| (self.bounded(free) - self.coordinate(prior.value)) / prior.sigma)
+        let off = lower + range * share(free) - self.coordinate(prior.value);
+        Some([off, range * share_slope(free)].map(|length| length / prior.sigma))
     }
 }
 
-fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str) -> CalibrationError {
-    CalibrationError::InvalidParameter {
-        name: name.to_owned(),
-        quantity,
-        value,
-        allowed,
+/// Share of the range at a free variable; beyond the farthest nothing changes.
+pub(crate) fn share(free: f64) -> f64 {
+    1.0 / (1.0 + (-free.clamp(-FARTHEST, FARTHEST)).exp())
+}
+
+/// Derivative of the share by the free variable.
+pub(crate) fn share_slope(free: f64) -> f64 {
+    if free.abs() > FARTHEST {
+        return 0.0;
     }
+    share(free) * (1.0 - share(free))
 }
 
-/// Values of those parameters at free variables that the model takes.
-pub(crate) fn of_model(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
-    let pairs = parameters.iter().zip(free.iter());
-    let pairs = pairs.filter(|(parameter, _)| parameter.term.is_none());
-    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
+/// Free variable at a share.
+pub(crate) fn free(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
 }
 
-/// Values of `parameters` at free variables.
-pub(crate) fn physical(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
-    let pairs = parameters.iter().zip(free.iter());
-    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
+fn invalid(name: &str, quantity: &str, value: f64, allowed: &'static str) -> CalibrationError {
+    CalibrationError::invalid(format!("{quantity} of parameter {name}"), value, allowed)
 }
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
-    use super::{FARTHEST, Parameter, Scale};
+    use super::{Parameter, Scale, free, share};
 
     proptest! {
         /// There and back, within the bounds, with the slope that differences give.
@@ -252,20 +210,12 @@ mod tests {
         fn transformation(lower in 1e-3..10.0_f64, ratio in 1.5..1e6_f64, z in -6.5..6.5_f64, logarithmic: bool) {
             let scale = if logarithmic { Scale::Logarithmic } else { Scale::Linear };
             let parameter = Parameter::new("p", lower, lower * ratio, scale).unwrap();
-            let s = parameter.bounded(z);
-            prop_assert!((parameter.free(s) - z).abs() < 1e-6);
-            let value = parameter.value(s);
+            let value = parameter.value(z);
             prop_assert!((lower..=lower * ratio).contains(&value));
-            prop_assert!((parameter.coordinate(value) - s).abs() < 1e-9 * s.abs().max(1.0));
+            prop_assert!((free(share(z)) - z).abs() < 1e-6);
             let h = 1e-4;
-            let slope = (parameter.bounded(z + h) - parameter.bounded(z - h)) / (2.0 * h);
-            prop_assert!((slope / parameter.bounded_slope(z) - 1.0).abs() < 1e-5);
-            let slope = (parameter.value(s + 1e-5) - parameter.value(s - 1e-5)) / 2e-5;
-            // Clamped at the bounds, where differences see only one side.
-            if z.abs() < 5.0 && ratio < 1e3 {
-                prop_assert!((slope / parameter.value_slope(s) - 1.0).abs() < 1e-3);
-            }
-            prop_assert!(parameter.free(parameter.coordinate(lower)) == -FARTHEST);
+            let slope = (parameter.value(z + h) - parameter.value(z - h)) / (2.0 * h);
+            prop_assert!((slope / parameter.slope(z) - 1.0).abs() < 1e-4);
         }
     }
 }

@@ -1,217 +1,125 @@
-//! The way to the optimum: a coarse scan, a descent from its best point, and another descent from elsewhere to compare.
+//! The way to the optimum: a scan of the emulator, descents from its best places, and the noise's scale.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-use crate::descent::{Descent, NOISY, Optimum};
+use crate::covariance::parameters_from_data;
+use crate::descent::{Optimum, descend};
 use crate::deviance::Deviance;
-use crate::evaluator::{Evaluator, feasible};
-use crate::loss::Rho;
-use crate::point::{Point, all_over, score};
-use crate::uncertainty::parameters_from_data;
-use crate::{CalibrationError, Loss};
+use crate::likelihood::{Likelihood, Point};
+use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, STARTS};
+use crate::{CalibrationError, parameter};
 
 /// Repeats after which a loop is taken to go in a circle: those that end need half as many.
 pub(crate) const MAX_ROUNDS: usize = 24;
-/// Iterations of a descent to the optimum, and of one that is only compared with it: with 6 instead of 12, direct fits take 145 runs
-/// instead of 165, and one end in a hundred is off by its interval's width (tests/calibration_coverage.rs, 2400 fits).
-const ITERATIONS: u64 = 200;
-const FEW_ITERATIONS: u64 = 12;
-/// Next step in standard errors at which a descent that is only compared has converged, and above which the user is warned. With 0.35,
-/// a direct fit takes 10 runs less and one end in a hundred moves by a sixth of its interval (the same fits).
-pub(crate) const ROUGH: f64 = 0.1;
-/// Change of the noise's scale, as a share, at which the rounds of fit and scale end: far below what 40 readings know of it.
-const SCALE_TOLERANCE: f64 = 0.01;
-/// Fall of the deviance that makes another optimum the better one: a quarter of a standard error.
-pub(crate) const BETTER: f64 = 0.05;
-/// Rise of the deviance up to which another minimum counts as a rival: two standard errors.
-pub(crate) const RIVAL: f64 = 4.0;
-/// Distance from an optimum, in free variables, of a start worth a second descent: a sixth of a range from its middle.
-const ELSEWHERE: f64 = 0.7;
-/// Descents from elsewhere; the tests' models have two minima, and a wave as many as the scan shows.
-const RESTARTS: usize = 3;
 
-pub(crate) struct Search<'a> {
-    pub evaluator: &'a Evaluator<'a>,
-    /// Whether the observations came with sigmas that are believed.
-    pub known_noise: bool,
+/// `count` places all over the range, as shares of it, by the generalised golden ratio (M. Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
+pub(crate) fn all_over(dimensions: usize, count: usize) -> Vec<DVector<f64>> {
+    let mut ratio = 2.0_f64;
+    for _ in 0..60 {
+        ratio = (1.0 + ratio).powf(1.0 / (dimensions as f64 + 1.0));
+    }
+    let share = |index: usize, k: usize| (0.5 + (index + 1) as f64 * ratio.powi(-(k as i32) - 1)).fract();
+    let place = |index| DVector::from_fn(dimensions, |k, _| share(index, k).clamp(0.005, 0.995));
+    (0..count).map(place).collect()
 }
 
-impl<'a> Search<'a> {
-    pub fn new(evaluator: &'a Evaluator<'a>) -> Self {
-        Self {
-            evaluator,
-            known_noise: evaluator.calibration.knows_noise,
+/// −2 log likelihood under noise with heavy tails, whose scale is known or estimated from these residuals.
+fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
+    let sum: f64 = residuals.iter().take(data).map(|r| r.abs()).sum();
+    let priors: f64 = residuals.iter().skip(data).map(|r| r * r).sum();
+    if known_noise {
+        2.0 * sum + priors
+    } else {
+        2.0 * data as f64 * sum.max(f64::MIN_POSITIVE).ln() + priors
+    }
+}
+
+/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places of
+/// a scan.
+///
+/// # Errors
+///
+/// [`CalibrationError::NotConverged`] if no descent comes to an end.
+pub(crate) fn optimum(
+    likelihood: &Likelihood<'_>,
+    start: Option<&DVector<f64>>,
+) -> Result<(Optimum, Vec<Point>), CalibrationError> {
+    let (problem, known) = (likelihood.problem, likelihood.problem.knows_noise);
+    let dimensions = likelihood.of_model.len();
+    let mut scanned = Vec::new();
+    for place in all_over(dimensions, SCAN * (1 + dimensions)) {
+        // Terms from the middle of their ranges.
+        let mut free = DVector::zeros(problem.parameters.len());
+        for (&k, &share) in likelihood.of_model.iter().zip(&place) {
+            free[k] = parameter::free(share);
+        }
+        let point = likelihood.point(free);
+        let score = score(&point.residuals, problem.observations.len(), known);
+        if score.is_finite() {
+            scanned.push((score, point.free));
         }
     }
-
-    /// A descent of all parameters, as exact as the fit is asked to be.
-    pub fn descent(&self, deviance: Deviance, jacobian: Option<DMatrix<f64>>) -> Descent<'_> {
-        Descent {
-            evaluator: self.evaluator,
-            deviance,
-            held: None,
-            jacobian,
-            verified: true,
-            tolerance: self.evaluator.calibration.options.tolerance,
-            iterations: ITERATIONS,
-        }
-    }
-
-    /// A descent that is only compared with an optimum, whose deviance it takes; parameter `held` stays where it is.
-    pub fn brief_descent(
-        &self,
-        deviance: Deviance,
-        jacobian: Option<DMatrix<f64>>,
-        held: Option<usize>,
-    ) -> Descent<'_> {
-        Descent {
-            held,
-            verified: false,
-            tolerance: ROUGH,
-            iterations: FEW_ITERATIONS,
-            ..self.descent(deviance, jacobian)
-        }
-    }
-
-    /// Scale of the noise at a point: known, or from the residuals there.
-    fn scaled(&self, deviance: Deviance, residuals: &DVector<f64>, freedom: f64) -> Deviance {
-        let calibration = self.evaluator.calibration;
-        let (robust, least) = (
-            calibration.options.loss.rho().is_robust(),
-            calibration.least_noise(),
-        );
-        let spread = match (robust, self.known_noise) {
-            (false, true) => return deviance,
-            (true, false) => deviance.with_median_spread(residuals, freedom, least),
-            _ => deviance,
+    scanned.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let best_of_scan = scanned.into_iter().map(|(_, free)| free).take(STARTS);
+    let mut best: Option<Optimum> = None;
+    let mut others = Vec::new();
+    for from in start.into_iter().cloned().chain(best_of_scan) {
+        let lower = match &best {
+            None => Some(from),
+            Some(best) => {
+                let other = descend(likelihood, best.deviance, from, None)?;
+                let is_lower = best.deviance.total(&other.residuals) < best.value() - BETTER;
+                others.push(if is_lower {
+                    best.point.clone()
+                } else {
+                    other.clone()
+                });
+                is_lower.then_some(other.free)
+            }
         };
-        spread.normalised(residuals, freedom, least)
+        let found = lower.and_then(|from| refine(likelihood, from, known).ok());
+        best = found.or(best);
     }
+    Ok((best.ok_or(CalibrationError::NotConverged)?, others))
+}
 
-    /// Descends from `start`, adapting the scale of the noise. Tukey's loss is not convex: Huber's leads to it.
-    pub fn refine(&self, start: Point, jacobian: Option<DMatrix<f64>>) -> Result<Optimum, CalibrationError> {
-        match self.evaluator.calibration.options.loss {
-            loss @ Loss::Tukey { .. } => {
-                let near = self.refine_with(Rho::Huber, start, jacobian)?;
-                self.refine_with(loss.rho(), near.point, Some(near.jacobian))
-            }
-            loss @ Loss::Squares => self.refine_with(loss.rho(), start, jacobian),
+/// Descends, adapting the scale of the noise.
+///
+/// # Errors
+///
+/// As for [`optimum`].
+pub(crate) fn refine(
+    likelihood: &Likelihood<'_>,
+    mut start: DVector<f64>,
+    known_noise: bool,
+) -> Result<Optimum, CalibrationError> {
+    let problem = likelihood.problem;
+    let data = problem.observations.len();
+    let least = problem.model_noise().fold(f64::MIN_POSITIVE, f64::max);
+    let mut deviance = Deviance {
+        loss: problem.options.loss,
+        data,
+        spread: 1.0,
+        normalisation: 1.0,
+    };
+    let freedom = (data as f64 - problem.asked as f64).max(1.0);
+    let residuals = likelihood.point(start.clone()).residuals;
+    deviance = deviance.scaled(&residuals, known_noise, freedom, least);
+    for round in 0..MAX_ROUNDS {
+        let point = descend(likelihood, deviance, start, None)?;
+        let mut found = Optimum::at(likelihood, point, deviance);
+        let freedom = (data as f64 - parameters_from_data(&found)).max(0.5);
+        let mut next = deviance.scaled(&found.point.residuals, known_noise, freedom, least);
+        if (next.noise() / deviance.noise()).ln().abs() < SCALE_TOLERANCE {
+            found.deviance = next;
+            return Ok(found);
         }
-    }
-
-    fn refine_with(
-        &self,
-        loss: Rho,
-        start: Point,
-        mut jacobian: Option<DMatrix<f64>>,
-    ) -> Result<Optimum, CalibrationError> {
-        let calibration = self.evaluator.calibration;
-        let data = calibration.observations.len();
-        let freedom = (data as f64 - calibration.parameters.len() as f64).max(1.0);
-        let first = Deviance {
-            loss,
-            data,
-            spread: 1.0,
-            normalisation: 1.0,
-        };
-        let mut deviance = self.scaled(first, &start.residuals, freedom);
-        let mut point = start;
-        let mut iterations = 0;
-        for round in 0..MAX_ROUNDS {
-            let mut optimum = self.descent(deviance, jacobian).run(point)?;
-            iterations += optimum.iterations;
-            optimum.iterations = iterations;
-            if !optimum.converged && optimum.offset >= NOISY {
-                let offset = optimum.offset;
-                return Err(CalibrationError::NotConverged { iterations, offset });
-            }
-            let freedom = (data as f64 - parameters_from_data(&optimum)).max(0.5);
-            let mut next = self.scaled(deviance, &optimum.point.residuals, freedom);
-            let change = |new: f64, old: f64| (new / old).ln().abs();
-            let moved = change(next.spread, deviance.spread);
-            // κ jumps as a residual crosses the loss's threshold, and only weighs data against priors.
-            let weighed = change(next.normalisation, deviance.normalisation);
-            if moved < SCALE_TOLERANCE && weighed < 10.0 * SCALE_TOLERANCE {
-                optimum.deviance = next;
-                return Ok(optimum);
-            }
-            if round > 1 {
-                // Half of a change, so that the rounds cannot go in a circle.
-                next.spread = (next.spread * deviance.spread).sqrt();
-            }
-            deviance = next;
-            point = optimum.point;
-            jacobian = Some(optimum.jacobian);
+        if round > 1 {
+            // Half of a change, so that the rounds cannot go in a circle.
+            next.spread = (next.spread * deviance.spread).sqrt();
         }
-        Err(CalibrationError::NotConverged {
-            iterations,
-            offset: f64::INFINITY,
-        })
+        (deviance, start) = (next, found.point.free);
     }
-
-    /// Points all over the range, the best first; before them the start, if there is one.
-    pub fn scan(&self, start: Option<DVector<f64>>, count: usize) -> Result<Vec<Point>, CalibrationError> {
-        let mut places: Vec<DVector<f64>> = start.into_iter().collect();
-        // Of several minima that are as good, the one next to the start is wanted.
-        let started = places.len();
-        let calibration = self.evaluator.calibration;
-        places.extend(all_over(calibration.parameters.len(), count));
-        let mut points = self.evaluator.points_with_terms(places, None)?;
-        let data = calibration.observations.len();
-        let score = |point: &Point| score(&point.residuals, data, self.known_noise);
-        points[started..].sort_by(|a, b| score(a).total_cmp(&score(b)));
-        points.retain(|point| feasible(&point.residuals));
-        Ok(points)
-    }
-
-    /// Descends from the first point of `scan`, and from the best of the others to see whether they lead lower.
-    ///
-    /// The second answer is a minimum elsewhere that is hardly higher.
-    pub fn best(&self, scan: &[Point]) -> Result<(Optimum, Option<Point>), CalibrationError> {
-        let mut found = Err(CalibrationError::NoFeasibleStart {
-            starts: self.evaluator.count(),
-            source: self.evaluator.last_failure(),
-        });
-        for (index, point) in scan.iter().take(1 + RESTARTS).enumerate() {
-            let descended = self.refine(point.clone(), None);
-            match descended {
-                Err(error) if error.is_final() => return Err(error),
-                // Of several failures the first is reported.
-                Err(_) if index > 0 => {}
-                other => found = other,
-            }
-            if found.is_ok() {
-                break;
-            }
-        }
-        let mut optimum = found?;
-        for _ in 0..RESTARTS {
-            match self.descend_elsewhere(scan, &optimum)? {
-                Some(other) if other.value() < optimum.value() - BETTER => {
-                    optimum = self.refine(other.point, None)?;
-                }
-                other => return Ok((optimum, other.map(|other| other.point))),
-            }
-        }
-        Ok((optimum, None))
-    }
-
-    /// A minimum elsewhere that is lower than `optimum` or hardly higher, if a descent from the best point far from it leads to one.
-    fn descend_elsewhere(
-        &self,
-        scan: &[Point],
-        optimum: &Optimum,
-    ) -> Result<Option<Optimum>, CalibrationError> {
-        let far = |point: &Point| (&point.free - &optimum.point.free).amax() > ELSEWHERE;
-        let Some(start) = scan.iter().skip(1).find(|point| far(point)) else {
-            return Ok(None);
-        };
-        let descent = self.brief_descent(optimum.deviance, None, None);
-        match descent.run(start.clone()) {
-            Ok(other) if other.value() < optimum.value() - BETTER => Ok(Some(other)),
-            Ok(other) if other.value() < optimum.value() + RIVAL && far(&other.point) => Ok(Some(other)),
-            Err(error) if error.is_final() => Err(error),
-            Ok(_) | Err(_) => Ok(None),
-        }
-    }
+    Err(CalibrationError::NotConverged)
 }

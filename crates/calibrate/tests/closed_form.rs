@@ -4,9 +4,7 @@ mod common;
 
 use std::error::Error;
 
-use calibrate::{
-    Calibration, CalibrationError, Loss, Model, ModelError, Parameter, Prior, Profiles, Scale, Warning,
-};
+use calibrate::{Calibration, CalibrationError, Loss, Model, ModelError, Parameter, Prior, Scale, Warning};
 use common::{noisy, options, passes, saturation, saturation_parameters, two_minima};
 use fastrand::Rng;
 
@@ -267,17 +265,13 @@ fn outliers_hardly_move_a_robust_fit() {
                 .unwrap()
                 .fit()
                 .unwrap();
-            (fit.estimates[0].value, fit.warnings)
+            (fit.estimates[0].value, fit.weights)
         };
         {
             let loss = Loss::TUKEY;
-            let ((before, _), (after, warnings)) = (force(&clean, loss), force(&spoiled, loss));
+            let ((before, _), (after, weights)) = (force(&clean, loss), force(&spoiled, loss));
             assert!((after / before - 1.0).abs() < 0.01, "{loss:?}: {before} {after}");
-            let named = warnings.iter().find_map(|w| match w {
-                Warning::Outliers { indices } => Some(indices.clone()),
-                _ => None,
-            });
-            assert!(named.is_some_and(|named| named.contains(&17) && named.contains(&33)));
+            assert!(weights[17] < 0.35 && weights[33] < 0.35, "{weights:?}");
         }
         let (before, after) = (force(&clean, Loss::Squares).0, force(&spoiled, Loss::Squares).0);
         misled += u32::from((after / before - 1.0).abs() > 0.01);
@@ -348,12 +342,7 @@ fn many_minima_do_not_trap_the_fit() {
         Parameter::new("wavenumber", 0.05, 1.0, Scale::Linear).unwrap(),
         Parameter::new("amplitude", 0.1, 10.0, Scale::Logarithmic).unwrap(),
     ];
-    let fit = Calibration::new(&model, parameters, data)
-        .unwrap()
-        .with_options(options(|options| options.scan = Some(200)))
-        .unwrap()
-        .fit()
-        .unwrap();
+    let fit = Calibration::new(&model, parameters, data).unwrap().fit().unwrap();
     assert!((fit.values()[0] - 0.31).abs() < 0.002, "{:?}", fit.values());
 }
 
@@ -383,7 +372,7 @@ fn a_second_minimum_is_told() {
         .fit()
         .unwrap();
     let rival = fit.warnings.iter().find_map(|w| match w {
-        Warning::Ambiguous { values } => Some(values[0]),
+        Warning::Ambiguous(values) => Some(values[0]),
         _ => None,
     });
     // The parabola is symmetric about 3.
@@ -426,7 +415,7 @@ fn a_model_that_always_fails_is_an_error_with_its_reason() {
         .fit()
         .unwrap_err();
     assert!(
-        matches!(&error, CalibrationError::NoFeasibleStart { starts: 24, .. }),
+        matches!(&error, CalibrationError::NoAnswer { places: 24, .. }),
         "{error}"
     );
     let reason = error.source().map(ToString::to_string);
@@ -494,7 +483,7 @@ fn limits_are_kept() {
         "{error}"
     );
 
-    let rough = calibration(options(|options| options.profiles = Profiles::None))
+    let rough = calibration(options(|options| options.profiles = false))
         .fit()
         .unwrap();
     assert!(rough.evaluations < fit.evaluations);
@@ -505,13 +494,13 @@ fn bad_input_is_named() {
     // The logarithms of these bounds are one number.
     assert!(matches!(
         Parameter::new("p", 1e10, 1e10_f64.next_up(), Scale::Logarithmic),
-        Err(CalibrationError::InvalidParameter { .. })
+        Err(CalibrationError::Invalid { .. })
     ));
     let model = saturation(&passes(5));
     let new = |data: Vec<f64>| Calibration::new(&model, saturation_parameters(), data);
     assert!(matches!(
         new(vec![1.0, f64::NAN]),
-        Err(CalibrationError::InvalidObservation { index: 1, .. })
+        Err(CalibrationError::Invalid { what, .. }) if what == "value of observation 1"
     ));
     assert!(matches!(
         new(vec![1.0, 2.0]).unwrap().fit(),
@@ -530,16 +519,13 @@ fn bad_input_is_named() {
     ));
     assert!(matches!(
         new(vec![1.0; 5]).unwrap().with_sigmas(vec![1.0; 4]),
-        Err(CalibrationError::SigmaCount {
-            sigmas: 4,
-            observations: 5
-        })
+        Err(CalibrationError::Invalid { value: 4.0, .. })
     ));
     assert!(matches!(
         new(vec![1.0; 5])
             .unwrap()
             .with_sigmas(vec![1.0, 1.0, 0.0, 1.0, 1.0]),
-        Err(CalibrationError::InvalidObservation { index: 2, .. })
+        Err(CalibrationError::Invalid { what, .. }) if what == "sigma of observation 2"
     ));
     for bad in [
         Parameter::new("a", 1.0, 1.0, Scale::Linear),
@@ -547,7 +533,7 @@ fn bad_input_is_named() {
         Parameter::new("a", 0.0, f64::INFINITY, Scale::Linear),
         Parameter::new("a", 0.0, 1.0, Scale::Logarithmic),
     ] {
-        assert!(matches!(bad, Err(CalibrationError::InvalidParameter { .. })));
+        assert!(matches!(bad, Err(CalibrationError::Invalid { .. })));
     }
     let same = vec![
         saturation_parameters().remove(0),

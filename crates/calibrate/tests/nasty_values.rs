@@ -1,6 +1,6 @@
 //! Whatever the numbers and the model: a fit or an error, never a panic.
 
-use calibrate::{Calibration, Loss, ModelError, Options, Parameter, Prior, Profiles, Scale};
+use calibrate::{Calibration, Loss, ModelError, Options, Parameter, Prior, Scale};
 use proptest::prelude::*;
 
 fn any_number() -> impl Strategy<Value = f64> {
@@ -68,9 +68,8 @@ proptest! {
         ordinary in any::<bool>(),
         observations in prop::collection::vec(prop_oneof![4 => -100.0..100.0_f64, 1 => any_number()], 0..7),
         sigmas in prop::option::of(any_number()),
-        (answer, scan, profiles, robust) in (answers(), prop::option::of(0_usize..20), any::<bool>(), any::<bool>()),
-        (confidence, tolerance, noise, threshold) in (any_number(), any_number(), any_number(), any_number()),
-        start in prop::option::of(prop::collection::vec(any_number(), 0..3)),
+        (answer, profiles, robust) in (answers(), any::<bool>(), any::<bool>()),
+        (confidence, noise, threshold) in (any_number(), any_number(), any_number()),
         evaluations in 0_usize..150,
     ) {
         let scale = |logarithmic| if logarithmic { Scale::Logarithmic } else { Scale::Linear };
@@ -92,13 +91,10 @@ proptest! {
         let among = |value: f64, good: bool, usual: f64| if good { value } else { usual };
         let mut hostile = Options::default();
         hostile.loss = if robust { Loss::Tukey { threshold } } else { Loss::Squares };
-        hostile.start = start;
-        hostile.scan = scan;
         hostile.max_evaluations = evaluations;
         hostile.confidence = among(confidence, !ordinary, default.confidence);
-        hostile.tolerance = among(tolerance, !ordinary, default.tolerance);
         hostile.relative_noise = among(noise, !ordinary, default.relative_noise);
-        hostile.profiles = if profiles { Profiles::All } else { Profiles::None };
+        hostile.profiles = profiles;
         let mut few = default;
         few.max_evaluations = evaluations.max(1);
         let calibration = match calibration.clone().with_options(hostile) {
@@ -109,10 +105,7 @@ proptest! {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()), "{:?}", fit.values());
             fit.shift(&[f64::NAN; 9]);
             fit.shift(&[]);
-        }
-        if let Ok((fit, emulator)) = calibration.fit_emulated(None) {
-            prop_assert!(fit.values().iter().all(|value| value.is_finite()));
-            let _ = calibration.fit_emulated(Some(&emulator));
+            let _ = calibration.with_coarse(fit.emulator).fit();
         }
     }
 }
