@@ -312,7 +312,7 @@ fn two_parts_are_one_life() {
         let first = run(&with("traffic.passes=25"));
         let second = go_on(&first, &with("traffic.passes=35")).expect("a second part");
         assert_eq!(second.start.expect("a start").passes, 25);
-        let [one, two] = [&whole, &second].map(|run| run.passes.last().expect("a pass").clone());
+        let [one, two] = [&whole, &second].map(|run| *run.passes.last().expect("a pass"));
         let accuracy = if method.ends_with("static") { 1e-9 } else { 0.01 };
         for (a, b) in [
             (one.downstream_force_n, two.downstream_force_n),

@@ -75,26 +75,28 @@ fn route(report: &Report) -> Vec<String> {
     let mut begin = 0.0;
     let sections = scene.route.iter().map(|section| {
         let end = begin + section.length.unwrap_or(0.0);
-        let mut words = format!("Section from {} to {}:", shown.length(begin), shown.length(end));
+        let (from, to) = (shown.length(begin), shown.length(end));
         begin = end;
         let way = if section.slope > 0.0 { "rises" } else { "falls" };
-        words += &match section.slope {
-            0.0 => " level".to_owned(),
-            slope => format!(" {way} by {} %", significant(100.0 * slope.abs())),
+        let slope = match section.slope {
+            0.0 => "level".to_owned(),
+            slope => format!("{way} by {} %", significant(100.0 * slope.abs())),
         };
-        if let Some(radius) = section.bend_radius {
-            let anchors = scene.cable.weight * radius;
-            let effect = if largest > anchors {
+        let bend = section.bend_radius.map_or_else(String::new, |radius| {
+            let effect = if largest > scene.cable.weight * radius {
                 "the cable’s force presses it sideways with more than its weight, so that the bend anchors it"
             } else {
                 "the cable’s force presses it sideways with less than its weight, which adds a few per cent"
             };
-            words += &format!(", bend of {} radius: {effect}", shown.length(radius));
-        }
-        if let Some(friction) = section.dynamic_coefficient {
-            words += &format!(", friction {}", significant(friction));
-        }
-        words + "."
+            format!(", bend of {} radius: {effect}", shown.length(radius))
+        });
+        let friction = section
+            .dynamic_coefficient
+            .map(|friction| format!(", friction {}", significant(friction)));
+        format!(
+            "Section from {from} to {to}: {slope}{bend}{}.",
+            friction.unwrap_or_default()
+        )
     });
     sections.collect()
 }

@@ -340,7 +340,7 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
             scene.route = vec![
                 section(Some(value), 0.0, None, None),
                 section(None, 0.0, Some(value), None),
-            ]
+            ];
         }
         38 => scene.route = vec![section(None, 0.0, None, Some(value))],
         _ => {
