@@ -10,9 +10,11 @@ mod random_spread;
 mod simulation;
 mod solved;
 mod solver;
+mod task;
 
 pub use listing::listed_passes;
 pub use on_meshes::solve;
 pub use options::{FixedMesh, RunOptions};
-pub use simulation::{Jumping, Passes, Simulation, Task, force_profile, seldom_passes};
+pub use simulation::{Jumping, Passes, Simulation, force_profile, seldom_passes};
 pub use solved::Solved;
+pub use task::Task;

@@ -7,7 +7,8 @@
 
 use cable_dem::{CableState, Order, Statistics};
 
-use super::simulation::{Passes, Simulation, Task};
+use super::simulation::{Passes, Simulation};
+use super::task::Task;
 use crate::Error;
 use crate::answer::{Quantiles, RandomSpread, larger};
 use crate::cable::traffic;

@@ -1,33 +1,18 @@
 //! All passes of a scene on one mesh: every one simulated, or few with jumps between them.
 
-use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics};
+use cable_dem::{CableError, CableState, DuctedCable, PassOutcome, SigmoidLeak, Statistics};
 use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve};
-use ground_field::DuctMotion;
 
 use super::listing::{Listing, listed_passes};
 use super::solver::PassSolver;
+use super::task::Task;
+use crate::Error;
 use crate::answer::differences::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
 use crate::ground::length_scale;
-use crate::plan::{CableMethod, Period, Plan};
-use crate::scene::Scene;
+use crate::plan::Period;
 use crate::tuning::jumps::{DOUBTFUL, FEW, PATIENCE, PATIENCE_WITH_MANY};
-use crate::{Error, Progress, SavedState};
-
-/// The passes of a scene on one mesh.
-#[derive(Clone, Copy)]
-pub struct Task<'a> {
-    pub scene: &'a Scene,
-    pub method: CableMethod,
-    pub motions: &'a [DuctMotion],
-    pub mesh: Mesh,
-    /// The state that the passes begin with, if not as laid.
-    pub start: Option<&'a SavedState>,
-    /// Passes at which the cable is looked at.
-    pub stages: &'a [u64],
-    pub progress: Progress<'a>,
-}
 
 /// How jumps are taken.
 #[derive(Debug, Clone, Copy)]
@@ -85,22 +70,6 @@ pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForcePro
             .collect(),
         force_n,
     })
-}
-
-impl Plan<'_> {
-    /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and
-    /// progress.
-    pub fn task<'a>(&'a self, scene: &'a Scene, mesh: Mesh) -> Task<'a> {
-        Task {
-            scene,
-            method: self.choice.method.cable_method(),
-            motions: &self.ground.motions,
-            mesh,
-            start: self.start,
-            stages: &[],
-            progress: Progress::default(),
-        }
-    }
 }
 
 impl Task<'_> {

@@ -5,7 +5,7 @@ use cable_dem::{
     SigmoidLeak,
 };
 
-use super::simulation::Task;
+use super::task::Task;
 use crate::Error;
 use crate::answer::FrictionProfile;
 use crate::cable::mass;
