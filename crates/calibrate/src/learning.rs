@@ -68,13 +68,6 @@ pub(crate) fn converge(
             emulator.optimum = Some(optimum);
             return Ok(solution);
         }
-        eprintln!(
-            "DBG places {} complete {} known {} runs {}",
-            places.len(),
-            solution.is_complete,
-            emulator.known(&optimum).is_some(),
-            emulator.evaluations()
-        );
         run(problem, emulator, places)?;
         last = Some(free);
     }

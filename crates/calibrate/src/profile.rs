@@ -15,7 +15,7 @@ use crate::covariance::Covariance;
 use crate::descent::{Optimum, descend};
 use crate::likelihood::{Likelihood, Point};
 use crate::parameter::FARTHEST;
-use crate::tuning::{ACCURACY, GRID, JUMP};
+use crate::tuning::{ACCURACY, BETTER, GRID, JUMP};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
@@ -38,6 +38,7 @@ impl ProfilePoint {
 }
 
 /// The profile of one parameter.
+#[derive(Clone)]
 pub(crate) struct Profile {
     parameter: usize,
     /// In the order of the parameter.
@@ -56,6 +57,15 @@ impl Profile {
         let mut curve: Vec<(f64, f64)> = all.filter(|(_, rise)| rise.is_finite()).collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         curve
+    }
+
+    /// Whether a point lies below both values between which it lies.
+    fn lies_above(&self, point: &ProfilePoint) -> bool {
+        let k = self.parameter;
+        let is_before = |other: &ProfilePoint| other.point.free[k] < point.point.free[k];
+        let next = self.points.partition_point(is_before);
+        let mut around = self.points[next.saturating_sub(1)..].iter().take(2);
+        around.all(|other| point.rise < other.rise - BETTER)
     }
 
     /// Points within reach of the optimum, which is at `here`, beyond some that are not.
@@ -80,9 +90,30 @@ pub(crate) struct Profiler<'a> {
 }
 
 impl Profiler<'_> {
-    /// The profile of parameter `k`: from the optimum to both bounds, and from there to the other bound and
+    /// The profiles of the first `count` parameters. What one of them finds is true for all: where a point
+    /// of another lies below a profile, that one is in a wrong valley there.
+    pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
+        let first = (0..count).map(|k| self.profile(k, &[]));
+        let first = first.collect::<Result<Vec<_>, _>>()?;
+        let again = |own: &Profile| {
+            let others = first.iter().filter(|other| other.parameter != own.parameter);
+            let within = others.flat_map(|other| &other.points);
+            let within = within.filter(|point| point.root() < EXCLUSION * self.wanted);
+            let below: Vec<Point> = within
+                .filter(|point| own.lies_above(point))
+                .map(|point| point.point.clone())
+                .collect();
+            if below.is_empty() {
+                return Ok(own.clone());
+            }
+            self.profile(own.parameter, &below)
+        };
+        first.iter().map(again).collect()
+    }
+
+    /// The profile of parameter `k`, and through known points: from the optimum to both bounds, and from there to the other bound and
     /// back, of which the lower counts.
-    pub fn profile(&self, k: usize) -> Result<Profile, CalibrationError> {
+    fn profile(&self, k: usize, known: &[Point]) -> Result<Profile, CalibrationError> {
         let mut points = vec![ProfilePoint {
             point: self.optimum.point.clone(),
             rise: 0.0,
@@ -95,7 +126,8 @@ impl Profiler<'_> {
         }
         // A valley elsewhere may be narrower than a step of the grid.
         let far = |point: &&Point| (&point.free - &self.optimum.point.free).amax() >= JUMP;
-        points.extend(self.others.iter().filter(far).map(|point| self.at(point.clone())));
+        let known = self.others.iter().filter(far).chain(known);
+        points.extend(known.map(|point| self.at(point.clone())));
         points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
         for index in (0..points.len() - 1).rev() {
             self.lower(k, &mut points, index, index + 1)?;

@@ -73,9 +73,7 @@ pub(crate) fn solve(
             covariance: &covariance,
             others: &others,
         };
-        let profiled = 0..if is_profiled { problem.asked } else { 0 };
-        let profiles = profiled.map(|k| profiler.profile(k));
-        let profiles: Vec<Profile> = profiles.collect::<Result<_, _>>()?;
+        let profiles = profiler.profiles(if is_profiled { problem.asked } else { 0 })?;
         let points = profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise));
         if let Some(lower) = lowest.filter(|lowest| lowest.rise < -least.max(BETTER)) {
