@@ -2,10 +2,12 @@
 
 mod approach;
 mod cable;
+mod carried;
 mod course;
 mod ends;
 mod error;
 mod explicit;
+mod extremes;
 mod friction;
 mod inertia;
 mod laid;
@@ -23,6 +25,7 @@ mod tuning;
 
 pub use approach::approach;
 pub use cable::{DuctedCable, End, Restraint};
+pub use carried::carried;
 pub use ends::EndForces;
 pub use error::CableError;
 pub use explicit::{

@@ -1,5 +1,6 @@
 //! What a pass reports: forces, peaks, movements, and what it cost.
 
+use crate::extremes::extremes;
 use crate::{CableError, CableState, DuctedCable, EndForces, Statistics};
 
 /// What one pass did.
@@ -127,7 +128,7 @@ impl Recorder {
         self.record(force);
         let (least, largest) = [force.upstream, force.downstream]
             .into_iter()
-            .fold(state.extremes(cable), |(least, largest), force| {
+            .fold(extremes(state, cable), |(least, largest), force| {
                 (least.min(force), largest.max(force))
             });
         Ok(PassOutcome {

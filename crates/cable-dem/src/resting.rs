@@ -103,7 +103,7 @@ impl RestingCable {
     /// Takes clamps that slip and have slid from `before` to `after` as ones that bear a force and are no springs, and the others as
     /// springs: what the cable answers to a small change then.
     pub fn release(&mut self, before: &CableState, after: &CableState) {
-        self.step.chain.release(before, after);
+        self.step.chain.release(&before.clamp_slips, &after.clamp_slips);
     }
 
     /// The cable of `state` with its nodes displaced by `displacement` \[m\] and clamps that slide ([`RestingCable::release`]) taken along;
@@ -119,7 +119,7 @@ impl RestingCable {
         moved.clamp_slips.clone_from(&state.clamp_slips);
         for grip in &self.step.chain.grips {
             let advance = moved.displacement[grip.node] - state.displacement[grip.node];
-            grip.follow(advance, &mut moved);
+            grip.follow(advance, &mut moved.clamp_slips);
         }
         Ok(moved)
     }
@@ -128,7 +128,8 @@ impl RestingCable {
     /// [`DuctedCable::restraints`].
     pub fn bear(&self, state: &mut CableState, forces: &[f64]) {
         for grip in &self.step.chain.grips {
-            grip.bear_in(state, forces, self.cable.restraints());
+            let u = state.displacement[grip.node];
+            grip.bear_in(&mut state.clamp_slips, u, forces, self.cable.restraints());
         }
     }
 
@@ -191,7 +192,7 @@ impl RestingCable {
     /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
-        self.step.chain.grip(state);
+        self.step.chain.grip(&state.clamp_slips);
         self.heat(state.thermal_force);
         self.press(state, state.thermal_force);
         let StepSolver { chain, .. } = &self.step;
@@ -265,7 +266,7 @@ impl RestingCable {
         thermal_force: f64,
         movement: f64,
     ) -> Result<f64, CableError> {
-        self.step.chain.grip(state);
+        self.step.chain.grip(&state.clamp_slips);
         self.heat(thermal_force);
         self.press(state, thermal_force);
         let duct = duct.unwrap_or(&self.nothing);
@@ -307,7 +308,7 @@ impl RestingCable {
         let mut heat = 0.0;
         for grip in &mut chain.grips {
             heat += grip.settle(trial.r[grip.node]);
-            grip.store(state);
+            grip.store(&mut state.clamp_slips);
         }
         let (u, f) = (&mut state.displacement, &mut state.friction);
         for (i, node) in chain.nodes.iter().enumerate() {

@@ -5,9 +5,6 @@ use crate::error::checked;
 use crate::step::Chain;
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
-/// A clamp nearer to a node than this share of the spacing counts as on it.
-const AT_NODE: f64 = 1e-6;
-
 /// Rounding of the force in an element, as a share of the largest.
 const ROUNDING: f64 = 1e-9;
 
@@ -145,8 +142,7 @@ impl CableState {
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless all are finite.
-    #[cfg(feature = "serde")]
-    fn with_clamp_slips(mut self, slips: Vec<[f64; 2]>) -> Result<Self, CableError> {
+    pub fn with_clamp_slips(mut self, slips: Vec<[f64; 2]>) -> Result<Self, CableError> {
         for &slip in slips.as_flattened() {
             checked("slip of a clamp", slip, "finite", |_| true)?;
         }
@@ -160,60 +156,6 @@ impl CableState {
         let last = self.mesh.elements();
         (self.friction[0], self.friction[last]) = (upstream, downstream);
         self
-    }
-
-    /// The same cable on another `mesh` of the duct, with displacements along cubics through four nodes; a clamp has slipped as far on both
-    /// of its nodes. On its own mesh it is the same to the last bit. Not yet at rest ([`crate::RestingCable::settle`]).
-    ///
-    /// # Errors
-    ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long.
-    pub fn on(&self, mesh: &Mesh) -> Result<Self, CableError> {
-        self.mesh.check_length(mesh.length())?;
-        if self.mesh == mesh.nodes_alone() {
-            return Ok(self.clone());
-        }
-        let last = self.mesh.elements();
-        let read = |values: &[f64], node: usize| {
-            let (left, share) = self.mesh.place(mesh.spacing() * node as f64);
-            let first = left.saturating_sub(1).min(last.saturating_sub(3));
-            let at = (left - first) as f64 + share;
-            let nodes = &values[first..=(first + 3).min(last)];
-            let weight = |i: usize| {
-                let others = (0..nodes.len()).filter(|j| *j != i);
-                others
-                    .map(|j| (at - j as f64) / (i as f64 - j as f64))
-                    .product::<f64>()
-            };
-            nodes.iter().enumerate().map(|(i, value)| weight(i) * value).sum()
-        };
-        let all = |values: &[f64]| (0..mesh.nodes()).map(|node| read(values, node)).collect();
-        let mut state = Self::from_parts(mesh, all(&self.displacement), all(&self.friction))?;
-        let ends = [self.friction[0], self.friction[last]];
-        (state.displacement[0], state.displacement[mesh.elements()]) =
-            (self.displacement[0], self.displacement[last]);
-        state = state
-            .with_end_friction(ends)
-            .with_thermal_force(self.thermal_force)?;
-        state.clamp_slips = self
-            .clamp_slips
-            .iter()
-            .map(|[before, after]| [0.5 * (before + after); 2])
-            .collect();
-        Ok(state)
-    }
-
-    /// The same with this slip of each clamp of a cable \[m\], on both of its nodes.
-    ///
-    /// # Errors
-    ///
-    /// [`CableError::InvalidParameter`] unless all are finite.
-    pub fn with_slipped_clamps(mut self, slips: &[f64]) -> Result<Self, CableError> {
-        for &slip in slips {
-            checked("slip of a clamp", slip, "finite", |_| true)?;
-        }
-        self.clamp_slips = slips.iter().map(|slip| [*slip; 2]).collect();
-        Ok(self)
     }
 
     /// How far each clamp of `cable` has slipped \[m\], positive toward growing x, in the order of [`DuctedCable::restraints`].
@@ -234,6 +176,11 @@ impl CableState {
     /// Θ = EA α T \[N\]: the compression that heat makes in a cable that cannot move.
     pub fn thermal_force(&self) -> f64 {
         self.thermal_force
+    }
+
+    /// Its nodes.
+    pub(crate) fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
 
     /// Distance between nodes \[m\].
@@ -355,53 +302,8 @@ impl CableState {
         self.mesh.check_length(cable.length())?;
         let mut chain = Chain::new(cable, &self.mesh);
         chain.press(|i| self.displacement[i], self.thermal_force);
-        chain.grip(self);
+        chain.grip(&self.clamp_slips);
         Ok(chain)
-    }
-
-    /// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
-    /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both
-    /// sides: the force beside the clamp follows from its neighbours.
-    pub(crate) fn extremes(&self, cable: &DuctedCable) -> (f64, f64) {
-        let (mesh, f) = (&self.mesh, &self.friction);
-        let h = mesh.spacing();
-        let stiffness = cable.axial_stiffness() / h;
-        let force = |element: usize| {
-            stiffness * (self.displacement[element] - self.displacement[element + 1]) + self.thermal_force
-        };
-        let body = cable.body_loads(mesh);
-        let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
-        let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
-        let after = |node: usize| force(node) - 0.5 * h * drag(node);
-        let clamps = cable.restraints().iter().filter(|clamp| clamp.stiffness > 0.0);
-        let places: Vec<(usize, f64)> = clamps
-            .map(|clamp| mesh.place(clamp.position))
-            .filter(|(_, share)| (AT_NODE..1.0 - AT_NODE).contains(share))
-            .collect();
-        let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut note = |force: f64| {
-            least = if force < least { force } else { least };
-            largest = if force > largest { force } else { largest };
-        };
-        let mut left = drag(0);
-        for element in 0..mesh.elements() {
-            let (middle, right) = (force(element), drag(element + 1));
-            if !places.iter().any(|(clamped, _)| *clamped == element) {
-                note(middle - 0.5 * h * left);
-                note(middle);
-                note(middle + 0.5 * h * right);
-            }
-            left = right;
-        }
-        for (element, share) in places {
-            if element > 0 {
-                note(before(element) + share * h * drag(element));
-            }
-            if element + 1 < mesh.elements() {
-                note(after(element + 1) - (1.0 - share) * h * drag(element + 1));
-            }
-        }
-        (least, largest)
     }
 
     /// Refuses a state of another mesh.

@@ -1,7 +1,7 @@
 //! The state that a run leaves behind, with which another run goes on: other traffic, more clamps,
 //! other ends.
 
-use cable_dem::{CableError, CableState, DuctedCable, End, Mesh, RestingCable, Restraint};
+use cable_dem::{CableError, CableState, DuctedCable, End, Mesh, RestingCable, Restraint, carried};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -214,12 +214,12 @@ impl SavedState {
     /// The cable of `scene` on `mesh` at rest in this state, with what it finds there.
     pub(crate) fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
         let cable = self.cable(scene)?;
-        let mut state = self.cable.on(mesh)?;
+        let mut state = carried(&self.cable, mesh)?;
         if *state.displacement() != *self.cable.displacement() || self.clamps.len() != scene.restraints.len()
         {
             let slips: Vec<f64> = scene.restraints.iter().map(|clamp| self.slipped(clamp)).collect();
             if slips.iter().any(|slip| *slip != 0.0) {
-                state = state.with_slipped_clamps(&slips)?;
+                state = state.with_clamp_slips(slips.iter().map(|slip| [*slip; 2]).collect())?;
             }
         }
         if !cable.friction().law().has_memory() {

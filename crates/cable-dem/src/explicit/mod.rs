@@ -330,7 +330,7 @@ fn run(
     let count = lumped.mesh.nodes();
     let time_step = duct.duration() / steps as f64;
     for grip in &mut lumped.grips {
-        grip.start(state);
+        grip.start(&state.clamp_slips);
     }
     let elastic = lumped.elastic_energy(&state.displacement);
     let mut nodes = MovingNodes::new(state);
@@ -363,7 +363,7 @@ fn run(
     recorder.statistics.widest_window = count;
     nodes.store(state);
     for grip in &lumped.grips {
-        grip.store(state);
+        grip.store(&mut state.clamp_slips);
     }
     Ok(energy)
 }

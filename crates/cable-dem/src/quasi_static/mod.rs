@@ -163,7 +163,7 @@ impl QuasiStatic {
                     state.friction[node] = g[node] + snapshot.adhesion[node];
                 }
                 for grip in grips {
-                    grip.store(&mut state);
+                    grip.store(&mut state.clamp_slips);
                 }
                 if mirrored {
                     state.mirror();

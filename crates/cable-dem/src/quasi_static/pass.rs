@@ -79,7 +79,7 @@ impl ForwardSolver {
             *anchor = r + self.step.chain.compliance * g;
         }
         self.step.trial.r.copy_from_slice(&self.r);
-        self.step.chain.grip(state);
+        self.step.chain.grip(&state.clamp_slips);
         self.supports
             .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
@@ -116,7 +116,7 @@ impl ForwardSolver {
         state.displacement.copy_from_slice(&self.r);
         state.friction.copy_from_slice(&self.g);
         for grip in &self.step.chain.grips {
-            grip.store(state);
+            grip.store(&mut state.clamp_slips);
         }
         self.recorder.statistics += self.step.statistics;
         Ok(self.recorder)
@@ -268,7 +268,11 @@ impl ForwardSolver {
             (stretch, growth) = (grown, next);
         }
         let StepSolver { chain, trial, .. } = &mut self.step;
-        for grip in chain.grips.iter_mut().filter(|grip| grip.is_within(stretch)) {
+        for grip in chain
+            .grips
+            .iter_mut()
+            .filter(|grip| stretch.nodes().contains(&grip.node))
+        {
             let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
             self.recorder.dissipated += grip.settle(u);
         }

@@ -4,8 +4,7 @@
 //! slips, u the displacement of its node. The first makes it a spring of the chain, the second a load. A clamp between two nodes is a
 //! spring on each of them, by the lever rule, which bears its share of the clamp's holding force.
 
-use super::problem::Stretch;
-use crate::{CableState, DuctedCable, Mesh, Restraint};
+use crate::{DuctedCable, Mesh, Restraint};
 
 /// A holding force is exceeded from this share beyond it on: rounding is not.
 const ROUNDING: f64 = 1e-9;
@@ -64,42 +63,37 @@ impl Grip {
         self.slides == 0.0
     }
 
-    /// Whether the step on `stretch` moves it.
-    pub fn is_within(&self, stretch: Stretch) -> bool {
-        stretch.nodes().contains(&self.node)
+    /// Goes on from the `slips` of all clamps \[m\], stuck.
+    pub fn start(&mut self, slips: &[[f64; 2]]) {
+        (self.slip, self.slides) = (self.slip_in(slips), 0.0);
     }
 
-    /// Goes on from `state`, stuck.
-    pub fn start(&mut self, state: &CableState) {
-        (self.slip, self.slides) = (self.slip_in(state), 0.0);
-    }
-
-    fn slip_in(&self, state: &CableState) -> f64 {
+    /// How far it has slipped in the `slips` of all clamps, before and after each \[m\].
+    fn slip_in(&self, slips: &[[f64; 2]]) -> f64 {
         let (restraint, side) = self.place;
-        let slips = state.clamp_slips.get(restraint).copied().unwrap_or_default();
-        slips[side.min(1)]
+        slips.get(restraint).map_or(0.0, |slips| slips[side.min(1)])
     }
 
-    /// Slides if it has slid since the state `before`; whether it has.
-    pub fn slide(&mut self, before: &CableState) -> bool {
+    /// Slides if it has slid since the slips `before`; whether it has.
+    pub fn slide(&mut self, before: &[[f64; 2]]) -> bool {
         let slid = self.slip - self.slip_in(before);
         self.slides = if slid == 0.0 { 0.0 } else { slid.signum() };
         slid != 0.0
     }
 
-    /// Slips in `state` by the `advance` of its node \[m\] if it slides.
-    pub fn follow(&self, advance: f64, state: &mut CableState) {
+    /// Slips in `slips` by the `advance` of its node \[m\] if it slides.
+    pub fn follow(&self, advance: f64, slips: &mut Vec<[f64; 2]>) {
         if !self.is_stuck() {
-            self.store_slip(self.slip_in(state) + advance, state);
+            self.store_slip(self.slip_in(slips) + advance, slips);
         }
     }
 
-    /// If it slides, slips in `state` until its clamp bears its part of these `forces` on all `clamps` \[N\].
-    pub fn bear_in(&self, state: &mut CableState, forces: &[f64], clamps: &[Restraint]) {
+    /// If it slides, slips in `slips` until its clamp bears its part of these `forces` on all `clamps` \[N\], where its node is displaced
+    /// by `u` \[m\].
+    pub fn bear_in(&self, slips: &mut Vec<[f64; 2]>, u: f64, forces: &[f64], clamps: &[Restraint]) {
         if !self.is_stuck() {
             let (restraint, _) = self.place;
-            let stretch = forces[restraint] / clamps[restraint].stiffness;
-            self.store_slip(state.displacement[self.node] - stretch, state);
+            self.store_slip(u - forces[restraint] / clamps[restraint].stiffness, slips);
         }
     }
 
@@ -160,18 +154,17 @@ impl Grip {
         0.5 * self.stiffness * (u - self.slip).powi(2)
     }
 
-    /// Writes how far it has slipped to `state`.
-    pub fn store(&self, state: &mut CableState) {
-        self.store_slip(self.slip, state);
+    /// Writes how far it has slipped to the `slips` of all clamps.
+    pub fn store(&self, slips: &mut Vec<[f64; 2]>) {
+        self.store_slip(self.slip, slips);
     }
 
-    fn store_slip(&self, slip: f64, state: &mut CableState) {
+    fn store_slip(&self, slip: f64, slips: &mut Vec<[f64; 2]>) {
         let (restraint, side) = self.place;
-        let count = state.clamp_slips.len().max(restraint + 1);
-        state.clamp_slips.resize(count, [0.0; 2]);
+        slips.resize(slips.len().max(restraint + 1), [0.0; 2]);
         match side {
-            2 => state.clamp_slips[restraint] = [slip; 2],
-            side => state.clamp_slips[restraint][side] = slip,
+            2 => slips[restraint] = [slip; 2],
+            side => slips[restraint][side] = slip,
         }
     }
 }

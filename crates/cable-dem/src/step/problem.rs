@@ -13,7 +13,7 @@ use super::grip::Grip;
 use super::support::Support;
 use crate::section::{Section, limit_of};
 use crate::tridiagonal::Row;
-use crate::{CableState, DuctedCable, Mesh, Restraint};
+use crate::{DuctedCable, Mesh, Restraint};
 
 /// State of the contact between one node and the duct.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -266,11 +266,11 @@ impl Chain {
         self.is_held = self.is_held_for_ever || self.grips.iter().any(Grip::is_stuck);
     }
 
-    /// Lets all clamps stick, slipped as in `state`.
-    pub fn grip(&mut self, state: &CableState) {
+    /// Lets all clamps stick that have slipped by these `slips` before and after each \[m\].
+    pub fn grip(&mut self, slips: &[[f64; 2]]) {
         for index in 0..self.grips.len() {
             let was_stuck = self.grips[index].is_stuck();
-            self.grips[index].start(state);
+            self.grips[index].start(slips);
             if !was_stuck {
                 self.hang(index, 1.0);
             }
@@ -278,7 +278,7 @@ impl Chain {
     }
 
     /// Takes away the springs of clamps that have slid from `before` to `after`, and no others.
-    pub fn release(&mut self, before: &CableState, after: &CableState) {
+    pub fn release(&mut self, before: &[[f64; 2]], after: &[[f64; 2]]) {
         self.grip(after);
         for index in 0..self.grips.len() {
             if self.grips[index].slide(before) {
@@ -293,7 +293,7 @@ impl Chain {
         let mut corrected = false;
         for index in 0..self.grips.len() {
             let grip = &mut self.grips[index];
-            if grip.is_within(stretch) && grip.correct(u(grip.node)) {
+            if stretch.nodes().contains(&grip.node) && grip.correct(u(grip.node)) {
                 let sign = if grip.is_stuck() { 1.0 } else { -1.0 };
                 self.hang(index, sign);
                 corrected = true;
