@@ -159,7 +159,9 @@ proptest! {
         known: bool,
     ) {
         let mut data = measured(off, seed);
-        data.iter_mut().for_each(|value| *value += constant);
+        for value in &mut data {
+            *value += constant;
+        }
         let sigma = known.then_some(NOISE);
         let (plain, wider) = (fit(data.clone(), None, sigma), fit(data, Some(size), sigma));
         let [plain, wider] = [plain, wider].map(|fit| fit.estimates[0].interval);
