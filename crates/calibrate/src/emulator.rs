@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::kriging::{Design, Kriging, is_same};
 use crate::tuning::NUGGETS;
-use crate::{Calibration, CalibrationError, Parameter, Part};
+use crate::{CalibrationError, Parameter, Part};
 
 /// What a fit learned of its model: its runs, and smooth functions through them.
 #[derive(Debug, Clone)]
@@ -34,19 +34,24 @@ pub struct Emulator {
 }
 
 impl Emulator {
-    /// One that has seen no run of the problem's model.
+    /// One that has seen no run of a model with these `parameters` and `parts`, whose own noise is the share
+    /// `relative_noise` of its predictions; it learns what a `trend` misses.
     ///
     /// # Errors
     ///
     /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and a coarse emulator
     /// of other parameters or parts.
-    pub(crate) fn new(problem: &Calibration<'_>) -> Result<Self, CalibrationError> {
-        let of_model = problem.of_model().into_iter();
+    pub(crate) fn new(
+        parameters: Vec<Parameter>,
+        parts: Vec<Part>,
+        relative_noise: f64,
+        trend: Option<Arc<Self>>,
+    ) -> Result<Self, CalibrationError> {
         let emulator = Self {
-            parameters: of_model.map(|k| problem.parameters[k].clone()).collect(),
-            parts: problem.parts()?,
-            trend: problem.coarse.clone(),
-            nugget: problem.options.relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
+            parameters,
+            parts,
+            trend,
+            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
             runs: Vec::new(),
             failures: Vec::new(),
             krigings: Vec::new(),

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::parameter::FARTHEST;
+use crate::problem::Problem;
 use crate::solution::{Solution, freedom};
-use crate::{Calibration, Emulator, Estimate, Warning};
+use crate::{Emulator, Estimate, Warning};
 
 /// A calibrated model.
 #[derive(Debug, Clone)]
@@ -49,7 +50,7 @@ pub struct Fit {
 
 impl Fit {
     /// The answer of a solution at whose optimum the model ran.
-    pub(crate) fn new(problem: &Calibration<'_>, emulator: Emulator, solution: Solution) -> Self {
+    pub(crate) fn new(problem: &Problem<'_>, emulator: Emulator, solution: Solution) -> Self {
         let (optimum, count) = (&solution.optimum, problem.observations.len());
         let deviance = optimum.deviance;
         let observed = DVector::from_column_slice(&problem.observations);
@@ -134,7 +135,7 @@ impl Fit {
 }
 
 /// What is to be said of a solution.
-fn warnings(problem: &Calibration<'_>, solution: &Solution) -> Vec<Warning> {
+fn warnings(problem: &Problem<'_>, solution: &Solution) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
     for (estimate, free) in solution.estimates.iter().zip(&solution.optimum.point.free) {
         let (name, interval, value) = (estimate.name.clone(), estimate.interval, estimate.value);

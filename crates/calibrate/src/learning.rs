@@ -10,10 +10,11 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::likelihood::Likelihood;
+use crate::problem::Problem;
 use crate::search::all_over;
 use crate::solution::{Solution, solve};
 use crate::tuning::FIRST_RUNS;
-use crate::{Calibration, CalibrationError, Emulator, ModelError};
+use crate::{CalibrationError, Emulator, ModelError};
 
 /// Rounds after which the emulator is taken not to learn any more: five parameters of two series with the
 /// ripple of a mesh take thirty.
@@ -25,9 +26,14 @@ const ROUNDS: usize = 80;
 ///
 /// Those of the model's parts, [`CalibrationError::EvaluationLimit`], and
 /// [`CalibrationError::NoAnswer`] if the model has none at any of these places.
-pub(crate) fn begin(problem: &Calibration<'_>) -> Result<Emulator, CalibrationError> {
-    let mut emulator = Emulator::new(problem)?;
-    let dimensions = problem.of_model().len();
+pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError> {
+    let parameters: Vec<_> = problem
+        .of_model()
+        .into_iter()
+        .map(|k| problem.parameters[k].clone())
+        .collect();
+    let (dimensions, noise) = (parameters.len(), problem.options.relative_noise);
+    let mut emulator = Emulator::new(parameters, problem.parts()?, noise, problem.coarse.clone())?;
     let places = match &problem.coarse {
         Some(coarse) => coarse.optimum.iter().cloned().collect(),
         None => all_over(dimensions, FIRST_RUNS * (1 + dimensions)),
@@ -47,10 +53,7 @@ pub(crate) fn begin(problem: &Calibration<'_>) -> Result<Emulator, CalibrationEr
 ///
 /// [`CalibrationError::NotConverged`], [`CalibrationError::EvaluationLimit`], and
 /// [`CalibrationError::PredictionLength`].
-pub(crate) fn converge(
-    problem: &Calibration<'_>,
-    emulator: &mut Emulator,
-) -> Result<Solution, CalibrationError> {
+pub(crate) fn converge(problem: &Problem<'_>, emulator: &mut Emulator) -> Result<Solution, CalibrationError> {
     let mut last: Option<DVector<f64>> = None;
     for _ in 0..ROUNDS {
         let likelihood = Likelihood::new(problem, emulator);
@@ -77,7 +80,7 @@ pub(crate) fn converge(
 /// Runs the model at places where it has not run yet, and learns what it says; why it had no answer, if
 /// it had none at one of them.
 fn run(
-    problem: &Calibration<'_>,
+    problem: &Problem<'_>,
     emulator: &mut Emulator,
     places: Vec<DVector<f64>>,
 ) -> Result<Option<ModelError>, CalibrationError> {

@@ -17,6 +17,7 @@ mod loss;
 mod model;
 mod options;
 mod parameter;
+mod problem;
 mod profile;
 mod search;
 mod solution;

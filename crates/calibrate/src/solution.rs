@@ -7,10 +7,11 @@ use crate::covariance::{Covariance, parameters_from_data, quantile};
 use crate::descent::Optimum;
 use crate::estimate::{Estimate, Interval};
 use crate::likelihood::{Likelihood, Point};
+use crate::problem::Problem;
 use crate::profile::{EXCLUSION, Profile, ProfilePoint, Profiler};
 use crate::search::{self, MAX_ROUNDS};
 use crate::tuning::{BETTER, FAR, HIDDEN, HIGH, NEAR, SETTLED, SURE};
-use crate::{Calibration, CalibrationError, Loss, Parameter, Scale, Warning};
+use crate::{CalibrationError, Loss, Parameter, Scale, Warning};
 
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not
 /// believed.
@@ -95,7 +96,7 @@ pub(crate) fn solve(
 }
 
 /// The model's own noise, in standard errors of all readings together.
-fn noise(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
+fn noise(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
     let weights = optimum.deviance.weights(&optimum.point.residuals);
     let squares = problem.model_noise().zip(&weights);
     let squares = squares.map(|(noise, weight)| weight * noise * noise);
@@ -103,7 +104,7 @@ fn noise(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
 }
 
 /// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
-fn misfit(problem: &Calibration<'_>, optimum: &Optimum) -> Option<Warning> {
+fn misfit(problem: &Problem<'_>, optimum: &Optimum) -> Option<Warning> {
     if !problem.knows_noise || problem.options.loss != Loss::Squares {
         return None;
     }
@@ -118,7 +119,7 @@ fn misfit(problem: &Calibration<'_>, optimum: &Optimum) -> Option<Warning> {
 }
 
 /// Observations less the parameters that they determine.
-pub(crate) fn freedom(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
+pub(crate) fn freedom(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
     (problem.observations.len() as f64 - parameters_from_data(optimum)).max(0.0)
 }
 
