@@ -19,6 +19,8 @@ pub(crate) struct Grip {
     pub node: usize,
     /// \[N/m\]
     pub stiffness: f64,
+    /// Diagonal of its node's row with all springs.
+    pub diagonal: f64,
     /// Holding force \[N\].
     holds: f64,
     /// How far it has slipped before the step \[m\].
@@ -50,6 +52,7 @@ impl Grip {
                     place: (restraint, if share < 1.0 - ON_NODE { side } else { 2 }),
                     node,
                     stiffness: share * stiffness,
+                    diagonal: f64::NAN,
                     holds: share * holds,
                     slip: 0.0,
                     slides: 0.0,
@@ -66,6 +69,11 @@ impl Grip {
     /// Goes on from the `slips` of all clamps \[m\], stuck.
     pub fn start(&mut self, slips: &[[f64; 2]]) {
         (self.slip, self.slides) = (self.slip_in(slips), 0.0);
+    }
+
+    /// Slides, whatever acts on it.
+    pub fn let_go(&mut self) {
+        self.slides = 1.0;
     }
 
     /// How far it has slipped in the `slips` of all clamps, before and after each \[m\].

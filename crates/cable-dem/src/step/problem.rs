@@ -249,19 +249,19 @@ impl Chain {
             ends.iter().any(|end| end.stiffness() > Some(0.0)) || cable.restraints().iter().any(sticks);
         chain.is_held_for_ever |= springs && (chain.grips.is_empty() || never_slips);
         chain.is_held = chain.is_held_for_ever || !chain.grips.is_empty();
+        for grip in &mut chain.grips {
+            grip.diagonal = chain.nodes[grip.node].diagonal;
+        }
         chain
     }
 
-    /// Adds the spring of a clamp that slips to its node (`sign` 1), or takes it away (−1).
-    fn hang(&mut self, index: usize, sign: f64) {
-        let Grip { node, stiffness, .. } = self.grips[index];
-        let Node {
-            diagonal,
-            tributary,
-            limit,
-            ..
-        } = self.nodes[node];
-        let diagonal = diagonal + sign * stiffness / self.stiffness;
+    /// Leaves the node of a clamp those springs that stick.
+    fn hang(&mut self, index: usize) {
+        let Grip { node, diagonal, .. } = self.grips[index];
+        let slide = |grip: &&Grip| grip.node == node && !grip.is_stuck();
+        let sliding: f64 = self.grips.iter().filter(slide).map(|grip| grip.stiffness).sum();
+        let Node { tributary, limit, .. } = self.nodes[node];
+        let diagonal = diagonal - sliding / self.stiffness;
         self.nodes[node] = Node::new(diagonal, tributary, limit, self.stiffness, self.compliance);
         self.is_held = self.is_held_for_ever || self.grips.iter().any(Grip::is_stuck);
     }
@@ -272,7 +272,7 @@ impl Chain {
             let was_stuck = self.grips[index].is_stuck();
             self.grips[index].start(slips);
             if !was_stuck {
-                self.hang(index, 1.0);
+                self.hang(index);
             }
         }
     }
@@ -282,7 +282,7 @@ impl Chain {
         self.grip(after);
         for index in 0..self.grips.len() {
             if self.grips[index].slide(before) {
-                self.hang(index, -1.0);
+                self.hang(index);
             }
         }
     }
@@ -294,8 +294,7 @@ impl Chain {
         for index in 0..self.grips.len() {
             let grip = &mut self.grips[index];
             if stretch.nodes().contains(&grip.node) && grip.correct(u(grip.node)) {
-                let sign = if grip.is_stuck() { 1.0 } else { -1.0 };
-                self.hang(index, sign);
+                self.hang(index);
                 corrected = true;
             }
         }
@@ -326,7 +325,8 @@ impl Chain {
     /// Leaves the clamps that slip to the caller.
     pub fn take_grips(&mut self) -> Vec<Grip> {
         for index in 0..self.grips.len() {
-            self.hang(index, -1.0);
+            self.grips[index].let_go();
+            self.hang(index);
         }
         std::mem::take(&mut self.grips)
     }

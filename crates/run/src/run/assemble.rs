@@ -11,6 +11,7 @@ use crate::answer::{
 };
 use crate::passes::{Passes, Solved, force_profile, listed_passes};
 use crate::plan::Plan;
+use crate::scene::Scene;
 
 /// A friction law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
@@ -58,7 +59,7 @@ impl<'a> RunBuilder<'a> {
         self.accept_leaks(&solved.passes)?;
         let scene = self.plan.scene;
         let shown = shown(self.plan, &solved.passes);
-        let restraints = restraints(&solved.passes, &shown)?;
+        let restraints = restraints(self.plan.scene, &solved.passes, &shown)?;
         let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
         let passes: Vec<PassRecord> = passes.collect();
         balance::of_records(scene, &passes, &restraints)?;
@@ -229,7 +230,7 @@ impl<'a> RunBuilder<'a> {
     }
 }
 
-fn restraints(passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
+fn restraints(scene: &Scene, passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
     let forces = state
         .restraint_forces(cable)?
@@ -238,7 +239,8 @@ fn restraints(passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord
     let restraints = cable.restraints().iter().zip(forces).enumerate();
     Ok(restraints
         .map(|(i, (restraint, (force_n, slip)))| RestraintRecord {
-            slipped_m: restraint.holds.map(|_| slip),
+            // Those that never slip may have been put on later, where the cable had moved.
+            slipped_m: scene.restraints[i].holds.map(|_| slip),
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,
