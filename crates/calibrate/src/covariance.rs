@@ -44,6 +44,8 @@ impl Covariance {
         let inverse = scaled.cholesky().map_or_else(none, |factor| factor.inverse());
         let is_known = |k: usize| is_seen(k) && inverse[(k, k)] < UNKNOWN;
         let known: Vec<bool> = (0..scale.len()).map(is_known).collect();
+        // Rounding leaves an inverse that is not quite symmetric.
+        let inverse = 0.5 * (&inverse + inverse.transpose());
         let matrix = inverse.map_with_location(|i, j, value| {
             if known[i] && known[j] {
                 value / scale[i] / scale[j]
