@@ -61,6 +61,7 @@ pub fn solve(
     if let Some(draws) = passes.found.as_ref().and_then(|found| found.draws.as_ref()) {
         draws.correct(&mut finest);
     }
+    refuse_leaks(&finest)?;
     judge(&error, plan, &mesh, warnings)?;
     let random = match &passes.found {
         None => None,
@@ -85,6 +86,22 @@ pub fn solve(
         random,
         heat: None,
     })
+}
+
+/// A friction law that loses more than this share of the stored force in one pass gives no answer.
+const LARGEST_LEAK: f64 = 0.9;
+
+/// Refuses a friction law that loses too much of the stored force in a pass.
+fn refuse_leaks(passes: &Passes) -> Result<(), Error> {
+    let mut leaks = passes.leaks.iter().filter(|leak| leak.matters());
+    match leaks.find(|leak| leak.loss_per_pass > LARGEST_LEAK) {
+        Some(leak) => Err(Error::Unfit {
+            key: "friction.law",
+            found: "sigmoid",
+            reason: leak.to_string().into(),
+        }),
+        None => Ok(()),
+    }
 }
 
 impl<'a> PassesOnMeshes<'a> {

@@ -13,9 +13,6 @@ use crate::passes::{Passes, Solved, force_profile, listed_passes};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// A friction law that loses more than this share of the stored force in one pass gives no answer.
-const LARGEST_LEAK: f64 = 0.9;
-
 /// What every answer holds, however it was found.
 pub struct RunBuilder<'a> {
     plan: &'a Plan<'a>,
@@ -56,7 +53,7 @@ impl<'a> RunBuilder<'a> {
 
     /// The answer from passes that were simulated.
     pub fn by_simulation(mut self, solved: &Solved) -> Result<Run, Error> {
-        self.accept_leaks(&solved.passes)?;
+        self.warn_of_leaks(&solved.passes);
         let scene = self.plan.scene;
         let shown = shown(self.plan, &solved.passes);
         let restraints = restraints(self.plan.scene, &solved.passes, &shown)?;
@@ -110,20 +107,10 @@ impl<'a> RunBuilder<'a> {
         SavedState::new(scene, &passes.cable, &passes.state, before + scene.traffic.passes)
     }
 
-    /// Refuses a friction law that loses too much of the stored force, and warns of one that loses
-    /// some.
-    fn accept_leaks(&mut self, passes: &Passes) -> Result<(), Error> {
-        for leak in passes.leaks.iter().filter(|leak| leak.matters()) {
-            if leak.loss_per_pass > LARGEST_LEAK {
-                return Err(Error::Unfit {
-                    key: "friction.law",
-                    found: "sigmoid",
-                    reason: leak.to_string().into(),
-                });
-            }
-            self.warnings.push(leak.to_string());
-        }
-        Ok(())
+    /// Warns of a friction law that loses some of the stored force.
+    fn warn_of_leaks(&mut self, passes: &Passes) {
+        let leaks = passes.leaks.iter().filter(|leak| leak.matters());
+        self.warnings.extend(leaks.map(ToString::to_string));
     }
 
     /// Says on which mesh, and from which pass on answers were not simulated.
