@@ -140,7 +140,8 @@ def test_a_call_costs_less_than_a_millisecond_beside_its_run():
     assert each < 1
 
 
-def test_a_run_goes_on_from_the_state_of_another(scene):
+def test_a_run_goes_on_from_the_state_of_another():
+    scene = UPPER
     passes = {"solver.node_spacing": "0.1 m", "solver.vehicle_step": "0.05 m", "solver.method": "quasi-static"}
     whole = creepage.run(scene, {**passes, "traffic.passes": 8})
     first = creepage.run(scene, {**passes, "traffic.passes": 5})
