@@ -60,7 +60,7 @@ def test_mistakes_that_a_schema_can_see_are_refused(validator):
         else:
             refused += 1
     # What it cannot see are values that contradict each other, and numbers that follow from others.
-    assert refused >= 120 and missed <= 46, (refused, missed)
+    assert refused >= 120 and missed <= 40, (refused, missed)
 
 
 def test_a_preset_may_give_what_is_required(validator):
