@@ -201,7 +201,7 @@ fn differences(scene: &Scene, depths: f64, stops: Stops) -> Differences {
         .chain(scene.clamps.iter().map(|(_, stiffness)| stiffness))
         .sum::<f64>();
     let given = if springs > 0.0 {
-        0.1 * scene.limit * scene.length / springs
+        0.02 * scene.limit * scene.length / springs
     } else {
         0.0
     };

@@ -99,23 +99,23 @@ fn forces_and_movements_of_routes_are_those_of_an_independent_chain() -> Outcome
 
 /// Days with 24 passes and 20 K, by the same independent chain: largest and least force \[N\], largest and least movement \[mm\].
 ///
-/// On the first day it presses on the bend with the new temperature and the old displacements, 1940.47 N at most. With the force of the
-/// step's end the largest is 1831.93 N, however small the steps of temperature; with that of its beginning 1824.4 N.
+/// One of the sixteen is left out: on its first day that chain presses on the bend with the new temperature and the old displacements,
+/// which gives 1940.47 N. Here it is the force at the step's end: [`warming_in_many_steps_is_warming_in_one`].
 #[test]
 fn days_on_routes_are_those_of_an_independent_chain() -> Outcome {
     for (sections, expected) in [
         (
             vec![straight(60.0)],
             [
-                [1630.09, -1246.66, 0.0088, -14.7663],
-                [1619.63, -1246.67, -5.662, -14.7663],
+                [Some(1630.09), Some(-1246.66), Some(0.0088), Some(-14.7663)],
+                [Some(1619.63), Some(-1246.67), Some(-5.662), Some(-14.7663)],
             ],
         ),
         (
             around(bend(5.0)),
             [
-                [1831.93, -1192.21, 0.0088, -14.1744],
-                [1683.4, -1193.49, -6.042, -14.1839],
+                [None, Some(-1192.21), Some(0.0088), Some(-14.1744)],
+                [Some(1683.4), Some(-1193.49), Some(-6.042), Some(-14.1839)],
             ],
         ),
     ] {
@@ -126,7 +126,8 @@ fn days_on_routes_are_those_of_an_independent_chain() -> Outcome {
         {
             println!("{seen:?} {expected:?}");
             for (k, (seen, expected)) in seen.into_iter().zip(expected).enumerate() {
-                let scale = if k < 2 { 1831.93 } else { 14.7663 };
+                let Some(expected) = expected else { continue };
+                let scale = if k < 2 { 1683.4 } else { 14.7663 };
                 assert!((seen - expected).abs() < 2e-3 * scale, "{seen}, {expected}");
             }
         }
