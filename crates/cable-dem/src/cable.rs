@@ -280,16 +280,12 @@ impl DuctedCable {
         limits.fold(f64::INFINITY, f64::min)
     }
 
-    /// The sections on which `node` of `mesh` lies, each with its length there \[m\].
-    pub(crate) fn parts(&self, mesh: &Mesh, node: usize) -> Vec<(f64, Section)> {
-        section::parts(&self.sections, mesh, node)
-    }
-
     /// The force along the duct on the nodes of `mesh` \[N\].
     pub(crate) fn body_loads(&self, mesh: &Mesh) -> Vec<f64> {
         let body = |node| {
-            let parts = self.parts(mesh, node).into_iter();
-            parts.map(|(length, section)| section.body_force * length).sum()
+            let shares = section::shares(&self.sections, mesh, node);
+            let force: f64 = shares.map(|(share, section)| share * section.body_force).sum();
+            force * mesh.tributary_length(node)
         };
         (0..mesh.nodes()).map(body).collect()
     }

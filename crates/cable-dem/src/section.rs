@@ -3,6 +3,9 @@
 use crate::error::checked;
 use crate::{CableError, Mesh};
 
+/// A share of a node's length that is less is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A section of the duct.
 ///
 /// ```
@@ -86,30 +89,34 @@ impl Section {
     }
 }
 
-/// The parts of `sections` on which `node` of `mesh` lies, with their lengths \[m\].
-pub(crate) fn parts(sections: &[Section], mesh: &Mesh, node: usize) -> Vec<(f64, Section)> {
-    if let [only] = sections {
-        return vec![(mesh.tributary_length(node), *only)];
-    }
+/// The `sections` on which `node` of `mesh` lies, each with its share of the node's length.
+pub(crate) fn shares<'a>(
+    sections: &'a [Section],
+    mesh: &Mesh,
+    node: usize,
+) -> impl Iterator<Item = (f64, &'a Section)> {
+    let tributary = mesh.tributary_length(node);
     let place = mesh.spacing() * node as f64;
-    let (from, to) = (place - 0.5 * mesh.spacing(), place + 0.5 * mesh.spacing());
+    let from = (place - 0.5 * mesh.spacing()).max(0.0);
+    let to = (place + 0.5 * mesh.spacing()).min(mesh.length());
     let mut begin = 0.0;
-    let part = |section: &Section| {
+    let share = move |section: &'a Section| {
         let end = begin + section.length;
-        let length = to.min(end).min(mesh.length()) - from.max(begin);
+        let share = (to.min(end) - from.max(begin)) / tributary;
         begin = end;
-        (length, *section)
+        // What rounding leaves over at a border is nothing.
+        if share > 1.0 - ROUNDING {
+            (1.0, section)
+        } else {
+            (share, section)
+        }
     };
-    // What rounding leaves over at a border is nothing.
-    let counts = |(length, _): &(f64, Section)| *length > 1e-9 * mesh.spacing();
-    sections.iter().map(part).filter(counts).collect()
+    sections.iter().map(share).filter(|(share, _)| *share > ROUNDING)
 }
 
-/// The friction limit of a node \[N/m\] on `parts`, with the `force` \[N\] in the cable there.
-pub(crate) fn limit_of(parts: &[(f64, Section)], force: f64) -> f64 {
-    if let [(_, only)] = parts {
-        return only.limit_under(force);
-    }
-    let sum = |of: &dyn Fn(&(f64, Section)) -> f64| parts.iter().map(of).sum::<f64>();
-    sum(&|(length, section)| length * section.limit_under(force)) / sum(&|(length, _)| *length)
+/// The friction limit of a node \[N/m\] on sections with these `shares`, with the `force` \[N\] in the cable there.
+pub(crate) fn limit_of<'a>(shares: impl Iterator<Item = (f64, &'a Section)>, force: f64) -> f64 {
+    shares
+        .map(|(share, section)| share * section.limit_under(force))
+        .sum()
 }

@@ -11,7 +11,7 @@
 
 use super::grip::Grip;
 use super::support::Support;
-use crate::section::{Section, limit_of};
+use crate::section::{self, Section, limit_of};
 use crate::tridiagonal::Row;
 use crate::{DuctedCable, Mesh, Restraint};
 
@@ -222,20 +222,24 @@ impl Chain {
                 None => free.hi = last - 1,
             }
         }
+        let mut bends = Vec::new();
         let node = |(i, &diagonal): (usize, &f64)| {
-            let limit = limit_of(&cable.parts(mesh, i), 0.0);
+            let shares = || section::shares(cable.sections(), mesh, i);
+            if shares().any(|(_, section)| section.bend > 0.0) {
+                bends.push((i, shares().map(|(share, section)| (share, *section)).collect()));
+            }
+            let limit = limit_of(shares(), 0.0);
             Node::new(diagonal, mesh.tributary_length(i), limit, stiffness, compliance)
         };
-        let parts = (0..=last).map(|i| (i, cable.parts(mesh, i)));
-        let bends = |(_, parts): &(usize, Vec<(f64, Section)>)| parts.iter().any(|(_, part)| part.bend > 0.0);
+        let nodes = diagonal.iter().enumerate().map(node).collect();
         let mut chain = Self {
             rounding: rounding(stiffness, mesh.spacing()) + stiffest,
             stiffness,
             per_stiffness: 1.0 / stiffness,
-            nodes: diagonal.iter().enumerate().map(node).collect(),
+            nodes,
             compliance,
             least_limit: cable.least_limit(),
-            bends: parts.filter(bends).collect(),
+            bends,
             free,
             grips: Grip::of(cable, mesh),
             is_held: false,
@@ -341,10 +345,11 @@ impl Chain {
     pub fn press(&mut self, u: impl Fn(usize) -> f64, thermal_force: f64) -> f64 {
         let last = self.nodes.len() - 1;
         let mut change = 0.0_f64;
-        for (i, parts) in &self.bends {
+        for (i, shares) in &self.bends {
             let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
             let stretch = (u(after) - u(before)) / (after - before) as f64;
-            let limit = limit_of(parts, thermal_force - self.stiffness * stretch);
+            let shares = shares.iter().map(|(share, section)| (*share, section));
+            let limit = limit_of(shares, thermal_force - self.stiffness * stretch);
             let before = std::mem::replace(&mut self.nodes[*i].limit, limit);
             change = change.max((limit - before).abs() / limit);
         }
