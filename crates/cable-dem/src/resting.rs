@@ -42,6 +42,8 @@ pub struct RestingCable {
     /// Body force w p of every node \[N\]; and with what heat does to the ends.
     body: Vec<f64>,
     load: Vec<f64>,
+    /// Slips of the clamps before and after the change by which they were released \[m\].
+    released: [Vec<[f64; 2]>; 2],
     mesh: Mesh,
     /// Storage of [`Self::diffuse`].
     factor: Vec<f64>,
@@ -73,6 +75,7 @@ impl RestingCable {
             nothing: zeros(),
             body: cable.loads(mesh, 0.0),
             load: cable.loads(mesh, 0.0),
+            released: [Vec::new(), Vec::new()],
             mesh: *mesh,
             factor: zeros(),
             given: zeros(),
@@ -101,9 +104,15 @@ impl RestingCable {
     }
 
     /// Takes clamps that slip and have slid from `before` to `after` as ones that bear a force and are no springs, and the others as
-    /// springs: what the cable answers to a small change then.
+    /// springs: what the cable answers to a small change then. It holds until the next call, whatever comes to rest in between.
     pub fn release(&mut self, before: &CableState, after: &CableState) {
-        self.step.chain.release(&before.clamp_slips, &after.clamp_slips);
+        self.released = [before, after].map(|state| state.clamp_slips.clone());
+        self.release_again();
+    }
+
+    fn release_again(&mut self) {
+        let [before, after] = &self.released;
+        self.step.chain.release(before, after);
     }
 
     /// The cable of `state` with its nodes displaced by `displacement` \[m\] and clamps that slide ([`RestingCable::release`]) taken along;
@@ -203,7 +212,9 @@ impl RestingCable {
             at_rest &= needed.abs() <= limit;
             state.friction[i] = needed.clamp(-limit, limit);
         }
-        if !at_rest {
+        if at_rest {
+            self.release_again();
+        } else {
             self.follow(state, None, state.thermal_force, 0.0)?;
         }
         Ok(())
@@ -291,6 +302,7 @@ impl RestingCable {
             let solved = self.step.solve(&load, self.step.chain.free);
             let violation = solved.err().or((rounds == MAX_ROUNDS).then_some(changes));
             if let Some(violation) = violation {
+                self.release_again();
                 return Err(CableError::NoConvergence {
                     vehicle_position: f64::INFINITY,
                     violation,
@@ -323,6 +335,7 @@ impl RestingCable {
             (u[i], f[i]) = (trial.r[i], after);
         }
         state.thermal_force = thermal_force;
+        self.release_again();
         Ok(heat)
     }
 }

@@ -20,10 +20,7 @@ use crate::within_jump::JumpInterval;
 pub struct Simulation<'a, P> {
     pub request: &'a Request<'a>,
     pub mesh: &'a Mesh,
-    /// What the cable answers to small changes, clamps that slide as loads.
     pub cable: RestingCable,
-    /// Brings the cable to rest.
-    pub resting: RestingCable,
     pass: P,
     wanted: BTreeSet<u64>,
     pub state: CableState,
@@ -53,7 +50,6 @@ impl<'a, P> Simulation<'a, P> {
             request,
             mesh,
             cable: RestingCable::new(cable, mesh)?,
-            resting: RestingCable::new(cable, mesh)?,
             pass,
             wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
             state: start.map_or_else(|| laid(cable, mesh), Ok)?,
@@ -227,16 +223,12 @@ where
         }
         let passes: Vec<u64> = passes.into_iter().collect();
         for &pass in passes.iter().filter(|pass| self.request.looked_at.contains(pass)) {
-            let (mut state, _) = jump
-                .state((&mut self.cable, &mut self.resting), pass - 1)
-                .map_err(wrap)?;
+            let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
             let phase = phase_of(pass, self.request.order.len());
             let number = Some(pass);
             (self.pass)(Next { phase, number }, &mut state)?;
         }
-        let outcomes = jump
-            .outcomes((&mut self.cable, &mut self.resting), &passes)
-            .map_err(wrap)?;
+        let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
         for (pass, outcome) in passes.into_iter().zip(outcomes) {
             self.record(pass, outcome, true);
         }
@@ -253,6 +245,6 @@ where
 
     fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {
         self.state = self.cable.moved(&self.state, displacement).map_err(wrap)?;
-        self.resting.settle(&mut self.state).map_err(wrap)
+        self.cable.settle(&mut self.state).map_err(wrap)
     }
 }

@@ -31,11 +31,7 @@ impl JumpInterval<'_> {
     }
 
     /// The cable at rest after `pass`, and its movement as a whole \[m\].
-    pub fn state(
-        &self,
-        (cable, resting): (&mut RestingCable, &mut RestingCable),
-        pass: u64,
-    ) -> Result<(CableState, f64), CableError> {
+    pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<(CableState, f64), CableError> {
         let (phase, time) = (phase_of(pass, self.before.len()), self.time(pass));
         let share = time / self.length as f64;
         let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
@@ -56,17 +52,13 @@ impl JumpInterval<'_> {
         let forces: Vec<f64> = clamps.map(|(before, after)| between(*before, *after)).collect();
         cable.bear(&mut moved, &forces);
         let mut state = moved.with_thermal_force(before.thermal_force)?;
-        resting.settle(&mut state)?;
+        cable.settle(&mut state)?;
         Ok((state, whole))
     }
 
     /// Outcomes of `passes`, in ascending order. Passes far enough apart follow from the state after
     /// them; those between are interpolated from the two nearest of the same vehicle.
-    pub fn outcomes(
-        &self,
-        (cable, resting): (&mut RestingCable, &mut RestingCable),
-        passes: &[u64],
-    ) -> Result<Vec<PassOutcome>, CableError> {
+    pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
         let mut outcomes = vec![PassOutcome::default(); passes.len()];
         for phase in 0..self.before.len() {
             let is_of_phase = |row: &usize| phase_of(passes[*row], self.before.len()) == phase;
@@ -77,7 +69,7 @@ impl JumpInterval<'_> {
                 if k > 0 && rows.get(k + 1).is_some_and(is_near) {
                     continue;
                 }
-                outcomes[row] = self.outcome((cable, resting), passes[row])?;
+                outcomes[row] = self.outcome(cable, passes[row])?;
                 let (from, to) = (outcomes[rows[last]].clone(), outcomes[row].clone());
                 for &between in rows.get(last + 1..k).unwrap_or(&[]) {
                     let [begin, pass, end] = [rows[last], between, row].map(|row| passes[row] as f64);
@@ -92,13 +84,9 @@ impl JumpInterval<'_> {
 
     /// What `pass` did: the cable at rest after it, with peaks and heat between those of the same
     /// pass of both periods.
-    fn outcome(
-        &self,
-        (cable, resting): (&mut RestingCable, &mut RestingCable),
-        pass: u64,
-    ) -> Result<PassOutcome, CableError> {
-        let (state, whole) = self.state((cable, resting), pass)?;
-        let mut outcome = PassOutcome::at_rest(resting.cable(), &state)?.moved(whole);
+    fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
+        let (state, whole) = self.state(cable, pass)?;
+        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
         let phase = phase_of(pass, self.before.len());
         let share = self.time(pass) / self.length as f64;
         let [before, after] = [self.before, self.after].map(|period| &period.phase(phase).outcome);

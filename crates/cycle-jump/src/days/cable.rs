@@ -18,8 +18,6 @@ pub struct DailyCable<'a, P> {
     pass: P,
     /// The cable before the last simulated period, if no step has used that period yet.
     before: Option<CableState>,
-    /// The cable before and after the simulated period that steps go by.
-    period: Option<[CableState; 2]>,
     /// What the last two simulated periods before steps have shown, the later one first.
     measured: [Option<Measured>; 2],
     /// The cable when it was hottest and coldest on the day under way.
@@ -57,7 +55,6 @@ where
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
-            period: None,
             measured: [None, None],
             hot: None,
             cold: None,
@@ -113,9 +110,6 @@ where
             self.cable.release(&before, state);
             let measured = self.measure(before.displacement(), from as f64, state);
             self.measured = [Some(measured), self.measured[0].take()];
-            self.period = Some([before, state.clone()]);
-        } else if let Some([before, after]) = &self.period {
-            self.cable.release(before, after);
         }
         let [Some(last), earlier] = &self.measured else {
             return Ok(());
