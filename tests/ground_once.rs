@@ -11,7 +11,7 @@ fn scene() -> Scene {
     let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml").expect("a scene");
     scene.ground.model = creepage::scene::GroundModel::FiniteElements;
     scene.traffic.passes = 1;
-    scene.solver.tolerance = 0.002;
+    scene.solver.tolerance = 0.001;
     scene.solver.node_spacing = Some(0.2);
     scene.solver.vehicle_step = Some(0.1);
     scene

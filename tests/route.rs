@@ -366,6 +366,26 @@ fn new_clamps_and_new_ends_bear_nothing_at_first() {
         clamped.restraints[0].force_n
     );
     assert!((force(&clamped) / force(&plain) - 1.0).abs() < 1e-3);
+    // Nor does one that was moved, whatever it bore where it was.
+    let held = run(&[
+        &common[..],
+        &[r#"restraints=[{position="5 m", stiffness="1 MN/m"}]"#],
+    ]
+    .concat());
+    let moved_to = |place: &str| {
+        let clamp = format!(r#"restraints=[{{position="{place}", stiffness="1 kN/m"}}]"#);
+        go_on(&held, &[&one_more[..], &[&clamp]].concat())
+            .expect("a clamp")
+            .restraints[0]
+            .force_n
+    };
+    for place in ["2 m", "5 m"] {
+        assert!(
+            moved_to(place).abs() < 0.2 * 1e3 * moved,
+            "{place}: {} N",
+            moved_to(place)
+        );
+    }
     // The joint gives way: its new spring bears nothing, and the cable springs back.
     let spring = r#"ends={upstream="free", downstream={spring="1 kN/m"}}"#;
     let soft = go_on(&first, &[&one_more[..], &[spring]].concat()).expect("a spring");
@@ -384,6 +404,7 @@ fn a_state_of_another_duct_is_refused() {
         ("cable.axial_stiffness=9 MN", "cable.axial_stiffness"),
         (r#"route=[{length="30 m"}, {slope="1 %"}]"#, "sections"),
         ("friction.dynamic_coefficient=0.3", "friction of section 1"),
+        ("friction.dynamic_coefficient=0", "friction"),
     ] {
         let refused = go_on(&first, &["traffic.passes=2", change]).expect_err(change);
         assert!(

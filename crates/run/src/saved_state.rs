@@ -56,6 +56,13 @@ struct SavedClamp {
     slipped_m: f64,
 }
 
+impl SavedClamp {
+    fn is(&self, clamp: &Restraint) -> bool {
+        let is_there = (self.position_m - clamp.position).abs() < SAME * (1.0 + clamp.position);
+        is_there && same(self.stiffness_n_per_m, clamp.stiffness)
+    }
+}
+
 /// What of a scene must agree.
 fn duct(scene: &Scene) -> Vec<Value> {
     let value = |key: &str, value: f64| Value {
@@ -141,6 +148,11 @@ impl SavedState {
         if self.hash != hash(&self.duct) {
             return Err(refused("it was changed after it was written".to_owned()));
         }
+        if scene.friction_limit() == 0.0 {
+            return Err(refused(
+                "without friction a cable goes back to where it was laid".to_owned(),
+            ));
+        }
         let here = duct(scene);
         if here.len() != self.duct.len() {
             return Err(refused("its duct has another number of sections".to_owned()));
@@ -169,15 +181,17 @@ impl SavedState {
         u[left] + (place - left as f64) * (u[left + 1] - u[left])
     }
 
+    /// Whether the scene has this state's clamps and no others, in their order.
+    fn has_clamps_of(&self, scene: &Scene) -> bool {
+        let pairs = || self.clamps.iter().zip(&scene.restraints);
+        self.clamps.len() == scene.restraints.len() && pairs().all(|(saved, clamp)| saved.is(clamp))
+    }
+
     /// The clamp that was there, or a new one, which bears nothing as yet: how far it has slipped
     /// \[m\].
     fn slipped(&self, clamp: &Restraint) -> f64 {
-        let is_it = |saved: &&SavedClamp| {
-            (saved.position_m - clamp.position).abs() < SAME * (1.0 + clamp.position)
-                && same(saved.stiffness_n_per_m, clamp.stiffness)
-        };
-        let known = self.clamps.iter().find(is_it).map(|saved| saved.slipped_m);
-        known.unwrap_or_else(|| self.displacement(clamp.position))
+        let known = self.clamps.iter().find(|saved| saved.is(clamp));
+        known.map_or_else(|| self.displacement(clamp.position), |saved| saved.slipped_m)
     }
 
     /// The cable of `scene`, held where this state has it.
@@ -215,12 +229,10 @@ impl SavedState {
     pub(crate) fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
         let cable = self.cable(scene)?;
         let mut state = carried(&self.cable, mesh)?;
-        if *state.displacement() != *self.cable.displacement() || self.clamps.len() != scene.restraints.len()
-        {
-            let slips: Vec<f64> = scene.restraints.iter().map(|clamp| self.slipped(clamp)).collect();
-            if slips.iter().any(|slip| *slip != 0.0) {
-                state = state.with_clamp_slips(slips.iter().map(|slip| [*slip; 2]).collect())?;
-            }
+        let is_same_mesh = *state.displacement() == *self.cable.displacement();
+        if !(is_same_mesh && self.has_clamps_of(scene)) {
+            let slips = scene.restraints.iter().map(|clamp| [self.slipped(clamp); 2]);
+            state = state.with_clamp_slips(slips.collect())?;
         }
         if !cable.friction().law().has_memory() {
             return Ok(state);
