@@ -87,10 +87,10 @@ pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate
 pub use creepage_run::{
     Candidate, ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, Error, ErrorEstimate,
     ErrorShares, ErrorSource, ExtremePass, FixedMesh, ForceProfile, ForceRange, FrictionProfile, HeatRecord,
-    Limited, Limits, Part, PassRecord, Place, Plan, PlanReport, PlanSummary, Profile, Progress, Quantiles,
-    RandomSpread, Reached, RestraintRange, RestraintRecord, Run, RunOptions, Saturation, SavedState,
-    SlipRecord, Stage, Units, Verdict, check, occurrence, plan, plan_on, profile, profile_at, run, run_plan,
-    run_with, with_causes,
+    Limited, Limits, Part, PassRecord, PastPass, Place, Plan, PlanReport, PlanSummary, Profile, Progress,
+    Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, RunOptions, Saturation,
+    SavedState, SlipRecord, Stage, Units, Verdict, check, occurrence, plan, plan_on, profile, profile_at,
+    run, run_plan, run_with, with_causes,
 };
 #[allow(unused_imports, reason = "each feature uses some of them")]
 use creepage_run::{answer, cable, error, finite, ground, shown};

@@ -1,7 +1,8 @@
 //! Ducts of several sections, bends and clamps that slip, through scenes.
 
+use creepage::calibration::Unknown;
 use creepage::scene::SceneFile;
-use creepage::{Run, Scene};
+use creepage::{CalibrateOptions, Reading, Readings, Run, Scene};
 
 /// The upper cable of the paper's experiment in a duct of 60 m.
 const SCENE: &str = r#"
@@ -426,5 +427,32 @@ fn a_state_of_another_duct_is_refused() {
     assert!(
         refused.to_string().contains("changed after it was written"),
         "{refused}"
+    );
+}
+
+/// Readings by the independent chain of a duct whose second half rubs with 0.35.
+#[test]
+fn the_friction_of_a_section_is_fitted() {
+    let section: Unknown = "route.1.dynamic_coefficient".parse().expect("an unknown");
+    let options = CalibrateOptions {
+        unknowns: vec![section],
+        ..CalibrateOptions::default()
+    };
+    let forces = [(1, 110.141), (10, 298.274), (200, 1124.028)];
+    let readings: Readings = forces
+        .map(|(pass, force)| Reading::force(pass, force))
+        .into_iter()
+        .collect();
+    let halves = scene(&[r#"route=[{length="30 m"}, {}]"#]);
+    let fit = creepage::calibrate(&halves, &readings, &options).expect("a fit");
+    let [found] = &fit.parameters[..] else {
+        panic!("{:?}", fit.parameters);
+    };
+    assert_eq!(found.name, "route.1.dynamic_coefficient");
+    assert!((found.value / 0.35 - 1.0).abs() < 0.01, "{}", found.value);
+    let error = creepage::calibrate(&scene(&[]), &readings, &options).expect_err("no route");
+    assert!(
+        error.is_bad_input() && error.to_string().contains("route"),
+        "{error}"
     );
 }

@@ -116,7 +116,7 @@ fn assert_records(sheet: &Range<Data>, records: &[Value], units: &[(&str, &str)]
 fn clamps(document: &Value) -> Vec<Value> {
     let mut clamps = document["restraints"].as_array().expect("clamps").clone();
     for clamp in &mut clamps {
-        let forces = clamp["after_passes_n"].as_array().expect("forces");
+        let forces = clamp["during_passes_n"].as_array().expect("forces");
         let sizes = forces.iter().map(|force| force.as_f64().expect("a force").abs());
         let largest = sizes.fold(0.0, f64::max);
         let stiffness = clamp["stiffness_n_per_m"].as_f64().expect("a stiffness");

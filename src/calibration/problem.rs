@@ -170,6 +170,24 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         }
         .into());
     }
+    let has_section = |unknown: &Unknown| {
+        let Quantity::SectionCoefficient(section) = unknown.quantity else {
+            return true;
+        };
+        let mut scenes = series
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| unknown.acts_on(*index));
+        scenes.all(|(_, one)| section < one.scene.route.len())
+    };
+    if !unknowns.iter().all(has_section) {
+        return Err(Error::Unfit {
+            key: "route",
+            found: "no section of this number",
+            reason: "sections of [[route]] are counted from 0".into(),
+        }
+        .into());
+    }
     if unknowns
         .iter()
         .any(|unknown| unknown.series.is_some_and(|index| index >= series.len()))

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use calibrate::{CalibrationError, Parameter, Prior, Scale};
 
-use crate::scene::{Scene, words};
+use crate::scene::Scene;
 
 /// A quantity that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -22,17 +22,59 @@ pub enum Quantity {
     ZeroOffset,
     /// How much more it reads too much with every pass \[N\].
     Drift,
+    /// μ_d of the section of the route with this index.
+    SectionCoefficient(usize),
 }
 
-words!(Quantity: DynamicCoefficient "dynamic_coefficient", ShapeFactor "shape_factor", GroundStiffness "ground_stiffness",
-    ZeroOffset "zero_offset", Drift "drift");
+const NAMES: [(&str, Quantity); 5] = [
+    ("dynamic_coefficient", Quantity::DynamicCoefficient),
+    ("shape_factor", Quantity::ShapeFactor),
+    ("ground_stiffness", Quantity::GroundStiffness),
+    ("zero_offset", Quantity::ZeroOffset),
+    ("drift", Quantity::Drift),
+];
+
+/// Its name; of a section its key, `route.1.dynamic_coefficient`.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Self::SectionCoefficient(index) = self {
+            return write!(f, "route.{index}.dynamic_coefficient");
+        }
+        let name = NAMES.iter().find(|(_, quantity)| quantity == self);
+        f.pad(name.map_or("", |(name, _)| name))
+    }
+}
+
+impl FromStr for Quantity {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let of_section = || {
+            text.strip_prefix("route.")?
+                .strip_suffix(".dynamic_coefficient")?
+                .parse()
+                .ok()
+        };
+        let known = NAMES.iter().find(|(name, _)| *name == text);
+        let names = || NAMES.map(|(name, _)| name).join(", ");
+        known
+            .map(|(_, quantity)| *quantity)
+            .or_else(|| of_section().map(Self::SectionCoefficient))
+            .ok_or_else(|| {
+                format!(
+                    "found \"{text}\"; allowed: {}, route.1.dynamic_coefficient",
+                    names()
+                )
+            })
+    }
+}
 
 impl Quantity {
     /// Its unit; 1 for a number.
     pub fn unit(self) -> &'static str {
         match self {
             Self::ShapeFactor => "1/m",
-            Self::DynamicCoefficient | Self::GroundStiffness => "1",
+            Self::DynamicCoefficient | Self::SectionCoefficient(_) | Self::GroundStiffness => "1",
             Self::ZeroOffset => "N",
             Self::Drift => "N/pass",
         }
@@ -46,7 +88,7 @@ impl Quantity {
     /// Least and largest value that a fit considers; those of a cell's errors follow from its readings.
     pub fn bounds(self) -> (f64, f64) {
         match self {
-            Self::DynamicCoefficient => (0.03, 1.0),
+            Self::DynamicCoefficient | Self::SectionCoefficient(_) => (0.03, 1.0),
             Self::ShapeFactor => (1e5, 1e9),
             Self::GroundStiffness => (0.1, 10.0),
             Self::ZeroOffset | Self::Drift => (f64::NEG_INFINITY, f64::INFINITY),
@@ -58,6 +100,13 @@ impl Quantity {
         match self {
             Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
             Self::ShapeFactor => scene.friction.law().shape_factor(),
+            Self::SectionCoefficient(index) => {
+                let own = scene
+                    .route
+                    .get(index)
+                    .and_then(|section| section.dynamic_coefficient);
+                own.unwrap_or(scene.friction.dynamic_coefficient)
+            }
             Self::GroundStiffness => 1.0,
             Self::ZeroOffset | Self::Drift => 0.0,
         }
@@ -65,10 +114,11 @@ impl Quantity {
 
     /// Sets its value in a scene; the ground's stiffness acts on the motion instead.
     pub(super) fn set(self, scene: &mut Scene, value: f64) {
-        match (self, &mut scene.friction.shape_factor) {
-            (Self::DynamicCoefficient, _) => scene.friction.dynamic_coefficient = value,
-            (Self::ShapeFactor, Some(shape_factor)) => *shape_factor = value,
-            _ => {}
+        match self {
+            Self::DynamicCoefficient => scene.friction.dynamic_coefficient = value,
+            Self::ShapeFactor => scene.friction.shape_factor = Some(value),
+            Self::SectionCoefficient(index) => scene.route[index].dynamic_coefficient = Some(value),
+            Self::GroundStiffness | Self::ZeroOffset | Self::Drift => {}
         }
     }
 }

@@ -37,7 +37,8 @@ pub struct Arguments {
     /// A scene and its readings, fitted jointly with the others; may be repeated
     #[arg(long, value_name = "SCENE=FILE", value_parser = scene_and_data)]
     scene_data: Vec<(PathBuf, PathBuf)>,
-    /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene); of every load cell
+    /// What to fit: dynamic_coefficient, route.1.dynamic_coefficient (of the second section of a route), shape_factor,
+    /// ground_stiffness (how many times stiffer than in the scene); of every load cell
     /// zero_offset, drift. Scenes share what has no number: shape_factor_2 is that of the second. Default:
     /// dynamic_coefficient,shape_factor (only the first with Coulomb's law)
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Unknown>())]

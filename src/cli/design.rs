@@ -118,11 +118,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
         Err(Failure::Usage {
             argument: "--limit-force",
-            found: if arguments.limits.are_given() {
-                "no limit of an end that is held".into()
-            } else {
-                "no limit".into()
-            },
+            found: "no limit".into(),
             allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
                 .into(),
         })

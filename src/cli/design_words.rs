@@ -5,7 +5,8 @@ use std::io::Write;
 use super::design_clamps::{clamps, has, on_clamp};
 use super::failure::Failure;
 use super::terminal;
-use crate::design::{Binding, Design, Doubt, Place, Side, Spring, TradeOff, largest_shown};
+use crate::answer::largest_movement_in_duct;
+use crate::design::{Binding, Design, Doubt, Place, Side, Spring, TradeOff};
 use crate::shown::{percent, words_if};
 use crate::{Limited, Limits, Scene, Units};
 
@@ -114,7 +115,7 @@ fn curve(
     let last = std::iter::once("within limits".to_owned());
     let names = of_springs.chain(columns.iter().map(name)).chain(last).collect();
     let mut rows = Vec::new();
-    let most = largest_shown(scene);
+    let most = largest_movement_in_duct(scene);
     for point in points {
         let value = |&(place, quantity): &(Place, Limited)| match point.value(place, quantity) {
             _ if matches!(place, Place::Clamp(_)) && !has(point, place) => "–".to_owned(),

@@ -19,6 +19,8 @@ pub enum Failure {
     Design(#[from] crate::design::DesignError),
     #[error("{0}")]
     NotKept(String),
+    #[error("{0}")]
+    Exceeded(String),
     #[error("no point of the sweep has an answer")]
     Nothing,
     #[error("bad usage, already printed")]
@@ -50,7 +52,11 @@ impl Failure {
         if !matches!(self, Self::Unparsed) {
             terminal::fail(self);
         }
-        ExitCode::from(if self.is_bad_input() { 2 } else { 1 })
+        ExitCode::from(match self {
+            Self::Exceeded(_) => 3,
+            failure if failure.is_bad_input() => 2,
+            _ => 1,
+        })
     }
 
     /// Whether the reader of a pipe has gone: it has what it wanted.

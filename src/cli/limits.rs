@@ -2,9 +2,9 @@
 
 use super::failure::Failure;
 use super::terminal;
-use crate::scene::{Dimension, End, QuantityError, Unit, did_you_mean, nearest};
+use crate::scene::{Dimension, QuantityError, Unit, did_you_mean, nearest};
 use crate::shown::exact;
-use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units};
+use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units, Verdict};
 
 #[derive(Debug, clap::Args)]
 pub struct LimitArguments {
@@ -12,9 +12,25 @@ pub struct LimitArguments {
     /// clamp=2kN; may be repeated
     #[arg(long, value_name = "[PLACE=]FORCE", allow_hyphen_values = true, value_parser = |text: &str| limit(text, Dimension::Force))]
     limit_force: Vec<Limit>,
-    /// Largest movement allowed of the ends that are not free, 10mm, or at a place as above, upstream=10mm; may be repeated
+    /// Largest movement allowed of both ends, free ones too, 10mm, or at a place as above, upstream=10mm; may be repeated
     #[arg(long, value_name = "[PLACE=]LENGTH", allow_hyphen_values = true, value_parser = |text: &str| limit(text, Dimension::Length))]
     limit_movement: Vec<Limit>,
+}
+
+#[derive(Debug, clap::Args)]
+pub struct CheckArgument {
+    /// End with exit status 3 if a limit is exceeded, once everything is written
+    #[arg(long)]
+    check: bool,
+}
+
+impl CheckArgument {
+    /// Fails if limits are exceeded and that is to be a failure.
+    pub fn judge(&self, verdicts: &[Verdict]) -> Result<(), Failure> {
+        let exceeded = self.check && verdicts.iter().any(Verdict::is_exceeded);
+        let failure = exceeded.then(|| Failure::Exceeded(Verdict::summary(verdicts)));
+        failure.map_or(Ok(()), Err)
+    }
 }
 
 /// A limit, what it is for, and the unit it was typed in.
@@ -124,8 +140,8 @@ impl LimitArguments {
         Units::typed(file, first(&self.limit_force), first(&self.limit_movement))
     }
 
-    /// The limits of the cable of `scene`. Without a name a limit is that of the ends that are not free; what is named counts before what
-    /// is not, and a clamp's own limit before that of all clamps.
+    /// The limits of the cable of `scene`. Without a name a limit is that of both ends; what is named counts before what is not, and a
+    /// clamp's own limit before that of all clamps.
     pub fn limits(&self, scene: &Scene) -> Result<Limits, Failure> {
         self.warn_of_slips();
         self.limits_beside(scene, &[])
@@ -133,30 +149,17 @@ impl LimitArguments {
 
     /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.
     pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
-        let held = |end: CableEnd| end.held_in(scene) != End::Free;
-        let none = !CableEnd::ALL.into_iter().any(held);
         let of = |given: &[Limit], wanted: Named| {
             let limit = given.iter().rfind(|limit| limit.of == wanted);
             limit.map(|limit| limit.value)
         };
         let mut limits = Limits::default();
         for end in CableEnd::ALL {
-            let of = |given: &[Limit]| {
-                let named = of(given, Named::One(end.into()));
-                // A free end carries nothing, and moves as far as it does.
-                named.or_else(|| of(given, Named::Ends).filter(|_| held(end)))
-            };
+            let of = |given: &[Limit]| of(given, Named::One(end.into())).or_else(|| of(given, Named::Ends));
             *limits.of_mut(end) = EndLimits {
                 force_n: of(&self.limit_force),
                 movement_m: of(&self.limit_movement),
             };
-        }
-        if none && self.limit_movement.iter().any(|limit| limit.of == Named::Ends) {
-            return Err(Failure::Usage {
-                argument: "--limit-movement",
-                found: "no end by its name, where both are free".into(),
-                allowed: "the end that must not move farther, such as downstream=10mm".into(),
-            });
         }
         limits.clamps = self.of_clamps(scene);
         self.check_clamps(scene, elsewhere)?;

@@ -86,8 +86,7 @@ enum Command {
 }
 
 /// Stands at the end of every help.
-const EXIT_STATUS: &str =
-    "Exit status: 0 done; 1 the computation failed; 2 bad input or usage; 130 stopped by Ctrl-C.";
+const EXIT_STATUS: &str = "Exit status: 0 done; 1 the computation failed; 2 bad input or usage; 3 a limit is exceeded and --check is given; 130 stopped by Ctrl-C.";
 
 /// The command line, whose every help ends with the exit status.
 fn command_line() -> clap::Command {
@@ -102,7 +101,7 @@ fn command_line() -> clap::Command {
     with_status(Arguments::command()).mut_subcommands(with_status)
 }
 
-/// Runs the command with the process's arguments. Exit status: 0 done; 1 the computation failed; 2 bad input or usage; 130 stopped by Ctrl-C.
+/// Runs the command with the process's arguments; its exit status ([`EXIT_STATUS`]).
 pub fn main() -> ExitCode {
     let parsed = command_line().try_get_matches().and_then(|mut matches| {
         limit_threads(&matches);

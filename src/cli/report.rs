@@ -7,10 +7,11 @@ use std::time::SystemTime;
 use chrono::{DateTime, Utc};
 
 use super::failure::Failure;
-use super::limits::LimitArguments;
+use super::limits::{CheckArgument, LimitArguments};
 use super::progress::watched;
 use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
+use super::state::StartArgument;
 use super::terminal;
 use crate::report::{Report, ReportOptions, Source};
 
@@ -35,10 +36,14 @@ pub struct Arguments {
     output: PathBuf,
     /// Readings to draw over the force: a table (text or .xlsx) with columns such as pass,force_n[,sigma_n] or `Pass;Force [kN]`, at the
     /// held end (the downstream one if both are)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "from_state")]
     data: Option<PathBuf>,
     #[command(flatten)]
+    start: StartArgument,
+    #[command(flatten)]
     limits: LimitArguments,
+    #[command(flatten)]
+    check: CheckArgument,
     #[command(flatten)]
     force: Force,
     #[command(flatten)]
@@ -82,6 +87,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(&*arguments.scene.file.scene),
         arguments.data.as_deref(),
         table.as_deref(),
+        arguments.start.read(),
     ];
     let sources = sources(&input, &read)?;
     let overrides = arguments.scene.overrides();
@@ -89,6 +95,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, "html")?;
     arguments.page_is_html()?;
+    let start = arguments.start.start()?;
     let words = |_| "the scene's run, then ways to hold the cable".to_owned();
     let report = watched(1.0, words, |progress| {
         Report::new(
@@ -98,6 +105,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
                 warnings: &input.warnings,
                 limits,
                 units: arguments.limits.units(input.file()),
+                start: start.as_ref(),
                 sources: &sources,
                 overrides: &overrides,
                 date: Some(&date),
@@ -109,7 +117,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let report = input.located(report)?;
     input.warn_all(&report.run().warnings);
     terminal::warn_all(report.mistakes());
-    Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
+    page.write(|out| out.write_all(report.to_html().as_bytes()))?;
+    arguments.check.judge(report.verdicts())
 }
 
 /// The files that are read, the scene's first.

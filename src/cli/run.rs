@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::days;
 use super::failure::Failure;
-use super::limits::LimitArguments;
+use super::limits::{CheckArgument, LimitArguments};
 use super::progress::watched;
 use super::shared::{Input, OutputArguments, TrafficArguments};
-use super::state::{self, StateArguments};
+use super::state::{self, SaveArgument, StartArgument};
 use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
@@ -44,7 +44,11 @@ pub struct Arguments {
     #[command(flatten)]
     limits: LimitArguments,
     #[command(flatten)]
-    state: StateArguments,
+    check: CheckArgument,
+    #[command(flatten)]
+    start: StartArgument,
+    #[command(flatten)]
+    save: SaveArgument,
     #[cfg(feature = "xlsx")]
     #[command(flatten)]
     workbook: WorkbookArguments,
@@ -86,11 +90,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = [
         Some(&*arguments.scene.file.scene),
         table.as_deref(),
-        arguments.state.read(),
+        arguments.start.read(),
     ];
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(&mut files)?;
-    let (start, saved) = (arguments.state.start()?, arguments.state.destination(&mut files)?);
+    let (start, saved) = (arguments.start.start()?, arguments.save.destination(&mut files)?);
     #[cfg(feature = "xlsx")]
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());
@@ -120,22 +124,24 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         run: &answer,
         judgement,
     };
+    let verdicts = judged
+        .judgement
+        .as_ref()
+        .map_or(&[][..], |judgement| &judgement.limits);
     #[cfg(feature = "xlsx")]
-    {
-        let verdicts = judged
-            .judgement
-            .as_ref()
-            .map_or(&[][..], |judgement| &judgement.limits);
-        workbook.write(&answer, verdicts, &file, &units)?;
-    }
+    workbook.write(&answer, verdicts, &file, &units)?;
     destination.write(&judged, rows(&answer.passes), || {
         print(&answer, &scene, &units)?;
         let mut out = terminal::out();
-        for verdict in judged.judgement.iter().flat_map(|judgement| &judgement.limits) {
+        for verdict in verdicts {
             writeln!(out, "{}", verdict.shown(&units))?;
         }
+        if verdicts.len() > 1 {
+            writeln!(out, "{}", Verdict::summary(verdicts))?;
+        }
         Ok(())
-    })
+    })?;
+    arguments.check.judge(verdicts)
 }
 
 /// The last column of the table, 1 or 0 in every row, or in none: JSON leaves it out wherever it is false.

@@ -8,16 +8,20 @@ use crate::output::{Files, Output};
 use crate::{Error, Run, SavedState};
 
 #[derive(Debug, clap::Args)]
-pub struct StateArguments {
-    /// Write the cable as the last pass leaves it to this file, for --from-state
-    #[arg(long, value_name = "FILE.json")]
-    save_state: Option<PathBuf>,
+pub struct StartArgument {
     /// Begin with the cable as another run has left it: with other traffic, other ends, or more clamps, which bear nothing at first
     #[arg(long, value_name = "FILE.json")]
     from_state: Option<PathBuf>,
 }
 
-impl StateArguments {
+#[derive(Debug, clap::Args)]
+pub struct SaveArgument {
+    /// Write the cable as the last pass leaves it to this file, for --from-state
+    #[arg(long, value_name = "FILE.json")]
+    save_state: Option<PathBuf>,
+}
+
+impl StartArgument {
     /// The file to begin with, if there is one.
     pub fn read(&self) -> Option<&Path> {
         self.from_state.as_deref()
@@ -35,7 +39,9 @@ impl StateArguments {
         let state = serde_json::from_slice(&text).map_err(|error| refused(&error))?;
         Ok(Some(state))
     }
+}
 
+impl SaveArgument {
     /// Makes sure before hours of computing that the state can be written.
     pub fn destination(&self, files: &mut Files) -> Result<Option<Output>, Failure> {
         let Some(path) = &self.save_state else {

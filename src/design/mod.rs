@@ -4,7 +4,7 @@
 //! formula for that: the scene is run with many stiffnesses, which gives the curve of force against movement, and where a limit is
 //! crossed the stiffness is bracketed ever closer, each step a run of the scene. Every point of the answer is a run.
 //!
-//! Force is the largest on an end, during and after the passes, and on a clamp after them; movement is the largest displacement of an end, or
+//! Force is the largest on an end or a clamp, during and after the passes; movement is the largest displacement of an end, or
 //! at a clamp, after a pass. Where the cable is heated, both count at all hours of all days: the force of the hottest, the movement of the
 //! coldest. Where nothing keeps the limits, the nearest is that whose worst limit is exceeded by the smallest factor.
 //!
@@ -33,4 +33,4 @@ pub use doubt::Doubt;
 pub use limits::DesignError;
 pub use options::DesignOptions;
 pub use search::design;
-pub use trade_off::{Binding, ClampPeak, Design, Side, Spring, TradeOff, best, largest_shown};
+pub use trade_off::{Binding, ClampPeak, Design, Side, Spring, TradeOff, best};

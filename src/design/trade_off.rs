@@ -4,10 +4,9 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
+use crate::answer::largest_movement_in_duct;
 use crate::{CableEnd, Limited, Limits, Place, Run, Scene, finite};
 
-/// An end that moves by more than this share of the duct's length is no longer where the scene says.
-const LEAVES: f64 = 0.01;
 /// Limits bind whose share is this near to the largest.
 const BINDS: f64 = 0.95;
 
@@ -25,7 +24,7 @@ pub struct Spring {
 pub struct ClampPeak {
     /// Its position along the duct \[m\].
     pub position_m: f64,
-    /// Largest force on it in size, after passes and over all days \[N\].
+    /// Largest force on it in size, during passes and over all days \[N\].
     pub force_n: f64,
     /// Largest displacement of the cable there \[m\].
     pub movement_m: f64,
@@ -127,14 +126,9 @@ pub struct Design {
     pub runs: usize,
 }
 
-/// The largest movement of an end \[m\] that means more than that the cable leaves the duct.
-pub fn largest_shown(scene: &Scene) -> f64 {
-    LEAVES * scene.duct.length
-}
-
 /// What no end may exceed, whatever is limited: the cable is to stay in the duct.
 pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = (Place, Limited, f64)> {
-    let most = largest_shown(scene);
+    let most = largest_movement_in_duct(scene);
     CableEnd::ALL
         .into_iter()
         .map(move |end| (end.into(), Limited::Movement, most))
@@ -220,7 +214,7 @@ impl TradeOff {
             downstream_movement_m: movements[1],
             clamp_force_n: clamp.map(|clamp| clamp.force_n),
             clamps: clamps.collect(),
-            leaves_duct: movement_m > largest_shown(scene),
+            leaves_duct: movement_m > largest_movement_in_duct(scene),
             exceeded_later: Vec::new(),
             still_growing: run.saturation.is_none() && run.range.is_none() && run.heat.is_none(),
             error_estimate: run.error_estimate.relative,

@@ -5,12 +5,16 @@ use super::friction::Friction;
 use super::measures::Comparison;
 use super::quantity::{Shown, round_below};
 use super::source::Source;
+use crate::answer::largest_movement_in_duct;
 use crate::calibration::held_end;
-use crate::design::{Measure, largest_shown};
+use crate::design::Measure;
 use crate::profile::profile_over;
 use crate::readings::Readings;
 use crate::scene::Unit;
-use crate::{Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict};
+use crate::{
+    Error, Limits, PastPass, PlanReport, Profile, Progress, Run, RunOptions, SavedState, Scene, Units,
+    Verdict,
+};
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
 const POSITIONS: i32 = 301;
@@ -31,6 +35,8 @@ pub struct ReportOptions<'a> {
     pub limits: Limits,
     /// Units in which the page is.
     pub units: Units,
+    /// The cable as another run has left it, with which the page's run begins.
+    pub start: Option<&'a SavedState>,
     /// The files that were read, the scene's first; without any the page states the scene alone, as [`Scene::to_toml`] writes it.
     pub sources: &'a [Source],
     /// What was set on top of the scene's file.
@@ -53,7 +59,10 @@ pub struct Report {
     pub(super) motion: Profile,
     pub(super) friction: Friction,
     pub(super) agreement: Option<Agreement>,
-    pub(super) measures: Comparison,
+    /// None if the run begins from a state.
+    pub(super) measures: Option<Comparison>,
+    /// What the runs before have left.
+    pub(super) history: Vec<PastPass>,
     pub(super) verdicts: Vec<Verdict>,
     pub(super) sources: Vec<Source>,
     /// Whether the first source is the scene's file.
@@ -75,9 +84,11 @@ impl Report {
         if options.readings.is_some() {
             held_end(scene)?;
         }
-        let plan = crate::plan(scene)?;
+        let mut plan = crate::plan(scene)?;
+        plan.start = options.start;
         let stages = stages(scene.traffic.passes);
         let options_of_run = RunOptions {
+            start: options.start,
             progress: options.progress.part(0.0, RUN_SHARE),
             stages: &stages,
             ..RunOptions::default()
@@ -92,11 +103,21 @@ impl Report {
             .map_or(&[][..], |agreement| &agreement.mistakes);
         let ways = options.progress.part(RUN_SHARE, 1.0);
         Ok(Self {
-            shown: Shown::new(options.units, largest_shown(scene)),
+            shown: Shown::new(options.units, largest_movement_in_duct(scene)),
             plan: plan.report(),
             motion: profile_over(scene, &plan.ground, &positions(scene, options.units.length))?,
             friction: Friction::new(scene, &plan.ground, &run),
-            measures: Comparison::new(scene, &plan.ground, &run, options.measures, ways)?,
+            measures: match options.start {
+                None => Some(Comparison::new(
+                    scene,
+                    &plan.ground,
+                    &run,
+                    options.measures,
+                    ways,
+                )?),
+                Some(_) => None,
+            },
+            history: options.start.map_or(Vec::new(), |start| start.history().to_vec()),
             verdicts: options.limits.verdicts(&run),
             sources: match options.sources {
                 [] => vec![Source::new("the scene in SI units", scene.to_toml().as_bytes())],
@@ -117,6 +138,11 @@ impl Report {
         self.agreement
             .as_ref()
             .map_or(&[], |agreement| &agreement.mistakes)
+    }
+
+    /// What the scene's answer makes of the limits.
+    pub fn verdicts(&self) -> &[Verdict] {
+        &self.verdicts
     }
 
     /// The scene's answer.

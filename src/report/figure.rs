@@ -1,12 +1,13 @@
 //! How figures stand on the page: narrow, so that their text is still legible on a phone.
 
 use super::content::Report;
+use super::ends;
 use super::html::Html;
 use super::quantity::significant;
-use crate::PassRecord;
 use crate::answer::listed;
-use crate::figure::{Axis, Chart, Panels};
-use crate::scene::{DAYS_PER_YEAR, Traffic};
+use crate::figure::{Axis, Chart, Panels, Reference};
+use crate::scene::DAYS_PER_YEAR;
+use crate::{CableEnd, PassRecord, PastPass};
 
 /// Width of a figure, and height of a chart alone, of one of several, and of one of several with legends \[px\].
 pub const WIDTH: f64 = 440.0;
@@ -97,26 +98,45 @@ pub fn along_duct(report: &Report) -> Axis {
         .ticks(ticks(length))
 }
 
-/// Passes along an axis, or the time that they take where it is known.
-pub struct Passes {
+/// Passes along an axis, or the time that they take where it is known; those of runs before come first.
+pub struct Passes<'r> {
     per_day: Option<f64>,
     last: u64,
+    /// What the runs before have left.
+    history: &'r [PastPass],
 }
 
-impl Passes {
-    pub fn new(traffic: &Traffic, last: u64) -> Self {
-        let per_day = traffic.per_day;
-        Self { per_day, last }
+impl<'r> Passes<'r> {
+    /// The passes of a report up to `last`.
+    pub fn new(report: &'r Report, last: u64) -> Self {
+        let history = &report.history[..];
+        let has_days = history.iter().all(|past| past.days.is_some());
+        Self {
+            per_day: report.scene.traffic.per_day.filter(|_| has_days),
+            last,
+            history,
+        }
+    }
+
+    /// Passes and days of the runs before.
+    fn before(&self) -> (u64, f64) {
+        let last = self.history.last();
+        last.map_or((0, 0.0), |past| (past.pass, past.days.unwrap_or(0.0)))
     }
 
     fn days(&self) -> Option<f64> {
-        Some(self.last as f64 / self.per_day?)
+        Some(self.before().1 + self.last as f64 / self.per_day?)
+    }
+
+    /// Whether the axis is linear: that of few passes, and of a life in parts.
+    fn is_linear(&self) -> bool {
+        self.last <= MANY || !self.history.is_empty()
     }
 
     /// The unit of time \[days\] and its name.
     fn unit(&self) -> Option<(f64, &'static str)> {
         let days = self.days()?;
-        if self.last > MANY {
+        if !self.is_linear() {
             return Some((1.0, "time"));
         }
         let unit = UNITS.into_iter().find(|(unit, _)| days >= FEWEST * unit);
@@ -134,7 +154,7 @@ impl Passes {
         let unit = self.unit();
         let name = unit.map_or("passes", |(_, name)| name);
         match unit {
-            _ if self.last <= MANY => Axis::linear(name).range(0.0, self.place(self.last)),
+            _ if self.is_linear() => Axis::linear(name).range(0.0, self.place(self.last)),
             None => Axis::logarithmic(name),
             Some(_) => Axis::logarithmic(name).ticks(self.ticks()),
         }
@@ -156,10 +176,34 @@ impl Passes {
 
     /// Where a pass is on the axis.
     pub fn place(&self, pass: u64) -> f64 {
+        let (before, days) = self.before();
         match (self.per_day, self.unit()) {
-            (Some(per_day), Some((unit, _))) => pass as f64 / per_day / unit,
-            _ => pass as f64,
+            (Some(per_day), Some((unit, _))) => (days + pass as f64 / per_day) / unit,
+            _ => (before + pass) as f64,
         }
+    }
+
+    /// `chart` with what the runs before have left of each of `ends`, and a line where this one begins.
+    pub fn with_history(
+        &self,
+        chart: Chart,
+        ends: &[CableEnd],
+        value: impl Fn(&PastPass, CableEnd) -> f64 + Copy,
+    ) -> Chart {
+        if self.history.is_empty() {
+            return chart;
+        }
+        let unit = self.per_day.and(self.unit()).map(|(unit, _)| unit);
+        let place = |past: &PastPass| match unit.zip(past.days) {
+            Some((unit, days)) => days / unit,
+            None => past.pass as f64,
+        };
+        let chart = ends::lines(chart, ends, None, |end| {
+            self.history
+                .iter()
+                .map(move |past| (place(past), value(past, end)))
+        });
+        chart.refer(Reference::vertical(self.place(0), "from here on this scene"))
     }
 
     /// A value after each pass.

@@ -40,9 +40,9 @@ fn clamps(html: &mut Html, report: &Report) {
         return;
     }
     let when = if run.heat.is_some() {
-        "at most, after passes and in heat"
+        "at most, in passes and in heat"
     } else {
-        "at most after a pass"
+        "at most during a pass"
     };
     let rows = run.restraints.iter().map(|clamp| {
         let largest = |quantity| run.largest(Place::Clamp(clamp.position_m), quantity);
@@ -83,13 +83,14 @@ fn over_passes(report: &Report) -> Chart {
     let last = computed
         .chain(readings.iter().map(|reading| reading.passes))
         .max();
-    let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
+    let along = Passes::new(report, last.unwrap_or(1));
     let force = Axis::linear(shown.in_force("force"));
     let mut chart = Chart::new(along.title("Force"), along.axis(), force);
     let ends = ends::held(&report.scene);
     chart = ends::lines(chart, &ends, Some(""), |end| {
         along.series(drawn, |record| in_unit(ends::of_pass(record, end)[0]))
     });
+    chart = along.with_history(chart, &ends, |past, end| in_unit(end.of(past.force_n)));
     if ends.is_empty() {
         let inside = along.series(drawn, |record| in_unit(record.max_compression_n));
         chart = chart.with(Series::line("largest in the cable", inside).look(OTHER).solid());
@@ -157,12 +158,15 @@ fn movement(report: &Report) -> Chart {
     let inside = passes.partition_point(|record| CableEnd::ALL.into_iter().all(|end| is_in(end, record)));
     let passes = &passes[..inside.max(1).min(passes.len())];
     let last = passes.last().map_or(1, |record| record.pass);
-    let along = Passes::new(&report.scene.traffic, last);
+    let along = Passes::new(report, last);
     let unit = report.shown.units.movement;
     let moved = Axis::linear(report.shown.in_movement("movement"));
     let chart = Chart::new("Movement of the ends", along.axis(), moved);
-    ends::lines(chart, &CableEnd::ALL, Some(""), |end| {
+    let chart = ends::lines(chart, &CableEnd::ALL, Some(""), |end| {
         along.series(passes, |record| unit.of_si(ends::of_pass(record, end)[1]))
+    });
+    along.with_history(chart, &CableEnd::ALL, |past, end| {
+        unit.of_si(end.of(past.displacement_m))
     })
 }
 

@@ -11,7 +11,7 @@ use crate::design::Place;
 use crate::scene::CableEnd;
 use crate::scene::{End, Scene};
 use crate::shown::{percent, words_if};
-use crate::{Limited, PassRecord, Run, Saturation};
+use crate::{Limited, PassRecord, Run, Saturation, Verdict};
 
 /// Title and the most important numbers.
 pub fn headline(html: &mut Html, report: &Report) {
@@ -28,13 +28,17 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.paragraph(&answer(report, last));
     html.raw("</div>");
     html.verdicts(report.verdicts.iter().map(|verdict| {
-        let kept = verdict.reached_after.is_none() && verdict.levels_off_above.is_none();
+        let kept = !verdict.is_exceeded();
         let shown = |value| report.shown.limited(verdict.quantity, value);
         (kept, verdict.shown_with(&report.shown.units, shown))
     }));
-    let left = not_judged(report);
-    if !left.is_empty() {
-        html.paragraph(&format!("Not judged, as no limit names it: {}.", left.join("; ")));
+    if report.verdicts.len() > 1 {
+        html.paragraph(&format!("Together: {}.", Verdict::summary(&report.verdicts)));
+    }
+    let is_of_clamp = |verdict: &Verdict| matches!(verdict.end, Place::Clamp(_));
+    let has_clamps = !report.verdicts.is_empty() && !report.scene.restraints.is_empty();
+    if has_clamps && !report.verdicts.iter().any(is_of_clamp) {
+        html.paragraph("The clamps are not judged, as no limit names them (--limit-force clamp=FORCE).");
     }
     html.raw("<dl class=\"headlines\">");
     forces(html, report, last);
@@ -55,30 +59,6 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.raw("</dl>");
 }
 
-/// What is not limited beside what is.
-fn not_judged(report: &Report) -> Vec<String> {
-    let (scene, verdicts) = (&report.scene, &report.verdicts);
-    let movements = || {
-        let verdicts = verdicts.iter();
-        verdicts.filter(|verdict| verdict.quantity == Limited::Movement)
-    };
-    let held = ends::held(scene);
-    let free = CableEnd::ALL.into_iter().filter(|end| !held.contains(end));
-    let free = free.filter(|end| movements().all(|verdict| verdict.end != (*end).into()));
-    let free = free.filter(|_| movements().next().is_some());
-    let mut left: Vec<String> = free
-        .map(CableEnd::name)
-        .map(|name| format!("the movement of the free {name} end (--limit-movement {name}=LENGTH)"))
-        .collect();
-    let mut clamped = verdicts
-        .iter()
-        .filter(|verdict| matches!(verdict.end, Place::Clamp(_)));
-    if !verdicts.is_empty() && !scene.restraints.is_empty() && clamped.next().is_none() {
-        left.push("the clamps (--limit-force clamp=FORCE)".to_owned());
-    }
-    left
-}
-
 /// The clamp that is pressed hardest: a card as wide as the page, as the others fill their rows.
 fn clamps(html: &mut Html, report: &Report) {
     let Report { run, shown, .. } = report;
@@ -86,9 +66,9 @@ fn clamps(html: &mut Html, report: &Report) {
     let clamps = run.restraints.iter().map(|clamp| clamp.position_m);
     if let Some(hardest) = clamps.max_by(|a, b| force(*a).total_cmp(&force(*b))) {
         let when = if run.heat.is_some() {
-            "after a pass or in heat"
+            "during a pass or in heat"
         } else {
-            AFTER
+            DURING
         };
         let note = format!("at {}, {when}", shown.length(hardest));
         html.headline("Largest force on a clamp", &shown.force(force(hardest)), &note);

@@ -147,7 +147,7 @@ fn along(report: &Report, record: &HeatRecord) -> Chart {
 fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
     let days = &report.run.days;
     let passes = |day: u64| day * record.passes_per_day;
-    let along = Passes::new(&report.scene.traffic, passes(record.all_days.day));
+    let along = Passes::new(report, passes(record.all_days.day));
     let shown = &report.shown;
     let Units { force, movement, .. } = shown.units;
     let place = |day: &DayExtremes| along.place(passes(day.day));

@@ -19,7 +19,9 @@ const ROOM: f64 = 2.0;
 type Column = (String, (CableEnd, Limited), fn(&Shown, f64) -> String);
 
 pub fn holding(html: &mut Html, report: &Report) {
-    let (comparison, shown) = (&report.measures, &report.shown);
+    let (Some(comparison), shown) = (&report.measures, &report.shown) else {
+        return;
+    };
     let end = end(comparison);
     let own = comparison.own_stiffness.map_or(String::new(), |own| {
         format!(
@@ -34,7 +36,7 @@ pub fn holding(html: &mut Html, report: &Report) {
         .map_or("", |_| ", all of them also in heat");
     html.paragraph(&format!(
         "The same traffic with the {} end held in other ways, and with a clamp in addition to what the scene has.{own} Of all passes, forces \
-         on the ends are the largest during a pass, forces on clamps and movements the largest after a pass{heat}. The row “as in the scene” is the run of this page; each other row is a run of its own with a \
+         are the largest during a pass, movements of free ends the largest after a pass{heat}. The row “as in the scene” is the run of this page; each other row is a run of its own with a \
          tolerance of {}. The command “creepage design” finds the stiffness for given limits.",
         end.name(),
         exact_percent(comparison.tolerance)
@@ -43,7 +45,7 @@ pub fn holding(html: &mut Html, report: &Report) {
         html.paragraph(&format!("The comparison failed: {failure}"));
         return;
     }
-    if let Some(chart) = chart(report) {
+    if let Some(chart) = chart(report, comparison) {
         figure(html, [chart], &caption(comparison, shown));
     }
     let columns = columns(report, end);
@@ -115,8 +117,8 @@ fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
 
 /// Force against movement of the end that is varied, by all ways that have an answer, and its limits; `None` without any. Movements differ by
 /// powers of ten. What has no place on such an axis is left out, as a free end, or stands at its left edge, as a fixed one.
-fn chart(report: &Report) -> Option<Chart> {
-    let (comparison, shown) = (&report.measures, &report.shown);
+fn chart(report: &Report, comparison: &Comparison) -> Option<Chart> {
+    let shown = &report.shown;
     let end = end(comparison);
     let force = |way: &TradeOff| way.value(end, Limited::Force);
     let movement = |way: &TradeOff| way.value(end, Limited::Movement);

@@ -20,6 +20,8 @@ const STYLE: &str = include_str!("style.css");
 const WARNINGS: &str = "Warnings";
 /// Only of a cable that is heated.
 const HEAT: &str = "Heat, day by day";
+/// Not of a run that begins from a state.
+const MEASURES: &str = "Ways to hold the cable";
 
 type Section = (&'static str, fn(&mut Html, &Report));
 
@@ -29,7 +31,7 @@ const SECTIONS: [Section; 9] = [
     ("Force and movement", force),
     (HEAT, heat),
     ("Why the cable creeps", cause),
-    ("Ways to hold the cable", holding),
+    (MEASURES, holding),
     ("How it was computed", plan),
     ("What is left out", limits),
     ("Where this page comes from", record),
@@ -51,6 +53,7 @@ impl Report {
             let is_empty = match title {
                 WARNINGS => self.warnings.is_empty(),
                 HEAT => self.run.heat.is_none(),
+                MEASURES => self.measures.is_none(),
                 _ => false,
             };
             if is_empty {

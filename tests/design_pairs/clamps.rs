@@ -81,6 +81,17 @@ fn clamps_are_followed_through_jumps_and_days() {
             assert!(apart < 0.02 * one.force_n.abs(), "pass {}: {apart}", pass.pass);
             compared += 1;
         }
+        // Nor is it less during a pass.
+        for (pass, (after, during)) in few
+            .passes
+            .iter()
+            .zip(other.after_passes_n.iter().zip(&other.during_passes_n))
+        {
+            assert!(during.abs() >= after.abs(), "pass {}", pass.pass);
+            let same = every.passes.iter().position(|every| every.pass == pass.pass);
+            let apart = same.map_or(0.0, |same| (one.during_passes_n[same] - during).abs());
+            assert!(apart < 0.02 * one.force_n.abs(), "pass {}: {apart}", pass.pass);
+        }
     }
     assert!(compared > 20);
     // Heat pushes and draws: the day's range holds what every pass leaves, and more.
@@ -95,7 +106,11 @@ fn clamps_are_followed_through_jumps_and_days() {
         assert!(days.min() == Some(2));
     }
     let place = Place::Clamp(11.0);
-    let largest = all.restraints[0].max_n.abs().max(all.restraints[0].min_n.abs());
+    let at_rest = all.restraints[0].max_n.abs().max(all.restraints[0].min_n.abs());
+    let passes = warm.passes.iter().zip(&warm.restraints[0].during_passes_n);
+    let simulated = passes.filter(|(pass, _)| !pass.interpolated);
+    let largest = simulated.fold(at_rest, |most, (_, force)| most.max(force.abs()));
+    assert!(largest > at_rest);
     assert_eq!(warm.largest(place, Limited::Force), largest);
     assert_eq!(warm.largest(place, Limited::Movement), largest / 3e5);
 }

@@ -143,7 +143,7 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
             let mut clamps = run.restraints.iter();
             let clamp = clamps.find(|clamp| clamp.position_m == position);
             clamp.map_or(0.0, |clamp| {
-                let force = most(&mut clamp.after_passes_n.iter().copied());
+                let force = most(&mut clamp.during_passes_n.iter().copied());
                 match quantity {
                     Limited::Force => force,
                     Limited::Movement => force / clamp.stiffness_n_per_m,

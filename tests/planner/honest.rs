@@ -155,12 +155,16 @@ fn errors(scene: &Scene, run: &Run, reference: &Run) -> Errors {
         }
     }
     for (clamp, exact) in run.restraints.iter().zip(&reference.restraints) {
-        let exact = &exact.after_passes_n;
-        let scale = exact
-            .iter()
-            .fold(floor.force, |most, force| most.max(force.abs()));
-        for (a, b) in clamp.after_passes_n.iter().zip(exact) {
-            worst.clamp = worst.clamp.max((a - b).abs() / scale);
+        for (found, exact) in [
+            (&clamp.after_passes_n, &exact.after_passes_n),
+            (&clamp.during_passes_n, &exact.during_passes_n),
+        ] {
+            let scale = exact
+                .iter()
+                .fold(floor.force, |most, force| most.max(force.abs()));
+            for (a, b) in found.iter().zip(exact) {
+                worst.clamp = worst.clamp.max((a - b).abs() / scale);
+            }
         }
     }
     worst

@@ -47,6 +47,38 @@ pub(crate) struct EndReader {
     body: [f64; 2],
 }
 
+/// Reads the forces on clamps.
+#[derive(Debug, Clone)]
+pub(crate) struct ClampReader {
+    /// Every clamp as springs \[N/m\] on the nodes around it.
+    springs: Vec<[(usize, f64); 2]>,
+}
+
+impl ClampReader {
+    pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
+        let clamps = cable.restraints().iter();
+        Self {
+            springs: clamps.map(|clamp| clamp.by_node(mesh)).collect(),
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.springs.is_empty()
+    }
+
+    /// Force of the cable on each clamp \[N\], positive toward growing x, from how far they have slipped \[m\] and the displacement \[m\]
+    /// of any node.
+    pub fn read(&self, slips: &[[f64; 2]], displacement: impl Fn(usize) -> f64) -> impl Iterator<Item = f64> {
+        self.springs.iter().enumerate().map(move |(clamp, springs)| {
+            let slips = slips.get(clamp).copied().unwrap_or_default();
+            let springs = springs.iter().zip(slips);
+            springs
+                .map(|((node, stiffness), slip)| stiffness * (displacement(*node) - slip))
+                .sum()
+        })
+    }
+}
+
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();

@@ -24,6 +24,8 @@ pub struct PassOutcome {
     /// Force of the cable on each of its clamps after the pass \[N\], positive toward growing x, in the order of
     /// [`DuctedCable::restraints`].
     pub restraints: Vec<f64>,
+    /// Least and largest force on each of them during the pass and after it \[N\].
+    pub restraint_ranges: Vec<[f64; 2]>,
     /// Work that slip has turned into heat \[J\].
     pub dissipated: f64,
     /// What the pass cost.
@@ -37,8 +39,7 @@ impl PassOutcome {
     ///
     /// [`CableError::InvalidParameter`] unless the cable is as long as the state's mesh.
     pub fn at_rest(cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
-        let force = state.end_forces(cable)?;
-        Recorder::new(force).outcome(cable, state, force)
+        Recorder::new(cable, state)?.outcome(cable, state, state.end_forces(cable)?)
     }
 
     /// The same with the cable moved as a whole by `distance` \[m\].
@@ -52,14 +53,11 @@ impl PassOutcome {
     /// The sum of `parts`, each with its weight: a mean, or what lies between two passes. Clamps that a part does not have bear
     /// nothing in it. What the parts cost is left out.
     pub fn combined(parts: &[(f64, &Self)]) -> Self {
-        let clamps = parts
-            .iter()
-            .map(|(_, part)| part.restraints.len())
-            .max()
-            .unwrap_or(0);
-        let clamp = |i: usize| {
-            let force = |part: &Self| part.restraints.get(i).copied().unwrap_or(0.0);
-            parts.iter().map(|(weight, part)| weight * force(part)).sum()
+        let of_clamps = |of: fn(&Self) -> &[f64]| -> Vec<f64> {
+            let count = parts.iter().map(|(_, part)| of(part).len()).max().unwrap_or(0);
+            let force = |part: &Self, i: usize| of(part).get(i).copied().unwrap_or(0.0);
+            let sum = |i| parts.iter().map(|(weight, part)| weight * force(part, i)).sum();
+            (0..count).map(sum).collect()
         };
         let sum = |of: fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
         Self {
@@ -79,7 +77,11 @@ impl PassOutcome {
             max_tension: sum(|o| o.max_tension),
             upstream_displacement: sum(|o| o.upstream_displacement),
             downstream_displacement: sum(|o| o.downstream_displacement),
-            restraints: (0..clamps).map(clamp).collect(),
+            restraints: of_clamps(|o| &o.restraints),
+            restraint_ranges: of_clamps(|o| o.restraint_ranges.as_flattened())
+                .chunks_exact(2)
+                .map(|range| [range[0], range[1]])
+                .collect(),
             dissipated: sum(|o| o.dissipated),
             statistics: Statistics::default(),
         }
@@ -87,22 +89,28 @@ impl PassOutcome {
 }
 
 /// What gathers as the vehicle passes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Recorder {
     pub peak: EndForces,
     pub lowest: EndForces,
+    /// Least and largest force on every clamp \[N\].
+    clamps: Vec<[f64; 2]>,
     pub dissipated: f64,
     pub statistics: Statistics,
 }
 
 impl Recorder {
-    pub fn new(start: EndForces) -> Self {
-        Self {
+    /// The recorder of a pass over `cable` that begins in `state`.
+    pub fn new(cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
+        let start = state.end_forces(cable)?;
+        let clamps = state.restraint_forces(cable)?.into_iter();
+        Ok(Self {
             peak: start,
             lowest: start,
+            clamps: clamps.map(|force| [force; 2]).collect(),
             dissipated: 0.0,
             statistics: Statistics::default(),
-        }
+        })
     }
 
     pub fn record(&mut self, force: EndForces) {
@@ -112,8 +120,18 @@ impl Recorder {
         self.lowest.downstream = self.lowest.downstream.min(force.downstream);
     }
 
-    /// Seen in the mirror the ends change places; compression stays compression.
+    /// Records the `forces` on all clamps \[N\].
+    pub fn record_clamps(&mut self, forces: impl Iterator<Item = f64>) {
+        for (range, force) in self.clamps.iter_mut().zip(forces) {
+            *range = [range[0].min(force), range[1].max(force)];
+        }
+    }
+
+    /// Seen in the mirror the ends change places; compression stays compression. Forces on clamps turn round.
     pub fn mirror(&mut self) {
+        for range in &mut self.clamps {
+            *range = [-range[1], -range[0]];
+        }
         std::mem::swap(&mut self.peak.upstream, &mut self.peak.downstream);
         std::mem::swap(&mut self.lowest.upstream, &mut self.lowest.downstream);
     }
@@ -126,6 +144,8 @@ impl Recorder {
         force: EndForces,
     ) -> Result<PassOutcome, CableError> {
         self.record(force);
+        let restraints = state.restraint_forces(cable)?;
+        self.record_clamps(restraints.iter().copied());
         let (least, largest) = [force.upstream, force.downstream]
             .into_iter()
             .fold(extremes(state, cable), |(least, largest), force| {
@@ -139,7 +159,8 @@ impl Recorder {
             max_tension: -least,
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[state.displacement().len() - 1],
-            restraints: state.restraint_forces(cable)?,
+            restraints,
+            restraint_ranges: self.clamps,
             dissipated: self.dissipated,
             statistics: self.statistics,
         })

@@ -1,5 +1,6 @@
 //! What the cable keeps from one pass to the next.
 
+use crate::ends::ClampReader;
 use crate::ends::EndReader;
 use crate::error::checked;
 use crate::step::Chain;
@@ -236,13 +237,10 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        let on = |(index, restraint): (usize, &Restraint)| {
-            let springs = restraint.by_node(&self.mesh).into_iter().zip(self.slips(index));
-            springs
-                .map(|((node, stiffness), slip)| stiffness * (self.displacement[node] - slip))
-                .sum()
-        };
-        Ok(cable.restraints().iter().enumerate().map(on).collect())
+        let clamps = ClampReader::new(cable, &self.mesh);
+        Ok(clamps
+            .read(&self.clamp_slips, |node| self.displacement[node])
+            .collect())
     }
 
     /// The largest friction \[N/m\] that every node can bear with the cable's force as it is; it depends on that in bends alone.

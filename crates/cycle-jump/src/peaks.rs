@@ -89,10 +89,15 @@ fn values(outcome: &PassOutcome) -> Vec<f64> {
         -lowest.upstream,
         -lowest.downstream,
     ];
+    let on_clamps = outcome
+        .restraint_ranges
+        .iter()
+        .flat_map(|[least, most]| [-least, *most]);
     let inside = [outcome.max_compression, outcome.max_tension];
     signed
         .flat_map(|value| [value, -value])
         .chain(during)
+        .chain(on_clamps)
         .chain(inside)
         .collect()
 }

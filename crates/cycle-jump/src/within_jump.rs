@@ -95,6 +95,12 @@ impl JumpInterval<'_> {
         outcome.peak.downstream += between(|o| o.peak.downstream - o.force.downstream);
         outcome.lowest.upstream += between(|o| o.lowest.upstream - o.force.upstream);
         outcome.lowest.downstream += between(|o| o.lowest.downstream - o.force.downstream);
+        for (clamp, range) in outcome.restraint_ranges.iter_mut().enumerate() {
+            for (side, force) in range.iter_mut().enumerate() {
+                let beyond = |o: &PassOutcome| o.restraint_ranges[clamp][side] - o.restraints[clamp];
+                *force += (1.0 - share) * beyond(before) + share * beyond(after);
+            }
+        }
         outcome.dissipated = between(|o| o.dissipated);
         Ok(outcome)
     }

@@ -41,5 +41,5 @@ pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
 pub use run::{check, run, run_plan, run_with};
-pub use saved_state::SavedState;
+pub use saved_state::{PastPass, SavedState};
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};

@@ -29,6 +29,22 @@ pub struct SavedState {
     ends: [SavedEnd; 2],
     clamps: Vec<SavedClamp>,
     cable: CableState,
+    /// Of all runs.
+    #[serde(default)]
+    history: Vec<PastPass>,
+}
+
+/// What a pass of an earlier run has left.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PastPass {
+    /// Its number, over all runs.
+    pub pass: u64,
+    /// Days until then, if the vehicles a day of all runs are known.
+    pub days: Option<f64>,
+    /// Force on the upstream and on the downstream end \[N\].
+    pub force_n: [f64; 2],
+    /// Displacement of the upstream and of the downstream end \[m\].
+    pub displacement_m: [f64; 2],
 }
 
 /// What must agree.
@@ -54,6 +70,22 @@ struct SavedClamp {
     position_m: f64,
     stiffness_n_per_m: f64,
     slipped_m: f64,
+}
+
+/// What `passes` of one run have left, behind those of the runs `before` it.
+fn history(before: Option<&SavedState>, passes: impl Iterator<Item = PastPass>) -> Vec<PastPass> {
+    let mut history = before.map_or(Vec::new(), |before| before.history.clone());
+    let first = before.map_or(0, SavedState::passes);
+    let begin = match before {
+        None => Some(0.0),
+        Some(_) => history.last().and_then(|last| last.days),
+    };
+    history.extend(passes.map(|past| PastPass {
+        pass: first + past.pass,
+        days: begin.zip(past.days).map(|(begin, days)| begin + days),
+        ..past
+    }));
+    history
 }
 
 impl SavedClamp {
@@ -101,8 +133,14 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 impl SavedState {
-    /// The cable of `scene` as `state`, after so many passes in all.
-    pub(crate) fn new(scene: &Scene, cable: &DuctedCable, state: &CableState, passes: u64) -> Self {
+    /// The cable of `scene` as `state`, with what its passes have left, after the runs `before` it.
+    pub(crate) fn new(
+        scene: &Scene,
+        cable: &DuctedCable,
+        state: &CableState,
+        before: Option<&Self>,
+        history_of_run: impl Iterator<Item = PastPass>,
+    ) -> Self {
         let duct = duct(scene);
         let ends = [cable.upstream(), cable.downstream()]
             .into_iter()
@@ -116,7 +154,8 @@ impl SavedState {
         let clamps = cable.restraints().iter().zip(state.clamp_slips(cable));
         Self {
             version: VERSION,
-            passes,
+            passes: before.map_or(0, Self::passes) + scene.traffic.passes,
+            history: history(before, history_of_run),
             hash: hash(&duct),
             duct,
             ends: [ends[0], ends[1]],
@@ -134,6 +173,11 @@ impl SavedState {
     /// Passes so far, of all runs.
     pub fn passes(&self) -> u64 {
         self.passes
+    }
+
+    /// What passes of all runs have left, those that a long run lists.
+    pub fn history(&self) -> &[PastPass] {
+        &self.history
     }
 
     /// Refuses a state of another duct, or one that was changed.

@@ -4,7 +4,7 @@
 //! and h/2 at the ends), and hangs on its neighbours by springs k = EA/h. End springs and clamps
 //! are springs S to the ground; a fixed end does not move.
 
-use crate::ends::EndReader;
+use crate::ends::{ClampReader, EndReader};
 use crate::error::checked;
 use crate::step::{Chain, FixedEndFriction, Grip};
 use crate::{CableError, DuctedCable, End, EndForces, Mesh};
@@ -25,6 +25,7 @@ pub(crate) struct Lumped {
     /// Friction of held nodes.
     pub held: FixedEndFriction,
     ends: EndReader,
+    pub clamps: ClampReader,
 }
 
 impl Lumped {
@@ -40,6 +41,7 @@ impl Lumped {
             load: cable.loads(&mesh, 0.0),
             held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
+            clamps: ClampReader::new(&cable, &mesh),
             cable,
             mesh,
         })

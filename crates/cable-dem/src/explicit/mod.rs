@@ -232,7 +232,9 @@ impl Explicit {
             return Err(CableError::Heated);
         }
         let (steps, time_step) = (self.steps(duct), self.time_step(duct));
-        let mut recorder = Recorder::new(self.lumped.end_forces(&state.displacement, &state.friction));
+        let mut recorder = Recorder::new(self.cable(), state)?;
+        recorder.peak = self.lumped.end_forces(&state.displacement, &state.friction);
+        recorder.lowest = recorder.peak;
         let mut moving = state.clone();
         let mut energy = EnergyBalance::default();
         let mut force_before_rest = recorder.peak;
@@ -340,6 +342,12 @@ fn run(
         let t = time_step * step as f64;
         nodes.step(lumped, |d| duct.displacement(t, d), time_step);
         recorder.record(nodes.end_forces(lumped));
+        if !lumped.clamps.is_empty() {
+            for grip in &lumped.grips {
+                grip.store(&mut state.clamp_slips);
+            }
+            recorder.record_clamps(lumped.clamps.read(&state.clamp_slips, |i| nodes.displacement(i)));
+        }
         look(t, &nodes);
         if step % LOOK == 0 || step == steps {
             let kinetic = nodes.kinetic_energy(lumped);
@@ -362,8 +370,5 @@ fn run(
     recorder.statistics.node_updates += steps * count;
     recorder.statistics.widest_window = count;
     nodes.store(state);
-    for grip in &lumped.grips {
-        grip.store(&mut state.clamp_slips);
-    }
     Ok(energy)
 }

@@ -152,6 +152,11 @@ impl MovingNodes {
         lumped.end_forces(&self.displacement, &self.friction)
     }
 
+    /// Displacement of a node \[m\].
+    pub fn displacement(&self, node: usize) -> f64 {
+        self.displacement[node]
+    }
+
     /// Writes displacement and friction to `state`.
     pub fn store(&self, state: &mut CableState) {
         state.displacement.copy_from_slice(&self.displacement);

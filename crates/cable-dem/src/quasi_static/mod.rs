@@ -198,6 +198,6 @@ impl QuasiStatic {
             state.displacement.fill(mean);
         }
         let force = state.end_forces(&self.cable)?;
-        Recorder::new(force).outcome(&self.cable, state, force)
+        Recorder::new(&self.cable, state)?.outcome(&self.cable, state, force)
     }
 }

@@ -3,11 +3,11 @@
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::supports::Supports;
 use super::window::{self, WindowBounds};
-use crate::ends::EndReader;
+use crate::ends::{ClampReader, EndReader};
 use crate::outcome::Recorder;
 use crate::step::{Chain, Grip, Load, Prediction, StepSolver, Stretch, largest};
 use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+use crate::{CableError, CableState, DuctedCable, Mesh};
 
 /// Solves at most in which clamps change between sticking and sliding: a few are right at once.
 const MAX_CORRECTIONS: usize = 100;
@@ -18,6 +18,9 @@ pub(super) struct ForwardSolver {
     pub step: StepSolver,
     cable: DuctedCable,
     ends: EndReader,
+    clamps: ClampReader,
+    /// How far clamps have slipped \[m\].
+    slips: Vec<[f64; 2]>,
     supports: Supports,
     bounds: WindowBounds,
     /// A node moves if it does so by more than this in a step \[m\].
@@ -48,6 +51,8 @@ impl ForwardSolver {
         Self {
             supports: Supports::new(&cable, mesh, &chain, bounds),
             ends: EndReader::new(&cable, mesh),
+            clamps: ClampReader::new(&cable, mesh),
+            slips: Vec::new(),
             bounds,
             quiet: QUIET_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
@@ -59,7 +64,7 @@ impl ForwardSolver {
             windows: Vec::new(),
             moving: Vec::new(),
             prediction: Prediction::default(),
-            recorder: Recorder::new(EndForces::default()),
+            recorder: Recorder::default(),
             mesh: *mesh,
         }
     }
@@ -85,7 +90,8 @@ impl ForwardSolver {
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction = Prediction::new(points, phases);
-        self.recorder = Recorder::new(state.end_forces(&self.cable)?);
+        self.slips.clone_from(&state.clamp_slips);
+        self.recorder = Recorder::new(&self.cable, state)?;
 
         let mut behind = self.bounds.free.lo;
         let mut last = passage.still();
@@ -119,7 +125,7 @@ impl ForwardSolver {
             grip.store(&mut state.clamp_slips);
         }
         self.recorder.statistics += self.step.statistics;
-        Ok(self.recorder)
+        Ok(std::mem::take(&mut self.recorder))
     }
 
     /// Lets the cable press on the bends of the duct with the force that it has under `snapshot`.
@@ -136,6 +142,7 @@ impl ForwardSolver {
         self.anchor(self.bounds.free);
         self.moving.clear();
         self.record_ends(snapshot);
+        self.record_clamps(snapshot);
         Ok(())
     }
 
@@ -179,6 +186,7 @@ impl ForwardSolver {
         if touched || self.supports.due().next().is_some() {
             self.record_ends(snapshot);
         }
+        self.record_clamps(snapshot);
         self.windows = windows;
         Ok(())
     }
@@ -289,6 +297,18 @@ impl ForwardSolver {
         let chain = &self.step.chain;
         let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
         (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes[node].limit
+    }
+
+    /// Records the force on each clamp with the vehicle at the snapshot's position.
+    fn record_clamps(&mut self, snapshot: &Snapshot<'_>) {
+        if self.clamps.is_empty() {
+            return;
+        }
+        for grip in &self.step.chain.grips {
+            grip.store(&mut self.slips);
+        }
+        let u = |node| self.r[node] + snapshot.adherent_at(node);
+        self.recorder.record_clamps(self.clamps.read(&self.slips, u));
     }
 
     /// Records the force on each end with the vehicle at the snapshot's position.

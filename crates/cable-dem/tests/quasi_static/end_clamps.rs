@@ -1,12 +1,14 @@
 //! Clamps on the node of an end, and within its element: who carries what.
 
+use approx::assert_abs_diff_eq;
 use cable_dem::{
-    CableState, DuctedCable, End, Explicit, ExplicitOptions, Mesh, MovingDuct, Passage, Restraint,
+    CableState, DuctedCable, End, Explicit, ExplicitOptions, Mesh, MovingDuct, Passage, QuasiStatic,
+    Restraint,
 };
 use ground_field::Direction;
 
 use super::full_newton::{FullChain, even_positions};
-use super::scenes::{APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, reference_motion, sheathed};
+use super::scenes::{APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, coulomb, reference_motion, sheathed};
 
 const LENGTH: f64 = 15.0;
 const SPACING: f64 = 0.2;
@@ -164,6 +166,44 @@ fn a_cable_that_has_come_to_rest_reads_the_same_by_balance_and_by_its_springs() 
                 assert!(
                     (one - other).abs() < 1e-4 * LIMITS[0] * SPACING,
                     "{moving:?} {resting:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn forces_on_clamps_during_a_pass_are_those_of_its_steps() {
+    let clamps = vec![
+        Restraint::new(12.03, 5e6),
+        Restraint::new(25.0, 2e7).that_holds(150.0),
+    ];
+    let cable = cable(40.0, 8e6, coulomb(27.2), End::Free, End::Fixed)
+        .with_restraints(clamps)
+        .expect("valid clamps");
+    let mesh = Mesh::new(40.0, 0.2, 0.1).expect("a valid mesh");
+    let shape = |xi: f64| 4e-5 * xi / (1.0 + xi * xi).powf(1.5);
+    for direction in [Direction::Forward, Direction::Reverse] {
+        let passage =
+            Passage::from_shape(&cable, &mesh, direction, shape, APPROACH).expect("a valid passage");
+        let mut solver = QuasiStatic::new(cable.clone(), mesh).expect("a valid problem");
+        let mut state = solver.at_rest();
+        let forces = |state: &CableState| state.restraint_forces(&cable).expect("its own cable");
+        for _ in 0..3 {
+            let mut seen = vec![forces(&state)];
+            let outcome = solver.pass_observed(&passage, &mut state, |_, at| seen.push(forces(&at())));
+            let outcome = outcome.expect("an equilibrium");
+            seen.push(outcome.restraints.clone());
+            for (clamp, range) in outcome.restraint_ranges.iter().enumerate() {
+                let of_steps = seen.iter().map(|forces| forces[clamp]);
+                let least = of_steps.clone().fold(f64::INFINITY, f64::min);
+                let largest = of_steps.fold(f64::NEG_INFINITY, f64::max);
+                assert_abs_diff_eq!(range[0], least, epsilon = 1e-6);
+                assert_abs_diff_eq!(range[1], largest, epsilon = 1e-6);
+                // The clamp stands still while the duct moves by tens of micrometres.
+                assert!(
+                    largest - least > 5.0,
+                    "{direction}: clamp {clamp} from {least} to {largest} N"
                 );
             }
         }

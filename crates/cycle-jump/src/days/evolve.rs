@@ -155,6 +155,7 @@ impl<P> Run<'_, P> {
             let mut outcome = self.log.get(&(day, part.place))?.outcome.clone();
             if part.at_rest {
                 (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
+                outcome.restraint_ranges = outcome.restraints.iter().map(|force| [*force; 2]).collect();
             }
             Some((part.weight, outcome))
         };

@@ -177,7 +177,8 @@ fn forces(outcome: &PassOutcome) -> Vec<Values> {
         [peak.upstream, lowest.upstream, 0.0, 0.0],
         [peak.downstream, lowest.downstream, 0.0, 0.0],
     ];
-    places.extend(outcome.restraints.iter().map(|&force| [force, 0.0, 0.0, 0.0]));
+    let clamps = outcome.restraints.iter().zip(&outcome.restraint_ranges);
+    places.extend(clamps.map(|(&force, &[least, most])| [force, least, most, 0.0]));
     places
 }
 
@@ -294,6 +295,7 @@ mod tests {
         }
         outcome.max_compression = 100.0;
         outcome.restraints = restraints.to_vec();
+        outcome.restraint_ranges = restraints.iter().map(|force| [*force; 2]).collect();
         change(&mut outcome);
         [Record {
             pass: 1,
@@ -331,6 +333,17 @@ mod tests {
         let coarse = pass(&[500.0, 6.0], |_| {});
         let fine = pass(&[500.0, 7.0], |_| {});
         assert_eq!(difference(&coarse, &fine, SCALE).force, 1.0 / 50.0);
+    }
+
+    #[test]
+    fn a_force_on_a_clamp_during_a_pass_counts_too() {
+        let coarse = pass(&[500.0], |outcome| {
+            outcome.restraint_ranges = vec![[-800.0, 500.0]]
+        });
+        let fine = pass(&[500.0], |outcome| {
+            outcome.restraint_ranges = vec![[-840.0, 500.0]]
+        });
+        assert_eq!(difference(&coarse, &fine, SCALE).force, 40.0 / 800.0);
     }
 
     #[test]

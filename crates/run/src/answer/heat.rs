@@ -85,6 +85,11 @@ pub struct HeatRecord {
     pub cold_profile: ForceProfile,
 }
 
+/// The larger in size.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if b.abs() > a.abs() { b } else { a }
+}
+
 impl HeatRecord {
     /// The last of `days` that all of its passes were computed of, if `passes` end within one; else
     /// the last.
@@ -123,10 +128,10 @@ impl DayExtremes {
         ])
     }
 
-    /// Largest force on the end in size \[N\].
+    /// The force on the end that is largest in size \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
         let [least, most] = self.of(end)[0];
-        least.abs().max(most.abs())
+        larger(most, least)
     }
 
     /// How far the end is from where it was laid, whichever way \[m\].

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::heat::larger;
 use super::place::{Limited, Moment, Place};
 use super::record::{PassRecord, Run};
 use super::units::Units;
@@ -58,6 +59,9 @@ pub struct Verdict {
     pub limit: f64,
     /// The largest in size of all listed passes \[N or m\].
     pub largest: f64,
+    /// Whether the largest force pulls the end; else it presses on it.
+    #[serde(default)]
+    pub pulled: bool,
     /// Whether it is larger than all that passes and heat leave: while a vehicle is above the duct.
     #[serde(default)]
     pub during_a_pass: bool,
@@ -72,23 +76,23 @@ pub struct Verdict {
 }
 
 impl PassRecord {
-    /// Largest force on an end after the pass and during it, in size \[N\].
+    /// The force on an end that is largest in size after the pass and during it \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
         let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
         let least = end.of([self.upstream_least_n, self.downstream_least_n]);
-        self.force_after(end).max(peak.abs()).max(least.abs())
+        larger(larger(self.force_after(end), peak), least)
     }
 
-    /// Force on an end after the pass, in size \[N\].
+    /// Force on an end after the pass \[N\].
     pub fn force_after(&self, end: CableEnd) -> f64 {
-        end.of([self.upstream_force_n, self.downstream_force_n]).abs()
+        end.of([self.upstream_force_n, self.downstream_force_n])
     }
 
     /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]:
     /// a spring moves in proportion to its force. How far a free end moves to and fro during a
     /// pass, some micrometres, is left out.
     pub fn largest_movement(&self, end: CableEnd) -> f64 {
-        let (after, during) = (self.force_after(end), self.largest_force(end));
+        let [after, during] = [self.force_after(end), self.largest_force(end)].map(f64::abs);
         let movement = self.movement(end);
         if after > 0.0 {
             movement * during / after
@@ -191,7 +195,8 @@ impl Limits {
     /// What `run` makes of each limit.
     pub fn verdicts(&self, run: &Run) -> Vec<Verdict> {
         let verdict = |(end, quantity, limit): (Place, Limited, f64)| {
-            let largest = run.largest(end, quantity);
+            let largest = run.farthest(end, quantity);
+            let (pulled, largest) = (quantity == Limited::Force && largest < 0.0, largest.abs());
             let exceeds = |moment: Moment<'_>| run.at(end, quantity, moment) > limit;
             let mut passes = run.passes.iter().enumerate();
             let pass = passes.find(|(index, record)| exceeds(Moment::Pass(*index, record)));
@@ -220,6 +225,7 @@ impl Limits {
                 quantity,
                 limit,
                 largest,
+                pulled,
                 during_a_pass: largest > run.largest_at_rest(end, quantity),
                 reached_after: first.map(|pass| Reached {
                     pass,
@@ -234,6 +240,22 @@ impl Limits {
 }
 
 impl Verdict {
+    /// Whether the computed passes exceed the limit, or more of them would.
+    pub fn is_exceeded(&self) -> bool {
+        self.reached_after.is_some() || self.levels_off_above.is_some()
+    }
+
+    /// All of them in a line: "2 of 4 limits exceeded"; nothing without any.
+    pub fn summary(verdicts: &[Self]) -> String {
+        let exceeded = verdicts.iter().filter(|verdict| verdict.is_exceeded()).count();
+        match (exceeded, verdicts.len()) {
+            (_, 0) => String::new(),
+            (0, 1) => "the limit is kept".to_owned(),
+            (0, all) => format!("all {all} limits kept"),
+            (exceeded, all) => format!("{exceeded} of {all} limits exceeded"),
+        }
+    }
+
     /// In words, in units of a reader.
     pub fn shown(&self, units: &Units) -> String {
         self.shown_with(units, |value| self.quantity.shown_in(units, value))
@@ -244,12 +266,19 @@ impl Verdict {
         let largest = shown(self.largest);
         let when = if self.during_a_pass { " during a pass" } else { "" };
         let limit = self.quantity.given_in(units, self.limit);
-        let what = self.quantity.at_in(units, self.end);
+        let place = self.end.shown_in(units);
+        let what = match (self.quantity, self.end) {
+            (Limited::Force, Place::Clamp(_)) => format!("the {place} bears"),
+            (Limited::Force, _) if self.pulled => format!("the {place} is pulled with"),
+            (Limited::Force, _) => format!("the {place} is pressed with"),
+            (Limited::Movement, Place::Clamp(_)) => format!("the cable at the {place} moves by"),
+            (Limited::Movement, _) => format!("the {place} moves by"),
+        };
         let verdict = match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
                 format!(
-                    "limit exceeded: {what} above {limit}, first at pass {pass}{time}; largest {largest}{when}"
+                    "limit exceeded: {what} up to {largest}{when}, limit {limit}, first at pass {pass}{time}"
                 )
             }
             None => format!("limit kept: {what} at most {largest}{when}, limit {limit}"),

@@ -22,7 +22,7 @@ pub use force_profile::ForceProfile;
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
 pub use listed::{beyond, listed, simulated};
-pub use place::{Limited, Place};
+pub use place::{Limited, Place, largest_movement_in_duct};
 pub use record::*;
 pub use saturation::{larger, saturation};
 pub use table_rows::{in_rows, table_days, table_rows};

@@ -2,15 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::heat::DayExtremes;
+use super::heat::{DayExtremes, larger};
 use super::record::{ExtremePass, PassRecord, Run};
 use super::units::Units;
-use crate::scene::CableEnd;
+use crate::scene::{CableEnd, Scene};
 use crate::shown::exact;
 use crate::tuning::meshes::SMALL;
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
+
+/// Share of the duct's length by which an end moves that means no more than that the cable leaves
+/// the duct.
+const LEAVES: f64 = 0.01;
+
+/// The largest movement of an end \[m\] with which the cable of `scene` stays in its duct.
+pub fn largest_movement_in_duct(scene: &Scene) -> f64 {
+    LEAVES * scene.duct.length
+}
 
 /// Where a cable is held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,9 +37,9 @@ pub enum Place {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limited {
-    /// Force on an end after passes and during them, on a clamp after passes \[N\].
+    /// Force on an end or a clamp, after passes and during them \[N\].
     Force,
-    /// Displacement of the end, or of the cable at the clamp, after passes \[m\].
+    /// Displacement of the end after passes, or of the cable at the clamp also during them \[m\].
     Movement,
 }
 
@@ -86,20 +95,25 @@ pub(super) enum Moment<'r> {
 
 impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all
-    /// days: of an end also the force during passes and the movement of its spring, of a clamp
-    /// those after them; in random order, where passes between jumps are means, with the scatter of
+    /// days: also the force during passes, and the movement of an end's spring and of a clamp; in random order, where passes between jumps are means, with the scatter of
     /// single ones. Zero where there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
-        let place = place.into();
-        let values = self.moments().map(|moment| self.at(place, quantity, moment));
-        values.fold(0.0, f64::max)
+        self.farthest(place.into(), quantity).abs()
+    }
+
+    /// The same with its sign.
+    pub(super) fn farthest(&self, place: Place, quantity: Limited) -> f64 {
+        let values = self
+            .moments()
+            .map(|moment| self.value(place, quantity, moment, self.has_peaks(moment)));
+        values.fold(0.0, larger)
     }
 
     /// The same without what happens while a vehicle is above the duct.
     pub(super) fn largest_at_rest(&self, place: Place, quantity: Limited) -> f64 {
         let values = self
             .moments()
-            .map(|moment| self.value(place, quantity, moment, false));
+            .map(|moment| self.value(place, quantity, moment, false).abs());
         values.fold(0.0, f64::max)
     }
 
@@ -138,6 +152,20 @@ impl Run {
         at_places.chain(inside).fold(0.0, f64::max)
     }
 
+    /// Warns where the cable leaves its duct.
+    pub(crate) fn warn_where_it_leaves(&mut self, scene: &Scene) {
+        let most = largest_movement_in_duct(scene);
+        let leaves = |end: &CableEnd| self.largest(*end, Limited::Movement) > most;
+        if let Some(end) = CableEnd::ALL.into_iter().find(leaves) {
+            self.warnings.push(format!(
+                "the {} end moves by more than {} % of the duct's length: the cable leaves the duct, and larger movements say no more \
+                 than that",
+                end.name(),
+                100.0 * LEAVES
+            ));
+        }
+    }
+
     fn moments(&self) -> impl Iterator<Item = Moment<'_>> {
         let passes = self.passes.iter().enumerate();
         let passes = passes.map(|(index, record)| Moment::Pass(index, record));
@@ -147,18 +175,22 @@ impl Run {
             .chain(self.extremes.iter().map(Moment::Extreme))
     }
 
-    /// The largest at one moment.
+    /// The largest at one moment, in size.
     pub(super) fn at(&self, place: Place, quantity: Limited, moment: Moment<'_>) -> f64 {
-        // On days of heat passes between simulated ones have the peaks of others.
+        self.value(place, quantity, moment, self.has_peaks(moment)).abs()
+    }
+
+    /// Whether forces during a pass are known: on days of heat passes between simulated ones have
+    /// the peaks of others.
+    fn has_peaks(&self, moment: Moment<'_>) -> bool {
         let is_known = |record: &PassRecord| self.heat.is_none() || !record.interpolated;
-        let during = !matches!(moment, Moment::Pass(_, record) if !is_known(record));
-        self.value(place, quantity, moment, during)
+        !matches!(moment, Moment::Pass(_, record) if !is_known(record))
     }
 
     /// The same, with what happens while a vehicle is above the duct if `during`.
     fn value(&self, place: Place, quantity: Limited, moment: Moment<'_>, during: bool) -> f64 {
         let Some(end) = place.end() else {
-            return self.on_clamps(place, quantity, moment);
+            return self.on_clamps(place, quantity, moment, during);
         };
         let (record, scatter) = match moment {
             Moment::Day(day) => {
@@ -170,21 +202,24 @@ impl Run {
             Moment::Pass(_, record) => (record, self.scatter(end, record)),
             Moment::Extreme(pass) => (&pass.after, 0.0),
         };
+        let wider = |force: f64| force + scatter.copysign(force);
         match quantity {
-            Limited::Force if during => record.largest_force(end) + scatter,
-            Limited::Force => record.force_after(end) + scatter,
+            Limited::Force if during => wider(record.largest_force(end)),
+            Limited::Force => wider(record.force_after(end)),
             Limited::Movement if during => record.largest_movement(end),
             Limited::Movement => record.movement(end),
         }
     }
 
-    /// The largest of the clamps at `place`.
-    fn on_clamps(&self, place: Place, quantity: Limited, moment: Moment<'_>) -> f64 {
+    /// The largest of the clamps at `place`, in size.
+    fn on_clamps(&self, place: Place, quantity: Limited, moment: Moment<'_>, during: bool) -> f64 {
         let clamps = self.restraints.iter().enumerate();
         let clamps = clamps.filter(|(_, clamp)| place.is_clamp_at(clamp.position_m));
         let values = clamps.map(|(index, clamp)| {
             let force = match moment {
+                Moment::Pass(pass, _) if during => clamp.during_passes_n[pass].abs(),
                 Moment::Pass(pass, _) => clamp.after_passes_n[pass].abs(),
+                Moment::Extreme(pass) if during => pass.restraint_peaks_n[index].abs(),
                 Moment::Extreme(pass) => pass.restraints_n[index].abs(),
                 Moment::Day(day) => day.restraints[index]
                     .max_n

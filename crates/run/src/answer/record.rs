@@ -174,6 +174,9 @@ pub struct ExtremePass {
     /// Force of the cable on each clamp after it \[N\].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub restraints_n: Vec<f64>,
+    /// The largest in size during it and after it \[N\], with its sign.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub restraint_peaks_n: Vec<f64>,
 }
 
 /// What a clamp carries.
@@ -188,6 +191,9 @@ pub struct RestraintRecord {
     /// The same after each of [`Run::passes`] \[N\].
     #[serde(default)]
     pub after_passes_n: Vec<f64>,
+    /// The largest in size during each of them and after it \[N\], with its sign.
+    #[serde(default)]
+    pub during_passes_n: Vec<f64>,
     /// How far it has slipped \[m\], positive toward growing x; none if it never slips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slipped_m: Option<f64>,

@@ -3,14 +3,14 @@
 use cycle_jump::{Record, peaks};
 
 use crate::Error;
-use crate::SavedState;
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, PassRecord, PlanSummary,
-    RestraintRecord, Run, Stage, Start, balance, saturation,
+    RestraintRecord, Run, Stage, Start, balance, listed, saturation,
 };
 use crate::passes::{Passes, Solved, force_profile, listed_passes};
 use crate::plan::Plan;
+use crate::saved_state::{PastPass, SavedState};
 use crate::scene::Scene;
 
 /// What every answer holds, however it was found.
@@ -62,7 +62,18 @@ impl<'a> RunBuilder<'a> {
         balance::of_records(scene, &passes, &restraints)?;
         self.summarise(solved, passes.iter().find(|record| record.interpolated));
         let total = solved.error.total();
-        let state = Some(self.state(&solved.passes));
+        let Passes { cable, state, .. } = &solved.passes;
+        let kept = listed(scene.traffic.passes);
+        let kept = passes
+            .iter()
+            .filter(|record| kept.binary_search(&record.pass).is_ok());
+        let past = kept.map(|record| PastPass {
+            pass: record.pass,
+            days: scene.traffic.per_day.map(|a_day| record.pass as f64 / a_day),
+            force_n: [record.upstream_force_n, record.downstream_force_n],
+            displacement_m: [record.upstream_displacement_m, record.downstream_displacement_m],
+        });
+        let state = Some(SavedState::new(scene, cable, state, self.plan.start, past));
         let beyond = solved.passes.beyond.as_ref();
         let (days, heat) = solved.heat.clone().unzip();
         let (saturation, range) = if heat.is_some() {
@@ -71,7 +82,7 @@ impl<'a> RunBuilder<'a> {
             let period = self.plan.period.len();
             saturation(scene, period, &solved.passes.records, beyond)
         };
-        Ok(Run {
+        let mut run = Run {
             title: scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
@@ -97,14 +108,9 @@ impl<'a> RunBuilder<'a> {
             state,
             cost: Cost::new(solved.passes.simulated, &solved.statistics),
             warnings: self.warnings,
-        })
-    }
-
-    /// The cable as the passes have left it.
-    fn state(&self, passes: &Passes) -> SavedState {
-        let before = self.plan.start.map_or(0, SavedState::passes);
-        let scene = self.plan.scene;
-        SavedState::new(scene, &passes.cable, &passes.state, before + scene.traffic.passes)
+        };
+        run.warn_where_it_leaves(scene);
+        Ok(run)
     }
 
     /// Warns of a friction law that loses some of the stored force.
@@ -156,6 +162,13 @@ impl<'a> RunBuilder<'a> {
             vehicle: scene.vehicles[vehicle].name.clone(),
             after: PassRecord::new(record, &scene.traffic),
             restraints_n: record.outcome.restraints.clone(),
+            restraint_peaks_n: record
+                .outcome
+                .restraint_ranges
+                .iter()
+                .copied()
+                .map(larger_of)
+                .collect(),
         };
         let seldom = solved.seldom.iter().map(|(vehicle, record)| (*vehicle, record));
         of_period.chain(seldom).map(pass).collect()
@@ -217,6 +230,11 @@ impl<'a> RunBuilder<'a> {
     }
 }
 
+/// The largest in size of a range.
+fn larger_of([least, most]: [f64; 2]) -> f64 {
+    if -least > most { least } else { most }
+}
+
 fn restraints(scene: &Scene, passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
     let forces = state
@@ -234,6 +252,10 @@ fn restraints(scene: &Scene, passes: &Passes, records: &[Record]) -> Result<Vec<
             after_passes_n: records
                 .iter()
                 .map(|record| record.outcome.restraints[i])
+                .collect(),
+            during_passes_n: records
+                .iter()
+                .map(|record| larger_of(record.outcome.restraint_ranges[i]))
                 .collect(),
         })
         .collect())
