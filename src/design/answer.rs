@@ -22,17 +22,19 @@ pub struct Design {
     pub passes: u64,
     /// The limits.
     pub limits: Limits,
-    /// Of one spring, the stiffnesses within all limits \[N/m\], from and to; no upper one where a fixed end is within them too. `None` where only a
-    /// fixed end or no stiffness is.
+    /// Of one spring, the stiffnesses within all limits \[N/m\], from and to; no upper one where a
+    /// fixed end is within them too. `None` where only a fixed end or no stiffness is.
     pub range_n_per_m: Option<(f64, Option<f64>)>,
-    /// What to take: within the limits, with margins to them. `None` where nothing stays within them.
+    /// What to take: within the limits, with margins to them. `None` where nothing stays within
+    /// them.
     pub answer: Option<TradeOff>,
     /// Where nothing stays within the limits, what comes nearest to them.
     pub nearest: Option<TradeOff>,
-    /// The limits that bind: of one spring those at the ends of its range, else those that the answer, or the nearest, is nearest to or
-    /// exceeds most.
+    /// The limits that bind: of one spring those at the ends of its range, else those that the
+    /// answer, or the nearest, is nearest to or exceeds most.
     pub binding: Vec<Binding>,
-    /// Everything that was computed with the scene's own tolerance, by growing stiffness, from a free end or no clamp on.
+    /// Everything that was computed with the scene's own tolerance, by growing stiffness, from a
+    /// free end or no clamp on.
     pub curve: Vec<TradeOff>,
     /// How many runs of the scene it took.
     pub runs: usize,
@@ -50,16 +52,18 @@ impl Design {
         found.map_or(f64::INFINITY, |found| found.excess(&self.limits))
     }
 
-    /// Where none was found within the limits though there may be one: by how much less than this share the nearest
-    /// exceeds them, the larger of its estimated error and of the step in which stiffnesses were tried.
+    /// Where none was found within the limits though there may be one: by how much less than this
+    /// share the nearest exceeds them, the larger of its estimated error and of the step in which
+    /// stiffnesses were tried.
     pub fn doubt(&self) -> Option<f64> {
         let error = self.nearest.as_ref()?.error_estimate.max(ACCURACY);
         (self.excess() - 1.0 < error).then_some(error)
     }
 }
 
-/// The best of several designs: of those that keep their limits that with the largest margin, or the softest where all are clamps,
-/// which are as soft as their limits allow; else the one nearest to its limits.
+/// The best of several designs: of those that keep their limits that with the largest margin, or
+/// the softest where all are clamps, which are as soft as their limits allow; else the one nearest
+/// to its limits.
 pub fn best(designs: &[Design]) -> Option<&Design> {
     let kept: Vec<&Design> = designs.iter().filter(|design| design.answer.is_some()).collect();
     let by_excess = |a: &&Design, b: &&Design| a.excess().total_cmp(&b.excess());

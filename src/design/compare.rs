@@ -11,8 +11,8 @@ use super::trade_off::{Spring, TradeOff};
 use crate::ground::{Ground, road};
 use crate::{Error, Limits, Progress, Scene};
 
-/// Runs `scene` once with each of `springs`, all on one mesh, on all cores. A run that fails is an error in its own
-/// place; `progress` is called after each run.
+/// Runs `scene` once with each of `springs`, all on one mesh, on all cores. A run that fails is an
+/// error in its own place; `progress` is called after each run.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! One spring: the curve of force against movement, and the range of stiffness in which it keeps the limits.
+//! One spring: the curve of force against movement, and the range of stiffness in which it keeps
+//! the limits.
 
 use std::sync::Arc;
 
@@ -15,8 +16,9 @@ const POINTS_PER_DECADE: i32 = 2;
 /// Runs that halve half a decade to that width, at two ends: only the progress depends on it.
 const HALVINGS: usize = 14;
 
-/// The runs of the scene, none of them rough, and the stiffnesses within all limits. Where the curve shows none, the
-/// stiffness is halved in on at which the worst limit of softer springs is as far exceeded as that of stiffer ones.
+/// The runs of the scene, none of them rough, and the stiffnesses within all limits. Where the
+/// curve shows none, the stiffness is halved in on at which the worst limit of softer springs is as
+/// far exceeded as that of stiffer ones.
 pub fn search<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
@@ -81,9 +83,9 @@ pub fn search<'a>(
     Ok((runs, 0, found))
 }
 
-/// What to take of the stiffnesses that keep the limits. An end that may be fixed is fixed, and a clamp that is not needed is left
-/// out; an end is held as stiffly as the force allows, or in the middle of the range where movement is limited too; a clamp
-/// is as soft as may be.
+/// What to take of the stiffnesses that keep the limits. An end that may be fixed is fixed, and a
+/// clamp that is not needed is left out; an end is held as stiffly as the force allows, or in the
+/// middle of the range where movement is limited too; a clamp is as soft as may be.
 fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
     match place {
         Place::Clamp(_) => from,
@@ -92,8 +94,9 @@ fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
     }
 }
 
-/// Bisection in ln k between two runs, of which the stiffer one `is_upper`, until they differ by [`ACCURACY`]. Beyond
-/// the ends of the curve a stiffness means as little as none, or as much as a fixed end.
+/// Bisection in ln k between two runs, of which the stiffer one `is_upper`, until they differ by
+/// [`ACCURACY`]. Beyond the ends of the curve a stiffness means as little as none, or as much as a
+/// fixed end.
 fn halve(
     runs: &Runs<'_>,
     [mut low, mut high]: [TradeOff; 2],

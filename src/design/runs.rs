@@ -13,8 +13,9 @@ use crate::{Error, FixedMesh, Limits, Place, Progress, RunOptions, Scene};
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
 const DECADES: i32 = 2;
 
-/// A scene on the mesh that its stiffest variant needs, and its ground: runs that are to be compared are made on the same ones, and where
-/// the end is nearly free there is no force whose relative error a finer mesh could make small.
+/// A scene on the mesh that its stiffest variant needs, and its ground: runs that are to be
+/// compared are made on the same ones, and where the end is nearly free there is no force whose
+/// relative error a finer mesh could make small.
 pub struct OneMesh {
     scene: Scene,
     ground: Arc<Ground>,
@@ -102,7 +103,8 @@ impl<'a> Runs<'a> {
         })
     }
 
-    /// Runs the scene with a spring of these stiffnesses \[N/m\] at each place, or finds the run in what was done.
+    /// Runs the scene with a spring of these stiffnesses \[N/m\] at each place, or finds the run in
+    /// what was done.
     pub fn run(&self, stiffnesses: &[f64]) -> Result<TradeOff, Error> {
         let locked = || self.points.lock().unwrap_or_else(PoisonError::into_inner);
         let springs = self.places.iter().zip(stiffnesses);
@@ -123,8 +125,8 @@ impl<'a> Runs<'a> {
         stiffnesses.par_iter().map(|each| self.run(each)).collect()
     }
 
-    /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own, unless its forces so differ just enough
-    /// to be on the other side of a limit.
+    /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own,
+    /// unless its forces so differ just enough to be on the other side of a limit.
     pub fn judged(&self, point: TradeOff) -> Result<TradeOff, Error> {
         let own = self.mesh.run(&point.springs, self.limits, true)?;
         if own.within_limits == point.within_limits {
@@ -149,14 +151,15 @@ impl<'a> Runs<'a> {
         points.sort_by(|a, b| {
             let pairs = a.springs.iter().zip(&b.springs);
             let orders = pairs.map(|(a, b)| a.stiffness().total_cmp(&b.stiffness()));
-            orders.fold(std::cmp::Ordering::Equal, |order, next| order.then(next))
+            orders.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
         });
         points
     }
 }
 
-/// Stiffnesses to try at `place` \[N/m\], ascending, so many a decade: from a free end to a fixed one, from no clamp to a stiff one.
-/// Without a clamp it cannot be seen how far the cable moves where it would be, which `limits` may need.
+/// Stiffnesses to try at `place` \[N/m\], ascending, so many a decade: from a free end to a fixed
+/// one, from no clamp to a stiff one. Without a clamp it cannot be seen how far the cable moves
+/// where it would be, which `limits` may need.
 pub fn stiffnesses(scene: &Scene, place: Place, limits: &Limits, per_decade: i32) -> Vec<f64> {
     let own = scene.cable.axial_stiffness / scene.duct.length;
     let steps = DECADES * per_decade;

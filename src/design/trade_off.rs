@@ -9,7 +9,8 @@ use crate::{CableEnd, Error, Limited, Limits, Place, Run, Scene};
 /// Where something is limited, what, and how much \[N or m\].
 pub type Limit = (Place, Limited, f64);
 
-/// An end that moves by more than this share of the duct's length is no longer where the scene says.
+/// An end that moves by more than this share of the duct's length is no longer where the scene
+/// says.
 const LEAVES: f64 = 0.01;
 /// Limits bind whose share is this near to the largest.
 const BINDS: f64 = 0.95;
@@ -19,7 +20,8 @@ const BINDS: f64 = 0.95;
 pub struct Spring {
     /// Where it is.
     pub place: Place,
-    /// Its stiffness \[N/m\]: 0 where the end is free or there is no clamp; `None` where the end is fixed.
+    /// Its stiffness \[N/m\]: 0 where the end is free or there is no clamp; `None` where the end is
+    /// fixed.
     pub stiffness_n_per_m: Option<f64>,
 }
 
@@ -32,7 +34,8 @@ pub struct ClampPeak {
     pub force_n: f64,
     /// Largest displacement of the cable there \[m\].
     pub movement_m: f64,
-    /// How far a clamp that slips has slipped in the end \[m\], positive toward growing x; none if it never slips.
+    /// How far a clamp that slips has slipped in the end \[m\], positive toward growing x; none if
+    /// it never slips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slipped_m: Option<f64>,
 }
@@ -61,15 +64,18 @@ pub struct TradeOff {
     pub clamp_force_n: Option<f64>,
     /// All clamps.
     pub clamps: Vec<ClampPeak>,
-    /// Whether an end moves by more than a hundredth of the duct's length: the cable leaves the duct, and its movement is only that it does.
+    /// Whether an end moves by more than a hundredth of the duct's length: the cable leaves the
+    /// duct, and its movement is only that it does.
     pub leaves_duct: bool,
-    /// Limits that these passes keep and more of them would not: at each the force after a pass that they level off at.
+    /// Limits that these passes keep and more of them would not: at each the force after a pass
+    /// that they level off at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub exceeded_later: Vec<Binding>,
     /// Whether forces still grow after these passes, and how far is not known.
     #[serde(default)]
     pub still_growing: bool,
-    /// Estimated relative error of the forces; but for the answer, and the nearest, with the mesh's part of the run with fixed ends.
+    /// Estimated relative error of the forces; but for the answer, and the nearest, with the mesh's
+    /// part of the run with fixed ends.
     pub error_estimate: f64,
     /// Whether it is within all limits.
     pub within_limits: bool,
@@ -114,7 +120,8 @@ pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = Limit> {
 }
 
 impl Spring {
-    /// A spring of this stiffness \[N/m\] at `place`: 0 is a free end or no clamp, infinity a fixed end.
+    /// A spring of this stiffness \[N/m\] at `place`: 0 is a free end or no clamp, infinity a fixed
+    /// end.
     pub fn new(place: Place, stiffness: f64) -> Self {
         Self {
             place,
@@ -220,7 +227,8 @@ impl TradeOff {
         self.stiffness_n_per_m.unwrap_or(f64::INFINITY)
     }
 
-    /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the duct, which no limit allows.
+    /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the
+    /// duct, which no limit allows.
     pub fn excess(&self, limits: &Limits) -> f64 {
         if self.leaves_duct {
             return f64::INFINITY;

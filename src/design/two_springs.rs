@@ -1,11 +1,14 @@
 //! Two springs at once.
 //!
-//! Rough runs over a grid of both stiffnesses tell how everything that is limited depends on them, and between them formulas that are
-//! exact for a spring against a spring: 1/u is linear in k, and 1/F in 1/k. On that map the best point is found by looking at all; a
-//! run with the scene's own tolerance there scales the map, and the next best point is looked for until map and run agree (space
-//! mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536). Every point of the answer is such a run.
+//! Rough runs over a grid of both stiffnesses tell how everything that is limited depends on them,
+//! and between them formulas that are exact for a spring against a spring: 1/u is linear in k, and
+//! 1/F in 1/k. On that map the best point is found by looking at all; a run with the scene's own
+//! tolerance there scales the map, and the next best point is looked for until map and run agree
+//! (space mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536). Every
+//! point of the answer is such a run.
 //!
-//! A map of all stiffnesses finds the best of several valleys, needs no monotony and its runs are made on all cores at once.
+//! A map of all stiffnesses finds the best of several valleys, needs no monotony and its runs are
+//! made on all cores at once.
 
 use std::sync::Arc;
 
@@ -34,8 +37,8 @@ const SAFE: f64 = 0.99;
 /// Points whose margins differ by less than this share are equally good.
 const EQUAL: f64 = 0.01;
 
-/// The runs of the scene, how many rough ones there were, and the pair with the largest margin to the limits; where no
-/// movement is limited, the one with which the ends move least.
+/// The runs of the scene, how many rough ones there were, and the pair with the largest margin to
+/// the limits; where no movement is limited, the one with which the ends move least.
 pub fn search<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
@@ -114,8 +117,8 @@ impl Map {
         self.limits.iter().map(|limit| point.share(*limit)).collect()
     }
 
-    /// What is to be small: the largest share of a limit, or, where only forces are limited and all are kept, the movement of the ends,
-    /// which then counts less than any limit that is not.
+    /// What is to be small: the largest share of a limit, or, where only forces are limited and all
+    /// are kept, the movement of the ends, which then counts less than any limit that is not.
     fn worth(&self, shares: &[f64]) -> f64 {
         let excess = largest(shares);
         if !self.moves_freely || excess > SAFE {
@@ -125,8 +128,8 @@ impl Map {
         SAFE * moved / (1.0 + moved)
     }
 
-    /// The best pair by the map, each share of it times its `scale`: first of the trials, then of finer steps around
-    /// the best of these.
+    /// The best pair by the map, each share of it times its `scale`: first of the trials, then of
+    /// finer steps around the best of these.
     fn best(&self, scale: &[f64]) -> ([f64; 2], Vec<f64>) {
         let (pair, _) = self.best_of(&self.trials, scale);
         self.best_of(&pair.map(around), scale)
@@ -185,7 +188,8 @@ impl Map {
     }
 }
 
-/// Finer steps around a stiffness, to the next of the map; only itself where there is no spring, or a fixed end.
+/// Finer steps around a stiffness, to the next of the map; only itself where there is no spring, or
+/// a fixed end.
 fn around(stiffness: f64) -> Vec<f64> {
     if stiffness == 0.0 || stiffness.is_infinite() {
         return vec![stiffness];
@@ -215,7 +219,8 @@ fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 
 mod tests {
     use super::*;
 
-    /// A spring k in series with one of stiffness c that is compressed by d together: u = c d / (k + c), F = k u.
+    /// A spring k in series with one of stiffness c that is compressed by d together: u = c d / (k
+    /// + c), F = k u.
     #[test]
     fn a_spring_against_a_spring_is_read_exactly() {
         let (c, d) = (3e5, 0.01);

@@ -15,13 +15,14 @@ const DIGITS: usize = 12;
 pub struct Axis {
     /// The scene's key.
     pub key: String,
-    /// Its values, as they would stand after `--set KEY=`, or [distributions](super::Distribution) to draw from.
+    /// Its values, as they would stand after `--set KEY=`, or [distributions](super::Distribution)
+    /// to draw from.
     pub values: Vec<String>,
 }
 
 impl Axis {
-    /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a [distribution](super::Distribution::parse). Numbers may have a
-    /// unit: `0.6m:2m:0.2m`.
+    /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a
+    /// [distribution](super::Distribution::parse). Numbers may have a unit: `0.6m:2m:0.2m`.
     ///
     /// # Errors
     ///
@@ -129,7 +130,8 @@ fn list(text: &str) -> Result<Vec<String>, (String, String)> {
     Ok(list.into_iter().map(str::to_owned).collect())
 }
 
-/// Two values that may be one with a decimal comma, as it would be written with a point: `1,5m`, `0,25`, `1,05`.
+/// Two values that may be one with a decimal comma, as it would be written with a point: `1,5m`,
+/// `0,25`, `1,05`.
 fn decimal_comma(text: &str) -> Option<String> {
     let (whole, rest) = text.split_once(',')?;
     let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);

@@ -75,7 +75,8 @@ impl Sweep {
     }
 }
 
-/// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50 (1996) 361, type 8).
+/// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50
+/// (1996) 361, type 8).
 fn quantiles(values: Vec<f64>) -> Option<Quantiles> {
     if values.len() < 2 {
         return None;

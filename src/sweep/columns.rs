@@ -142,33 +142,26 @@ impl Sweep {
         });
         cells
     }
+}
 
-    /// The row of number `index` whose cells stand in a file; `None` for a record that is none.
-    pub(super) fn row_of(
-        &self,
-        index: usize,
-        record: &csv::StringRecord,
-        columns: &[AnswerColumn],
-    ) -> Option<Row> {
-        let end = columns.len() - STATUS.len();
-        let outcome = match record.get(end)? {
-            "ok" => {
-                let number = |text: &str| match text.parse::<u64>() {
-                    Ok(count) => Value::from(count),
-                    Err(_) => text.parse::<f64>().map_or(Value::Null, Value::from),
-                };
-                let fields = columns[..end].iter().zip(record);
-                let fields: Map<String, Value> = fields
-                    .filter(|(column, _)| {
-                        ANSWER.contains(&&*column.name) || HEAT_ANSWER.contains(&&*column.name)
-                    })
-                    .map(|(column, text)| (column.name.clone(), number(text)))
-                    .collect();
-                Ok(serde_json::from_value(Value::from(fields)).ok()?)
-            }
-            "error" => Err(record.get(end + 1)?.to_owned()),
-            _ => return None,
-        };
-        Some(Row { index, outcome })
-    }
+/// The row of number `index` whose cells stand in a file; `None` for a record that is none.
+pub fn row_of(index: usize, record: &csv::StringRecord, columns: &[AnswerColumn]) -> Option<Row> {
+    let end = columns.len() - STATUS.len();
+    let outcome = match record.get(end)? {
+        "ok" => {
+            let number = |text: &str| match text.parse::<u64>() {
+                Ok(count) => Value::from(count),
+                Err(_) => text.parse::<f64>().map_or(Value::Null, Value::from),
+            };
+            let fields = columns[..end].iter().zip(record);
+            let fields: Map<String, Value> = fields
+                .filter(|(column, _)| ANSWER.contains(&&*column.name) || HEAT_ANSWER.contains(&&*column.name))
+                .map(|(column, text)| (column.name.clone(), number(text)))
+                .collect();
+            Ok(serde_json::from_value(Value::from(fields)).ok()?)
+        }
+        "error" => Err(record.get(end + 1)?.to_owned()),
+        _ => return None,
+    };
+    Some(Row { index, outcome })
 }

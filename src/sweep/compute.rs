@@ -85,8 +85,8 @@ impl Sweep {
         failure.map_or(Ok(()), Err)
     }
 
-    /// Computes one point. Whatever goes wrong there is its answer, in one line: what follows it shows the place in
-    /// the file again.
+    /// Computes one point. Whatever goes wrong there is its answer, in one line: what follows it
+    /// shows the place in the file again.
     fn row(&self, index: usize, run: impl FnMut(&Scene) -> Result<Run, Error>) -> Result<Row, SweepError> {
         let mut run = run;
         let compute = || -> Result<Answer, Error> {

@@ -22,13 +22,15 @@ const LAWS: &str = "normal(MEAN, SD), lognormal(MEDIAN, SIGMA) with the standard
     triangular(LOW, MODE, HIGH), with SD > 0, SIGMA > 0, MEDIAN > 0 and LOW < HIGH, all but SIGMA in one unit";
 const BOUNDS: &str = "min=LOW and max=HIGH behind the parameters, in their unit, with at least a thousandth of all values between them";
 
-/// Share of a law that lies between its bounds at least: of what lies farther out the distribution function has too few digits.
+/// Share of a law that lies between its bounds at least: of what lies farther out the distribution
+/// function has too few digits.
 const LEAST_SHARE: f64 = 1e-3;
 
 impl Distribution {
-    /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the standard deviation SIGMA of the logarithm,
-    /// `uniform(LOW, HIGH)` or `triangular(LOW, MODE, HIGH)`, each also with `min=LOW` or `max=HIGH` behind its
-    /// parameters; the error is what is allowed. `None` for a text that is no call.
+    /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the standard deviation SIGMA of
+    /// the logarithm, `uniform(LOW, HIGH)` or `triangular(LOW, MODE, HIGH)`, each also with
+    /// `min=LOW` or `max=HIGH` behind its parameters; the error is what is allowed. `None` for a
+    /// text that is no call.
     pub fn parse(text: &str) -> Option<Result<Self, &'static str>> {
         let (name, rest) = text.split_once('(')?;
         let (name, parameters) = (name.trim(), rest.strip_suffix(')')?);
@@ -62,7 +64,8 @@ impl Distribution {
         Ok(Self { law, bounds, unit })
     }
 
-    /// The value below which the share `probability` of all draws lies, and its text with the unit; NaN unless it is from 0 to 1.
+    /// The value below which the share `probability` of all draws lies, and its text with the unit;
+    /// NaN unless it is from 0 to 1.
     pub fn quantile(&self, probability: f64) -> (f64, String) {
         let [below, upto] = self.bounds.map(|bound| self.law.cdf(bound));
         let [least, most] = self.bounds;
@@ -126,10 +129,12 @@ mod tests {
         close(quantile("lognormal(2, 0.5)", 0.975).0, 2.0 * (0.5 * z).exp());
         close(quantile("uniform(3, 7)", 0.25).0, 4.0);
         assert_eq!(quantile("uniform(10 tf, 20 tf)", 0.5).1, "15.0 tf");
-        // A quarter of the triangle lies below its mode, and half of that area below 1/√2 of the way there.
+        // A quarter of the triangle lies below its mode, and half of that area below 1/√2 of the
+        // way there.
         close(quantile("triangular(0, 1, 4)", 0.25).0, 1.0);
         close(quantile("triangular(0, 1, 4)", 0.125).0, 0.5_f64.sqrt());
-        // Of the upper half of a normal distribution, half lies below the upper quartile of the whole.
+        // Of the upper half of a normal distribution, half lies below the upper quartile of the
+        // whole.
         close(quantile("normal(0, 1, min=0)", 0.5).0, 0.6744897501960817);
         close(quantile("normal(0.25, 0.03, min=0.2, max=0.3)", 0.5).0, 0.25);
         let (least, text) = quantile("normal(1 kN, 5 kN, min=0 kN)", 0.0);

@@ -32,7 +32,8 @@ const LAYOUT: Layout = Layout {
 };
 
 impl Sweep {
-    /// The ducts of a table, `.csv` or `.xlsx`, read as `options` say, as [`Sweep::of_table`] takes them.
+    /// The ducts of a table, `.csv` or `.xlsx`, read as `options` say, as [`Sweep::of_table`] takes
+    /// them.
     ///
     /// # Errors
     ///

@@ -41,11 +41,12 @@ pub enum SweepError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// What stands beside the output, in the place of rows that are done, is none of this sweep's: its name, and what
-    /// it is.
+    /// What stands beside the output, in the place of rows that are done, is none of this sweep's:
+    /// its name, and what it is.
     #[error("{0}: found {1}; allowed: rows of this sweep, or no such file: remove it or name another output")]
     OtherRows(String, &'static str),
-    /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the next run.
+    /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the
+    /// next run.
     #[error("stopped before it was done; the same sweep resumes where it was")]
     Stopped,
     /// Another process writes the same output, with these rows.

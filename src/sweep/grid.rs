@@ -1,5 +1,5 @@
-//! The points of a sweep: every combination of the values of its keys, or the rows of a table of ducts, each as often
-//! as it is sampled.
+//! The points of a sweep: every combination of the values of its keys, or the rows of a table of
+//! ducts, each as often as it is sampled.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -38,16 +38,17 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value, samples are asked
-    /// without a distribution or the other way round, or there are more than a hundred million points;
-    /// [`SweepError::Cell`] where a distribution is not written as it has to be; [`SweepError::Scene`] where a scene
-    /// has no such key.
+    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value,
+    /// samples are asked without a distribution or the other way round, or there are more than a
+    /// hundred million points; [`SweepError::Cell`] where a distribution is not written as it has
+    /// to be; [`SweepError::Scene`] where a scene has no such key.
     pub fn new(file: SceneFile, axes: Vec<Axis>, samples: Samples) -> Result<Self, SweepError> {
         Self::of(file, axes, samples, false, BTreeSet::new())?.all_drawn()
     }
 
-    /// A table of ducts: a row is the scene in `file` with the values of the columns, which are named as keys and equally long. An empty cell
-    /// leaves the scene's own value; a column `id` is carried over.
+    /// A table of ducts: a row is the scene in `file` with the values of the columns, which are
+    /// named as keys and equally long. An empty cell leaves the scene's own value; a column `id` is
+    /// carried over.
     ///
     /// # Errors
     ///
@@ -60,8 +61,8 @@ impl Sweep {
         Self::of_part(file, columns, samples, [])?.all_drawn()
     }
 
-    /// Some rows of a table of ducts, in which nothing needs to be drawn: `drawn` are the keys that others of its rows draw, and whose columns
-    /// hold numbers in all parts.
+    /// Some rows of a table of ducts, in which nothing needs to be drawn: `drawn` are the keys that
+    /// others of its rows draw, and whose columns hold numbers in all parts.
     ///
     /// # Errors
     ///
@@ -150,7 +151,8 @@ impl Sweep {
         })
     }
 
-    /// Refuses a distribution that is none, or that nobody draws from, and remembers the keys that are drawn.
+    /// Refuses a distribution that is none, or that nobody draws from, and remembers the keys that
+    /// are drawn.
     fn check_values(&mut self) -> Result<(), SweepError> {
         for Axis { key, values } in &self.axes {
             for value in values {
@@ -237,7 +239,8 @@ impl Sweep {
         self.axes.iter().zip(given).map(value).collect()
     }
 
-    /// The scene of a point. Samples are computed to [`SAMPLE_TOLERANCE`], unless the scene or an axis names `solver.tolerance`.
+    /// The scene of a point. Samples are computed to [`SAMPLE_TOLERANCE`], unless the scene or an
+    /// axis names `solver.tolerance`.
     ///
     /// # Errors
     ///
@@ -251,7 +254,8 @@ impl Sweep {
         Ok(scene)
     }
 
-    /// Whether its points are samples to [`SAMPLE_TOLERANCE`], as neither the scene nor an axis names `solver.tolerance`.
+    /// Whether its points are samples to [`SAMPLE_TOLERANCE`], as neither the scene nor an axis
+    /// names `solver.tolerance`.
     pub fn has_sample_tolerance(&self) -> bool {
         let is_varied = self.axes.iter().any(|axis| axis.key == TOLERANCE);
         self.samples.count > 0 && !is_varied && !self.file.names(TOLERANCE)
@@ -282,7 +286,8 @@ impl Sweep {
         self.file.histogram().into_iter().chain(of_values).collect()
     }
 
-    /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in the files that they name.
+    /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in
+    /// the files that they name.
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
         let typed = self.file.typed().into_iter();
@@ -300,8 +305,8 @@ impl Sweep {
     }
 }
 
-/// Adds the keys at which the scene has a distribution: it is drawn in rows that have no value of their own, neither
-/// of the key nor of a section around it.
+/// Adds the keys at which the scene has a distribution: it is drawn in rows that have no value of
+/// their own, neither of the key nor of a section around it.
 fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
     let rows = axes
         .first()

@@ -10,7 +10,8 @@ use crate::{Error, Scene};
 pub struct KnownGround(Option<(Scene, Arc<Ground>)>);
 
 impl KnownGround {
-    /// The ground of `scene`: that of the scene before where nothing differs that the motion of the duct depends on.
+    /// The ground of `scene`: that of the scene before where nothing differs that the motion of the
+    /// duct depends on.
     ///
     /// # Errors
     ///

@@ -3,9 +3,10 @@
 use super::axis::Axis;
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::numbers::{si, si_unit};
+use super::numbers::si;
 use super::point::{Answer, Row};
 use crate::figure::{self, Chart};
+use crate::scene::si_unit;
 
 /// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
 const MOST_CELLS: usize = 500;
@@ -24,7 +25,8 @@ pub enum MapValue {
 }
 
 impl Sweep {
-    /// The map of these `rows` over the two keys, the first along x. A point without an answer stays white.
+    /// The map of these `rows` over the two keys, the first along x. A point without an answer
+    /// stays white.
     ///
     /// # Errors
     ///
@@ -69,7 +71,7 @@ fn along(axis: &Axis) -> figure::Axis {
     let numbers: Option<Vec<f64>> = axis.values.iter().map(|value| si(value)).collect();
     match numbers.filter(|numbers| numbers.is_sorted_by(|a, b| a < b)) {
         Some(numbers) => {
-            let unit = si_unit(&axis.values[0]).map_or_else(String::new, |unit| format!(", {unit}"));
+            let unit = si_unit(&axis.key).map_or_else(String::new, |unit| format!(", {unit}"));
             figure::Axis::linear(format!("{}{unit}", axis.key)).cells(numbers)
         }
         None => figure::Axis::names(&axis.key, &axis.values),

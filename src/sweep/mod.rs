@@ -1,18 +1,21 @@
 //! Sweeps: one scene with many values of some keys.
 //!
-//! Keys take listed values ([`Axis`]), and every combination is a point of a grid, the last key changing fastest. Keys may also be
-//! drawn from a distribution: then every point of the grid is computed with the same samples, and the forces have quantiles
-//! ([`Band`]).
+//! Keys take listed values ([`Axis`]), and every combination is a point of a grid, the last key
+//! changing fastest. Keys may also be drawn from a distribution: then every point of the grid is
+//! computed with the same samples, and the forces have quantiles ([`Band`]).
 //!
-//! All cores work, each on one point. The rows stand in the order of the grid, in a file beside the output until the last is done, so that a
-//! sweep that was interrupted or killed goes on behind them and ends with the same file, byte for byte. A point that fails is a row with its
-//! error. What was computed behind a point that still goes on is lost with it. Memory: about 200 bytes a point.
+//! All cores work, each on one point. The rows stand in the order of the grid, in a file beside the
+//! output until the last is done, so that a sweep that was interrupted or killed goes on behind
+//! them and ends with the same file, byte for byte. A point that fails is a row with its error.
+//! What was computed behind a point that still goes on is lost with it. Memory: about 200 bytes a
+//! point.
 //!
-//! In place of a grid a sweep may have rows ([`Sweep::of_rows`], [`Sweep::of_table`]): a table of ducts, each with its own values, of which any
-//! part can be computed anywhere.
+//! In place of a grid a sweep may have rows ([`Sweep::of_rows`], [`Sweep::of_table`]): a table of
+//! ducts, each with its own values, of which any part can be computed anywhere.
 //!
-//! Samples: the number u of a sample follows from the seed, the key, the row's id and the sample's number alone, and its value is the quantile of
-//! u, so nothing depends on the threads, on the other keys or on the other rows.
+//! Samples: the number u of a sample follows from the seed, the key, the row's id and the sample's
+//! number alone, and its value is the quantile of u, so nothing depends on the threads, on the
+//! other keys or on the other rows.
 //!
 //! ```
 //! use creepage::SceneFile;

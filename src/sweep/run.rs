@@ -20,8 +20,8 @@ pub type Evaluate<'a> = dyn Fn(&Scene) -> Result<Run, Error> + Sync + 'a;
 /// How to sweep, in rayon's threads: those of the pool in which it is called, or all cores.
 #[derive(Default, Clone, Copy)]
 pub struct SweepOptions<'a> {
-    /// Called with the share of the points that are done, at the start and after each point; it may stop the sweep, which the same call
-    /// resumes later.
+    /// Called with the share of the points that are done, at the start and after each point; it may
+    /// stop the sweep, which the same call resumes later.
     pub progress: Progress<'a>,
     /// Computes a point in place of [`crate::run`].
     pub evaluate: Option<&'a Evaluate<'a>>,
@@ -66,7 +66,8 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Stopped`] where the progress stopped it. What fails at a point is a row of the table.
+    /// [`SweepError::Stopped`] where the progress stopped it. What fails at a point is a row of the
+    /// table.
     pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
         let mut columns = self.columns();
         self.compute(0, options, &mut |row| {
@@ -78,17 +79,17 @@ impl Sweep {
         Ok(columns)
     }
 
-    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv`
-    /// or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the
-    /// names of its columns.
+    /// Computes all points that are not done yet and writes the table to `output`, whose name ends
+    /// in `.csv` or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed,
+    /// which stand below the names of its columns.
     ///
-    /// Until the table is in place its rows stand beside it, as `output.unfinished`. Where `output` is a link, they
-    /// stand beside what that points to.
+    /// Until the table is in place its rows stand beside it, as `output.unfinished`. Where `output`
+    /// is a link, they stand beside what that points to.
     ///
     /// # Errors
     ///
-    /// [`SweepError`] when the output cannot be written, or what stands beside it is no part of this sweep. What fails
-    /// at a point is a row of the table.
+    /// [`SweepError`] when the output cannot be written, or what stands beside it is no part of
+    /// this sweep. What fails at a point is a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
         if self.count() > format.most_rows() {

@@ -2,8 +2,8 @@
 
 /// How drawn keys are sampled.
 ///
-/// A sample's value follows from the seed, the row (its `id`, or else its number), the key and the number of the
-/// sample alone.
+/// A sample's value follows from the seed, the row (its `id`, or else its number), the key and the
+/// number of the sample alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Samples {
     /// Samples at every point of the grid, or of every row; 0 where nothing is drawn.
@@ -13,8 +13,8 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// A number in (0, 1), evenly distributed: that of one `sample` of one `key` of the row `id`, which is empty in a
-    /// grid.
+    /// A number in (0, 1), evenly distributed: that of one `sample` of one `key` of the row `id`,
+    /// which is empty in a grid.
     pub(super) fn share(self, key: &str, id: &str, sample: usize) -> f64 {
         /// Half the distance between two numbers of the generator: keeps 0 out.
         const HALF: f64 = 1.0 / (1_u64 << 54) as f64;
@@ -41,7 +41,8 @@ pub fn hash(bytes: &[u8]) -> u64 {
 mod tests {
     use super::*;
 
-    /// Two keys are drawn independently: with n samples, √n times their correlation is a standard normal number.
+    /// Two keys are drawn independently: with n samples, √n times their correlation is a standard
+    /// normal number.
     #[test]
     fn samples_of_two_keys_are_independent() {
         const SAMPLES: usize = 1000;
@@ -57,7 +58,8 @@ mod tests {
                 (SAMPLES as f64).sqrt() * dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt()
             })
             .collect();
-        // By chance one of 200 is so large once in 700 times; the mean square is off by four standard deviations.
+        // By chance one of 200 is so large once in 700 times; the mean square is off by four
+        // standard deviations.
         assert!(scores.iter().all(|z| z.abs() < 4.5), "{scores:?}");
         let mean_square = dot(&scores, &scores) / PAIRS as f64;
         assert!((mean_square - 1.0).abs() < 0.4, "{mean_square}");

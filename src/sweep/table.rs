@@ -52,7 +52,8 @@ impl Format {
         }
     }
 
-    /// Most rows that a table of this format holds: a sheet has two more, for the names and the units of its columns.
+    /// Most rows that a table of this format holds: a sheet has two more, for the names and the
+    /// units of its columns.
     pub fn most_rows(self) -> usize {
         match self {
             Self::Csv => usize::MAX,
@@ -97,7 +98,8 @@ pub fn texts(cells: &[Value]) -> impl Iterator<Item = String> {
     })
 }
 
-/// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one, unless it is a number.
+/// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one,
+/// unless it is a number.
 fn harmless(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none() {
         format!("'{text}")

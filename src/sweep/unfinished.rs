@@ -1,8 +1,8 @@
 //! The rows of a sweep that is not finished, on disk, so that nothing is lost.
 //!
-//! A file beside the output: a remark that says which sweep it belongs to, then the table as far as it is computed, in
-//! CSV. A row is written at once when it and all rows before it are done, so it survives a killed process. The sweep
-//! goes on behind the last whole row.
+//! A file beside the output: a remark that says which sweep it belongs to, then the table as far as
+//! it is computed, in CSV. A row is written at once when it and all rows before it are done, so it
+//! survives a killed process. The sweep goes on behind the last whole row.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{Read, Write};
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::columns::AnswerColumn;
+use super::columns::{AnswerColumn, row_of};
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::point::Row;
@@ -102,7 +102,7 @@ fn read(table: &[u8], sweep: &Sweep, columns: &[AnswerColumn]) -> (Vec<Row>, usi
     while rows.len() < sweep.count() && reader.read_record(&mut record).unwrap_or(false) {
         let position = reader.position().byte() as usize;
         let is_whole = record.len() == columns.len() && table[..position].ends_with(b"\n");
-        let row = sweep.row_of(rows.len(), &record, columns);
+        let row = row_of(rows.len(), &record, columns);
         let Some(row) = row.filter(|_| is_whole) else {
             break;
         };
