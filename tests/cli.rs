@@ -810,8 +810,8 @@ fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
     let folder = folder("sweep_killed");
     for format in ["csv", "xlsx"] {
         let [calm, killed] = ["calm", "killed"].map(|name| folder.join(format!("{name}.{format}")));
-        let journal = folder.join(format!("killed.{format}.journal"));
-        for file in [&calm, &killed, &journal] {
+        let unfinished = folder.join(format!("killed.{format}.unfinished"));
+        for file in [&calm, &killed, &unfinished] {
             let _ = fs::remove_file(file);
         }
         let arguments = sweep_arguments(&calm);
@@ -820,7 +820,12 @@ fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
 
         let arguments = sweep_arguments(&killed);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        let lines = || fs::read_to_string(&journal).unwrap_or_default().lines().count();
+        let lines = || {
+            fs::read_to_string(&unfinished)
+                .unwrap_or_default()
+                .lines()
+                .count()
+        };
         // Twice, each time with some more points done.
         let mut kept = 0;
         for _ in 0..2 {
@@ -828,7 +833,7 @@ fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
                 .stdout(Stdio::null())
                 .spawn()
                 .expect("the command starts");
-            while lines() < kept + 6 {
+            while lines() < kept + 8 {
                 assert!(
                     child.try_wait().expect("a state").is_none(),
                     "it ended before it was killed"
@@ -838,11 +843,11 @@ fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
             child.kill().expect("SIGKILL");
             child.wait().expect("it ends");
             assert!(!killed.exists());
-            kept = fs::read_to_string(&journal)
-                .expect("the journal")
+            kept = fs::read_to_string(&unfinished)
+                .expect("the rows")
                 .matches('\n')
                 .count()
-                - 1;
+                - 2;
         }
         assert!(kept >= 10, "{kept}");
         let summary = json(&arguments);
@@ -850,7 +855,7 @@ fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
         assert_eq!(summary["resumed"].as_u64(), Some(kept as u64));
         assert_eq!(summary["failed"], 0);
         assert!(fs::read(&killed).expect("a table") == fs::read(&calm).expect("a table"));
-        assert!(!journal.exists());
+        assert!(!unfinished.exists());
     }
 }
 
@@ -898,7 +903,7 @@ fn bad_sweeps_have_status_2() {
         (&["--vary", depth], "--out"),
         (&["--out", text(&out)], "--vary"),
         (&["--out", text(&text_file), "--vary", depth], ".csv"),
-        (&["--out", text(&out), "--vary", "duct.depth"], "no `=`"),
+        (&["--out", text(&out), "--vary", "duct.depth"], "KEY=A:B:STEP"),
         (
             &["--out", text(&out), "--vary", "duct.depth=1:2:0"],
             "a STEP that leads",

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use creepage::design::{Design, DesignError, DesignOptions, Limits, Measure, Place, compare, design};
+use creepage::design::{Design, DesignError, DesignOptions, Limits, Place, Spring, compare, design};
 use creepage::scene::End;
 use creepage::{Error, Progress, Run, Scene};
 
@@ -245,16 +245,15 @@ fn what_has_no_meaning_is_refused() {
 #[test]
 fn ways_are_compared_by_runs_of_their_own() {
     let scene = scene();
-    let measure = |place, stiffness| Measure { place, stiffness };
     let ways = compare(
         &scene,
         &[
-            measure(Place::Downstream, 0.0),
-            measure(Place::Downstream, 1e6),
-            measure(Place::Downstream, f64::INFINITY),
-            measure(Place::Clamp(7.5), 1e6),
-            measure(Place::Clamp(7.5), f64::INFINITY),
-            measure(Place::Upstream, f64::NAN),
+            Spring::new(Place::Downstream, 0.0),
+            Spring::new(Place::Downstream, 1e6),
+            Spring::new(Place::Downstream, f64::INFINITY),
+            Spring::new(Place::Clamp(7.5), 1e6),
+            Spring::new(Place::Clamp(7.5), f64::INFINITY),
+            Spring::new(Place::Upstream, f64::NAN),
         ],
         Progress::default(),
     )
@@ -293,11 +292,8 @@ fn the_progress_grows_and_may_stop_the_search() {
     assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
     assert!(!error.is_bad_input());
     let stop_at_once = |_| ControlFlow::Break(());
-    let measures = [Measure {
-        place: Place::Downstream,
-        stiffness: 1e6,
-    }];
-    let error = compare(&scene(), &measures, Progress::new(&stop_at_once)).expect_err("stopped");
+    let springs = [Spring::new(Place::Downstream, 1e6)];
+    let error = compare(&scene(), &springs, Progress::new(&stop_at_once)).expect_err("stopped");
     assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
 }
 

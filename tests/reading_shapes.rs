@@ -567,10 +567,22 @@ fn runs_begin_at_rest_or_go_on() {
 }
 
 #[test]
-fn small_forces_without_a_unit_look_like_kilonewtons() {
-    let data = read("pass,force\n1,0.094\n2,0.135\n", "");
-    assert!(data.notes()[0].contains("looks like kN"), "{:?}", data.notes());
-    assert!(read("pass,force_n\n1,0.094\n", "").notes().is_empty());
+fn forces_a_thousand_times_too_small_are_told_with_the_option_that_reads_them() {
+    let scene = creepage::Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
+    let told = |unit: f64| {
+        let forces = [(1, 94.0), (2, 135.0), (5, 190.0), (10, 230.0)];
+        let rows: Vec<String> = forces
+            .iter()
+            .map(|(pass, force)| format!("{pass},{}", force / unit))
+            .collect();
+        let data = read(&format!("pass,force\n{}\n", rows.join("\n")), "");
+        match creepage::calibrate(&scene, &data, &creepage::CalibrateOptions::default()) {
+            Ok(fit) => fit.warnings.join("; "),
+            Err(error) => error.to_string(),
+        }
+    };
+    assert!(told(1e3).contains("--unit kN"), "{}", told(1e3));
+    assert!(!told(1.0).contains("--unit"), "{}", told(1.0));
 }
 
 /// `tests/data/readings.xlsx` by `tests/data/readings_xlsx.py`: a workbook with a preamble, a unit in the header and a cell that failed.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use super::xml::{Element, parse};
-use creepage::design::{Measure, Place};
+use creepage::design::{Place, Spring};
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::TrafficVehicle;
 use creepage::{Limits, Readings, Scene};
@@ -440,10 +440,7 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
     scene.vehicles.push(other);
     let mut limits = Limits::default();
     limits.downstream.movement_m = Some(1.0);
-    let measures = [Measure {
-        place: Place::Downstream,
-        stiffness: 1e6,
-    }];
+    let measures = [Spring::new(Place::Downstream, 1e6)];
     let options = ReportOptions {
         limits,
         measures: Some(&measures),
@@ -484,11 +481,10 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
 
 #[test]
 fn a_way_that_fails_is_told_and_the_others_stay() {
-    let measure = |place, stiffness| Measure { place, stiffness };
     let measures = [
-        measure(Place::Downstream, f64::INFINITY),
-        measure(Place::Downstream, 1e6),
-        measure(Place::Clamp(99.0), 1e6),
+        Spring::new(Place::Downstream, f64::INFINITY),
+        Spring::new(Place::Downstream, 1e6),
+        Spring::new(Place::Clamp(99.0), 1e6),
     ];
     let options = ReportOptions {
         measures: Some(&measures),

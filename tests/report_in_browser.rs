@@ -14,7 +14,7 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use creepage::design::{Measure, Place};
+use creepage::design::{Place, Spring};
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::{Dimension, TrafficVehicle, Unit};
 use creepage::{Readings, Scene, Units};
@@ -253,12 +253,11 @@ fn full() -> String {
     scene.vehicles.push(other);
     let readings = Readings::from_csv("cell.csv", b"pass,force_n,sigma_n\n1,50,9\n20,200,9\n40,260,9\n")
         .expect("readings");
-    let measure = |place, stiffness| Measure { place, stiffness };
     let measures = [
-        measure(Place::Downstream, 3e6),
-        measure(Place::Downstream, f64::INFINITY),
-        measure(Place::Clamp(15.0), 1e6),
-        measure(Place::Clamp(1e9), 1e6),
+        Spring::new(Place::Downstream, 3e6),
+        Spring::new(Place::Downstream, f64::INFINITY),
+        Spring::new(Place::Clamp(15.0), 1e6),
+        Spring::new(Place::Clamp(1e9), 1e6),
     ];
     let warnings = [format!("a warning about {long}")];
     let options = ReportOptions {

@@ -4,10 +4,8 @@
 
 use std::ops::ControlFlow;
 
-use creepage::sweep::{
-    Answer, AnswerColumn, AnswerValues, Evaluator, Samples, Sweep, SweepError, SweepOptions,
-};
-use creepage::{Progress, RunOptions, SceneFile};
+use creepage::sweep::{Answer, AnswerColumn, AnswerValues, Axis, Samples, Sweep, SweepError, SweepOptions};
+use creepage::{Progress, SceneFile};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 const FRICTION: &str = "friction.dynamic_coefficient";
@@ -38,41 +36,38 @@ fn numbers<'a>(columns: &'a [AnswerColumn], name: &str) -> &'a [Option<f64>] {
 /// With the ground that another row has left behind, too.
 #[test]
 fn a_row_is_the_run_of_its_scene_to_the_last_bit() {
-    let rows = Evaluator::new(file(&["traffic.passes=2", "solver.tolerance=0.1"]));
-    for row in [
-        vec!["friction.dynamic_coefficient=0.3"],
-        vec!["cable.axial_stiffness=9e6", "duct.length=40 m"],
-        vec!["duct.depth=2 m"],
-        vec!["vehicles.0.load=10 tf"],
-        vec!["ground.layers.0.young_modulus=400 MPa"],
-        vec!["vehicles.0.lateral_offset=1 m"],
-        vec!["ground.vertical_peak=90 um"],
-        vec!["duct.depth=1.2 m"],
-    ] {
-        let alone = file(&["traffic.passes=2", "solver.tolerance=0.1"])
-            .with(&row)
-            .unwrap();
-        let alone = creepage::run(&alone.scene().unwrap()).unwrap();
-        let seen = rows.run(&row, &RunOptions::default()).unwrap();
-        assert_eq!(seen.passes, alone.passes, "{row:?}");
-        assert_eq!(seen.duct_motion, alone.duct_motion, "{row:?}");
+    let base = || file(&["traffic.passes=2", "solver.tolerance=0.1"]);
+    let keys = [
+        "friction.dynamic_coefficient",
+        "cable.axial_stiffness",
+        "duct.length",
+        "duct.depth",
+        "vehicles.0.load",
+        "ground.layers.0.young_modulus",
+        "vehicles.0.lateral_offset",
+        "ground.vertical_peak",
+    ];
+    let changed = ["0.3", "9e6", "40 m", "2 m", "10 tf", "400 MPa", "1 m", "90 um"];
+    // In each row one key of them, and none in the last.
+    let column = |key: usize| (0..9).map(move |row| if row == key { changed[key] } else { "" });
+    let columns = keys.iter().enumerate();
+    let columns = columns.map(|(at, key)| ((*key).to_owned(), column(at).map(str::to_owned).collect()));
+    let sweep = Sweep::of_table(base(), columns.collect(), Samples::default()).unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let found = pool.install(|| answers(&sweep));
+    for row in 0..9 {
+        let run = creepage::run(&sweep.scene(row).unwrap()).unwrap();
+        let alone = Answer::of(&run).unwrap();
+        let of = |name| numbers(&found, name)[row].unwrap();
+        assert_eq!(of("downstream_force_n"), alone.downstream_force_n, "{row}");
+        assert_eq!(of("max_compression_n"), alone.max_compression_n, "{row}");
+        assert_eq!(
+            of("upstream_displacement_m"),
+            alone.upstream_displacement_m,
+            "{row}"
+        );
+        assert_eq!(of("error_estimate"), alone.error_estimate, "{row}");
     }
-}
-
-#[test]
-fn an_error_of_a_row_names_its_key_and_line() {
-    let rows = Evaluator::new(file(&[]));
-    let error = rows
-        .run(&["duct.depth=1 kN"], &RunOptions::default())
-        .unwrap_err();
-    assert_eq!(error.key(), Some("duct.depth"));
-    let text = std::fs::read_to_string(UPPER)
-        .unwrap()
-        .replace("\"1.2 m\"", "\"1.2 kN\"");
-    let line = 1 + text.lines().position(|line| line.contains("1.2 kN")).unwrap();
-    let wrong = Evaluator::new(SceneFile::from_toml("wrong.toml", &text).unwrap());
-    let error = wrong.run::<&str>(&[], &RunOptions::default()).unwrap_err();
-    assert_eq!(error.location().and_then(|location| location.line), Some(line));
 }
 
 #[test]
@@ -113,11 +108,7 @@ fn distributions_of_rows_that_do_not_fit_are_refused() {
             "normal(MEAN, SD)",
         ),
         (vec![depths, (FRICTION, &["0.2"])], none, "different lengths"),
-        (
-            vec![("id", &["1", "2"][..])],
-            none,
-            "no column that is named as a key",
-        ),
+        (vec![("id", &["1", "2"][..])], none, "no varied key"),
     ] {
         let error = Sweep::of_table(file(&[]), table(&columns), samples).unwrap_err();
         assert!(error.to_string().contains(part), "{error}");
@@ -132,15 +123,13 @@ fn samples_on_a_coarse_mesh_are_as_good_as_they_say_and_cheap() {
     let samples = Samples { count: 60, seed: 3 };
     let sweep = Sweep::of_table(base(), table(&[(FRICTION, &[law])]), samples).unwrap();
     let answers = answers(&sweep);
-    let rows = Evaluator::new(base());
-    let exact = RunOptions::default();
     for sample in (0..60).step_by(6) {
         let of = |name| numbers(&answers, name)[sample].unwrap();
         let row = [
             format!("{FRICTION}={}", of(FRICTION)),
             "solver.tolerance=0.005".to_owned(),
         ];
-        let run = rows.run(&row, &exact).unwrap();
+        let run = creepage::run(&base().with(&row).unwrap().scene().unwrap()).unwrap();
         assert!(run.cost.node_updates > 10_000_000);
         let exact = Answer::of(&run).unwrap();
         let off = (of("max_compression_n") / exact.max_compression_n - 1.0).abs();
@@ -229,7 +218,7 @@ fn a_sweep_does_not_go_on_with_another_table_of_axles() {
     axles("100 kN");
     assert!(matches!(run(true), Err(SweepError::Stopped)));
     axles("120 kN");
-    assert!(matches!(run(false), Err(SweepError::OtherJournal(..))));
+    assert!(matches!(run(false), Err(SweepError::OtherRows(..))));
     axles("100 kN");
     let summary = run(false).unwrap();
     assert_eq!((summary.resumed, summary.failed), (1, 0));
@@ -257,15 +246,31 @@ fn a_text_where_others_draw_fails_in_its_row_alone() {
 }
 
 #[test]
-fn no_row_has_the_number_of_another_for_its_id() {
+fn a_row_without_an_id_is_known_by_its_number() {
     let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
     let law = "normal(0.25, 0.03)";
     let drawn = |ids: &[&str]| {
         let cells = table(&[("id", ids), (FRICTION, &[law; 2])]);
-        let sweep = Sweep::of_table(base(), cells, Samples { count: 1, seed: 1 })?;
-        Ok::<_, SweepError>([sweep.values(0)[1].clone(), sweep.values(1)[1].clone()])
+        let sweep = Sweep::of_table(base(), cells, Samples { count: 1, seed: 1 }).unwrap();
+        [sweep.values(0)[1].clone(), sweep.values(1)[1].clone()]
     };
-    let error = drawn(&["1", ""]).unwrap_err().to_string();
-    assert!(error.contains("the id `1`"), "{error}");
-    assert_eq!(drawn(&["", "0 "]).unwrap()[0], drawn(&["0", "1"]).unwrap()[0]);
+    assert_eq!(drawn(&["", "B"])[0], drawn(&["0", "1"])[0]);
+    assert_ne!(drawn(&["", "B"])[1], drawn(&["", ""])[1]);
+}
+
+/// A grid draws what the scene draws, the same at all its points.
+#[test]
+fn a_grid_draws_what_the_scene_draws() {
+    let drawn = file(
+        &[format!("{FRICTION}=normal(0.25, 0.03)")]
+            .each_ref()
+            .map(|text| &**text),
+    );
+    let axis = || vec![Axis::parse("duct.depth=1 m,2 m").unwrap()];
+    assert!(Sweep::new(drawn.clone(), axis(), Samples::default()).is_err());
+    let sweep = Sweep::new(drawn, axis(), Samples { count: 3, seed: 1 }).unwrap();
+    let friction = |point| sweep.scene(point).unwrap().friction.dynamic_coefficient;
+    let scattered: Vec<f64> = (0..6).map(friction).collect();
+    assert_eq!(scattered[..3], scattered[3..]);
+    assert!(scattered[0] != scattered[1] && sweep.scene(3).unwrap().duct.depth == 2.0);
 }

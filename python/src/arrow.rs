@@ -12,7 +12,7 @@ use arrow_array::types::{
 };
 use arrow_array::{Array, ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray};
 use arrow_schema::{DataType, Field, Schema};
-use creepage::sweep::{AnswerColumn, AnswerValues};
+use creepage::sweep::AnswerValues;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyCapsuleMethods};
 
@@ -132,10 +132,10 @@ fn texts(name: &str, array: &ArrayRef) -> Result<Vec<String>, Failure> {
 pub struct Table(RecordBatch);
 
 impl Table {
-    /// The table of a sweep.
-    pub fn of(columns: Vec<AnswerColumn>) -> Result<Self, Failure> {
+    /// A table of named columns.
+    pub fn of(columns: impl Iterator<Item = (String, AnswerValues)>) -> Result<Self, Failure> {
         let count = |value: Option<u64>| value.and_then(|value| i64::try_from(value).ok());
-        let arrays = columns.into_iter().map(|AnswerColumn { name, values }| {
+        let arrays = columns.map(|(name, values)| {
             let array: ArrayRef = match values {
                 AnswerValues::Numbers(values) => Arc::new(Float64Array::from(values)),
                 AnswerValues::Counts(values) => {

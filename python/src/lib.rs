@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use creepage::calibration::{Loss, Unknown};
 use creepage::report::{Report, ReportOptions};
-use creepage::sweep::{AnswerColumn, AnswerValues, Evaluator, Samples, Sweep, SweepOptions};
+use creepage::sweep::{AnswerValues, Samples, Sweep, SweepOptions};
 use creepage::{CalibrateOptions, Readings, RunOptions, SavedState, SceneFile, Series};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -76,7 +76,8 @@ fn run(
             progress,
             ..RunOptions::default()
         };
-        let mut run = Evaluator::new(file.clone()).run::<&str>(&[], &options)?;
+        let run = creepage::run_with(&file.scene()?, &options);
+        let mut run = run.map_err(|error| error.located(&file))?;
         with_slips(&file, &mut run.warnings);
         Ok((json(&run)?, json(&run.state)?))
     })
@@ -119,7 +120,8 @@ fn sweep(
             None => Sweep::of_table(file, rows, samples)?,
             Some(drawn) => Sweep::of_part(file, rows, samples, drawn)?,
         };
-        Table::of(sweep.answers(&options)?)
+        let columns = sweep.answers(&options)?;
+        Table::of(columns.into_iter().map(|column| (column.name, column.values)))
     })
 }
 
@@ -139,8 +141,9 @@ fn heads(
     };
     watched(py, Call::default(), |_| {
         let sweep = Sweep::of_part(scene.file()?, rows, samples, [])?;
+        let columns = sweep.columns().into_iter();
         Ok((
-            Table::of(sweep.heads())?,
+            Table::of(columns.map(|column| (column.name, column.values)))?,
             sweep.drawn_keys().clone(),
             sweep.files(),
         ))
@@ -157,16 +160,9 @@ fn texts(py: Python<'_>, rows: &Bound<'_, PyAny>) -> PyResult<(Vec<String>, Vec<
 #[pyfunction]
 fn read_rows(py: Python<'_>, file: PathBuf) -> PyResult<Table> {
     watched(py, Call::default(), |_| {
-        let column = |(name, cells): (String, Vec<String>)| AnswerColumn {
-            name,
-            values: AnswerValues::Texts(cells.into_iter().map(Some).collect()),
-        };
-        Table::of(
-            creepage::sweep::read_rows(&file, &creepage::readings::TableOptions::default())?
-                .into_iter()
-                .map(column)
-                .collect(),
-        )
+        let columns = creepage::sweep::read_rows(&file, &creepage::readings::TableOptions::default())?;
+        let texts = |cells: Vec<String>| AnswerValues::Texts(cells.into_iter().map(Some).collect());
+        Table::of(columns.into_iter().map(|(name, cells)| (name, texts(cells))))
     })
 }
 

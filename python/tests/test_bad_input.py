@@ -89,15 +89,8 @@ def test_samples_where_nothing_is_drawn_are_refused_as_on_the_command_line():
         creepage.sweep(UPPER, ducts(2), QUICK, samples=3)
 
 
-def test_a_row_is_not_known_by_the_id_of_another(quick_scene, tmp_path):
-    rows = ducts(3, LAW).set_column(0, "id", pyarrow.array(["2", "a", None]))
-    for compute in (
-        lambda: creepage.sweep(UPPER, rows, QUICK, samples=2),
-        lambda: creepage.study(quick_scene, rows, tmp_path / "out", samples=2, ducts_per_part=1),
-    ):
-        with pytest.raises(creepage.InputError, match="the id `2`.*row without"):
-            compute()
-    rows = rows.set_column(0, "id", pyarrow.array(["3", "1", None]))
+def test_a_row_without_an_id_is_known_by_its_number():
+    rows = ducts(3, LAW).set_column(0, "id", pyarrow.array(["3", "1", None]))
     table = creepage.sweep(UPPER, rows, QUICK, samples=2)
     alone = creepage.sweep(UPPER, ducts(3, LAW).drop_columns(["id"]), QUICK, samples=2)
     assert table[FRICTION].to_pylist()[2:] == alone[FRICTION].to_pylist()[2:]

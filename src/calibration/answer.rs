@@ -2,6 +2,7 @@
 
 use calibrate::{Estimate, Fit, Loss};
 
+use super::cell::Observed;
 use super::ground;
 use super::judgement::{LEFT_OUT, judge};
 use super::meshes::{Final, MESH_SHIFT};
@@ -10,7 +11,7 @@ use super::problem::Problem;
 use super::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
-use crate::readings::Measured;
+use crate::readings::{Measured, Reading};
 use crate::scene::four_digits;
 use crate::{Error, finite};
 
@@ -145,33 +146,26 @@ fn intervals(fit: &Fit, discrepancy: Option<f64>) -> String {
 }
 
 fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
-    let series = problem.series.iter().zip(problem.models).enumerate();
-    let readings = series.flat_map(|(index, (one, model))| {
-        let list = one.readings.readings().iter().zip(&model.observed);
-        list.map(move |(reading, (_, observed))| (index, one.readings, reading, observed))
-    });
-    readings
-        .enumerate()
-        .map(|(row, (index, readings, reading, observed))| {
-            let force = |value: f64| matches!(reading.measured, Measured::Force(_)).then_some(value);
-            FittedReading {
-                series: index + 1,
-                pass: reading.pass,
-                force_n: force(reading.value),
-                fitted_n: force(fit.fitted[row]),
-                residual_n: force(fit.residuals[row]),
-                weight: fit.weights[row],
-                run: readings.runs()[reading.run].clone(),
-                line: reading.line,
-                measured: reading.measured.name(),
-                at: observed.place(),
-                value: reading.value,
-                fitted: fit.fitted[row],
-                residual: fit.residuals[row],
-                unit: reading.measured.unit(),
-            }
-        })
-        .collect()
+    let fitted = |(row, (series, reading, observed)): (usize, (usize, &Reading, Observed))| {
+        let force = |value: f64| matches!(reading.measured, Measured::Force(_)).then_some(value);
+        FittedReading {
+            series: series + 1,
+            pass: reading.pass,
+            force_n: force(reading.value),
+            fitted_n: force(fit.fitted[row]),
+            residual_n: force(fit.residuals[row]),
+            weight: fit.weights[row],
+            run: problem.series[series].readings.runs()[reading.run].clone(),
+            line: reading.line,
+            measured: reading.measured.name(),
+            at: observed.place(),
+            value: reading.value,
+            fitted: fit.fitted[row],
+            residual: fit.residuals[row],
+            unit: reading.measured.unit(),
+        }
+    };
+    problem.readings().enumerate().map(fitted).collect()
 }
 
 /// The share of the variance of the readings that are kept which the model explains; `None` where they do not vary.

@@ -2,6 +2,7 @@
 
 use cable_dem::{End, PassOutcome};
 
+use super::error::unfit;
 use crate::answer::{ForceProfile, Stage};
 #[cfg(feature = "plot")]
 use crate::readings::Readings;
@@ -10,28 +11,20 @@ use crate::{CableEnd, Error, Scene};
 
 /// The end that is held in `scene`, the downstream one if both are.
 pub fn held_end(scene: &Scene) -> Result<CableEnd, Error> {
-    match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Free, End::Free) => Err(Error::Unfit {
-            key: "ends",
-            found: "both free",
-            reason: "a load cell was at an end that is held".into(),
-        }),
-        (_, End::Free) => Ok(CableEnd::Upstream),
-        _ => Ok(CableEnd::Downstream),
-    }
+    let reason = "a load cell was at an end that is held";
+    end_but(scene, End::Free).map_or_else(|| unfit("ends", "both free", reason), Ok)
 }
 
 /// The end that moves in `scene`, the downstream one if both do.
 fn moving_end(scene: &Scene) -> Result<CableEnd, Error> {
-    match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Fixed, End::Fixed) => Err(Error::Unfit {
-            key: "ends",
-            found: "both fixed",
-            reason: "an end that moved is free or on a spring".into(),
-        }),
-        (_, End::Fixed) => Ok(CableEnd::Upstream),
-        _ => Ok(CableEnd::Downstream),
-    }
+    let reason = "an end that moved is free or on a spring";
+    end_but(scene, End::Fixed).map_or_else(|| unfit("ends", "both fixed", reason), Ok)
+}
+
+/// The end that is held otherwise, the downstream one if both are.
+fn end_but(scene: &Scene, held: End) -> Option<CableEnd> {
+    let mut ends = [CableEnd::Downstream, CableEnd::Upstream].into_iter();
+    ends.find(|end| end.held_in(scene) != held)
 }
 
 /// The force on each end of `scene` that readings are of: the load cells of `readings`, in the order of the file.
@@ -66,24 +59,19 @@ impl Observed {
     pub fn of(scene: &Scene, measured: Measured) -> Result<Self, Error> {
         let length = scene.duct.length;
         let at = |place: f64| {
-            (0.0..=length)
-                .contains(&place)
-                .then_some(place)
-                .ok_or(Error::Unfit {
-                    key: "duct.length",
-                    found: "a reading outside the duct",
-                    reason: format!("it was taken at {place} m of {length} m").into(),
-                })
-        };
-        let held = |end: CableEnd| {
-            if end.held_in(scene) != End::Free {
-                return Ok(Self::Force(end));
+            if (0.0..=length).contains(&place) {
+                return Ok(place);
             }
-            Err(Error::Unfit {
-                key: end.of(["ends.upstream", "ends.downstream"]),
-                found: "free",
-                reason: "readings of a load cell at this end: it was held".into(),
-            })
+            let reason = format!("it was taken at {place} m of {length} m");
+            unfit("duct.length", "a reading outside the duct", reason)
+        };
+        let held = |end: CableEnd| match end.held_in(scene) {
+            End::Free => unfit(
+                end.of(["ends.upstream", "ends.downstream"]),
+                "free",
+                "readings of a load cell at this end: it was held",
+            ),
+            _ => Ok(Self::Force(end)),
         };
         let strain = |end: CableEnd| Ok(Self::StrainAt(end.of([0.0, length])));
         match measured {
@@ -95,11 +83,14 @@ impl Observed {
             Measured::Movement(Place::At(place)) => {
                 let mut ends = CableEnd::ALL.into_iter();
                 let end = ends.find(|end| end.of([0.0, length]) == place);
-                end.map(Self::Movement).ok_or(Error::Unfit {
-                    key: "data",
-                    found: "a movement between the ends",
-                    reason: "movements are those of an end".into(),
-                })
+                let between = || {
+                    unfit(
+                        "data",
+                        "a movement between the ends",
+                        "movements are those of an end",
+                    )
+                };
+                end.map(Self::Movement).map_or_else(between, Ok)
             }
             Measured::Strain(Place::At(place)) => Ok(Self::StrainAt(at(place)?)),
             Measured::Strain(Place::End(end)) => strain(end),

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 use calibrate::{CalibrationError, smooth_functions};
 
 use super::cell::Observed;
-use super::error::FitError;
+use super::error::{study, unfit};
 use super::model::SeriesModel;
 use super::options::Series;
 use crate::Error;
@@ -28,9 +28,9 @@ pub fn discrepancy(
     series: &[Series<'_>],
     models: &[SeriesModel],
     share: f64,
-) -> Result<Vec<Vec<f64>>, FitError> {
+) -> Result<Vec<Vec<f64>>, Error> {
     if !SHARES.contains(&share) {
-        return Err(FitError::Calibration(CalibrationError::Invalid {
+        return Err(study(CalibrationError::Invalid {
             what: "option discrepancy".into(),
             value: share,
             allowed: "a share of 0.0001 to 10",
@@ -50,13 +50,11 @@ pub fn discrepancy(
     }
     // Squares, as of numbers that are as good as 0 nothing is left.
     if rows.iter().all(|(_, _, scale)| scale * scale == 0.0) {
-        return Err(Error::Unfit {
-            key: "discrepancy",
-            found: "a largest reading of 0 after the passes",
-            reason: "the discrepancy is a share of it; check the readings, or leave the discrepancy out"
-                .into(),
-        }
-        .into());
+        return unfit(
+            "discrepancy",
+            "a largest reading of 0 after the passes",
+            "the discrepancy is a share of it; check the readings, or leave the discrepancy out",
+        );
     }
     let places: Vec<f64> = rows.iter().map(|(_, place, _)| *place).collect();
     let bells = smooth_functions(&places, LENGTH);

@@ -2,10 +2,10 @@
 
 use calibrate::TermTest;
 
-use super::error::FitError;
 use super::meshes::Final;
 use super::problem::Problem;
 use super::unknown::Quantity;
+use crate::Error;
 
 /// How much softer: about as well as a modulus is known from tests on the road.
 const SOFTER: f64 = 0.1;
@@ -13,7 +13,7 @@ const SOFTER: f64 = 0.1;
 const SHOWN: f64 = 3.0;
 
 /// What a softer ground would do to the parameters, and whether the readings would show it; nothing where the ground is fitted.
-pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>, FitError> {
+pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>, Error> {
     let is_ground = |quantity: Quantity| quantity == Quantity::GroundStiffness;
     if problem.unknowns.iter().any(|unknown| is_ground(unknown.quantity)) {
         return Ok(None);

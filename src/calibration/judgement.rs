@@ -66,31 +66,43 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         .collect();
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
-    let alternatives = if fit.degrees_of_freedom < FEWEST || hidden {
+    let errors = if fit.degrees_of_freedom < FEWEST || hidden {
         [None, None]
     } else {
         alternatives(problem, found, &cells, &judged)?
     };
-    let [trend, offset] = [0, 1].map(|place| alternatives[place].as_ref().map(|found| found.probability));
+    let [p_trend, p_offset] = errors.each_ref().map(|error| Some(error.as_ref()?.probability));
     let used = rows.list.len() as f64 - fit.degrees_of_freedom;
     let mut lack_of_fit = LackOfFit {
         p_runs: probability_of_signs(&sequences),
-        p_trend: trend,
-        p_offset: offset,
+        p_trend,
+        p_offset,
         p_noise: probability_of_size(&sequences, used),
         p_sigma: (!fit.noise_estimated).then(|| probability_of_scatter(&sequences, used)),
         suspicious: false,
     };
-    let misses = lack_of_fit.misses();
+    let failed = failed_tests(&lack_of_fit, &errors, &fit.estimates[0].name);
     let is_robust = problem.options.loss != Loss::Squares;
     let draw = !outliers.is_empty() && !is_robust;
-    lack_of_fit.suspicious = misses || !mistakes.is_empty() || draw;
+    lack_of_fit.suspicious = !failed.is_empty() || !mistakes.is_empty() || draw;
     let mut warnings = mistakes;
     if !outliers.is_empty() {
         warnings.push(rows.told(&outliers, is_robust));
     }
-    if misses {
-        warnings.push(explanation(problem, fit, &lack_of_fit, alternatives, draw));
+    if !failed.is_empty() {
+        let best = errors.into_iter().flatten();
+        let best = best
+            .filter(|error| error.probability < CHANCE_OF_ERRORS)
+            .min_by(|a, b| a.probability.total_cmp(&b.probability));
+        let explained = fit
+            .r_squared
+            .map_or_else(String::new, |r| format!(" (R² {r:.3})"));
+        let way_out = way_out(problem, best.map(|error| error.quantity), draw);
+        warnings.push(format!(
+            "the model does not follow these readings{explained}: of the residuals, {}; values and intervals may be wrong, and no parameter is \
+             called identifiable: {way_out}",
+            failed.join(", ")
+        ));
     }
     Ok(Judgement {
         lack_of_fit,
@@ -98,103 +110,82 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
     })
 }
 
-impl LackOfFit {
-    fn misses(&self) -> bool {
-        let strikes = |p: Option<f64>, chance: f64| p.is_some_and(|p| p < chance);
-        strikes(Some(self.p_runs), CHANCE)
-            || strikes(self.p_noise, CHANCE)
-            || strikes(self.p_sigma, CHANCE)
-            || strikes(self.p_trend, CHANCE_OF_ERRORS)
-            || strikes(self.p_offset, CHANCE_OF_ERRORS)
-    }
+/// The tests that the residuals fail, each in words.
+fn failed_tests(lack: &LackOfFit, errors: &[Option<Alternative<'_>>; 2], first: &str) -> Vec<String> {
+    let of_cell = |error: &Option<Alternative<'_>>, what: &str, unit: &str| {
+        error.as_ref().map_or_else(String::new, |error| {
+            format!(
+                "{what} of the {} cell of about {:.2} {unit} would explain them better and make {first} {:.4}",
+                error.cell.observed.place(),
+                error.size,
+                error.first_value
+            )
+        })
+    };
+    let tests = [
+        (Some(lack.p_runs), CHANCE, "they keep their sign".to_owned()),
+        (
+            lack.p_noise,
+            CHANCE,
+            "they are larger than neighbouring readings differ".to_owned(),
+        ),
+        (
+            lack.p_sigma,
+            CHANCE,
+            "they are larger than their sigmas".to_owned(),
+        ),
+        (
+            lack.p_trend,
+            CHANCE_OF_ERRORS,
+            of_cell(&errors[0], "a drift", "N a pass"),
+        ),
+        (
+            lack.p_offset,
+            CHANCE_OF_ERRORS,
+            of_cell(&errors[1], "a zero offset", "N"),
+        ),
+    ];
+    let failed = tests.into_iter().filter_map(|(p, chance, words)| {
+        let p = p.filter(|p| *p < chance)?;
+        Some(format!("{words} (by chance {p:.1e})"))
+    });
+    failed.collect()
 }
 
-/// What the residuals show, and what may explain them.
-fn explanation(
-    problem: &Problem<'_>,
-    fit: &Fit,
-    lack: &LackOfFit,
-    found: [Option<Alternative<'_>>; 2],
-    has_outliers: bool,
-) -> String {
-    let chance = |p: f64| format!("{p:.1e}");
-    let tests = [
-        (Some(lack.p_runs), "they keep their sign"),
-        (lack.p_noise, "they are larger than neighbouring readings differ"),
-        (lack.p_sigma, "they are larger than their sigmas"),
-    ];
-    let struck = tests
-        .into_iter()
-        .filter_map(|(p, words)| Some((p.filter(|&p| p < CHANCE)?, words)));
-    let mut shown: Vec<String> = struck
-        .map(|(p, words)| format!("{words} (by chance {})", chance(p)))
-        .collect();
-    let mut best: Option<Alternative<'_>> = None;
-    for found in found
-        .into_iter()
-        .flatten()
-        .filter(|found| found.probability < CHANCE_OF_ERRORS)
-    {
-        let (what, unit) = match found.quantity {
-            Quantity::Drift => ("a drift", "N a pass"),
-            _ => ("a zero offset", "N"),
-        };
-        shown.push(format!(
-            "{what} of the {} cell of about {:.2} {unit} would explain them better (by chance {}) and make {} {:.4}",
-            found.cell.observed.place(),
-            found.size,
-            chance(found.probability),
-            fit.estimates[0].name,
-            found.first_value
-        ));
-        if best
-            .as_ref()
-            .is_none_or(|best| found.probability < best.probability)
-        {
-            best = Some(found);
-        }
-    }
-    let is_fitted = |wanted| problem.unknowns.iter().any(|unknown| unknown.quantity == wanted);
+/// What to try where tests fail: to fit the `error` of a cell that would explain the residuals best, or what else.
+fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -> String {
+    let fitted = || problem.unknowns.iter().map(|unknown| unknown.quantity);
     // A wrong shape factor looks like an error of the cell.
-    let is_elastic = problem
-        .series
-        .iter()
-        .any(|one| one.scene.friction.law() != FrictionLaw::Coulomb);
-    let held = (is_elastic && !is_fitted(Quantity::ShapeFactor)).then_some(Quantity::ShapeFactor);
+    let mut laws = problem.series.iter().map(|one| one.scene.friction.law());
+    let is_elastic = laws.any(|law| law != FrictionLaw::Coulomb);
+    let is_held = is_elastic && !fitted().any(|quantity| quantity == Quantity::ShapeFactor);
+    let held = is_held.then_some(Quantity::ShapeFactor);
     let fit_it = |quantity: Quantity| {
-        let fitted = problem.unknowns.iter().map(|unknown| unknown.quantity);
-        let fitted = fitted
-            .chain(held)
-            .chain(problem.terms.iter().map(|term| term.quantity));
-        let mut names: Vec<String> = fitted.chain([quantity]).map(|one| one.to_string()).collect();
+        let terms = problem.terms.iter().map(|term| term.quantity);
+        let all = fitted().chain(held).chain(terms).chain([quantity]);
+        let mut names: Vec<String> = all.map(|one| one.to_string()).collect();
         names.dedup();
         names.join(",")
     };
-    let runs = problem.series.iter().any(|one| one.readings.runs().len() > 1);
-    let way_out = match best {
+    let has_runs = problem.series.iter().any(|one| one.readings.runs().len() > 1);
+    match error {
         _ if has_outliers => "try --robust first, which leaves the outliers out".into(),
-        Some(best) => format!("try --fit {}", fit_it(best.quantity)),
-        None if runs => "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of the scene".into(),
+        Some(quantity) => format!("try --fit {}", fit_it(quantity)),
+        None if has_runs => "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of the scene".into(),
         None => format!(
             "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with --deflection{}",
             fit_it(Quantity::ZeroOffset),
             words_if(problem.options.discrepancy.is_none(), "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them")
         ),
-    };
-    let explained = fit
-        .r_squared
-        .map_or_else(String::new, |r| format!(" (R² {r:.3})"));
-    format!(
-        "the model does not follow these readings{explained}: of the residuals, {}; values and intervals may be wrong, and no parameter is called \
-         identifiable: {way_out}",
-        shown.join(", ")
-    )
+    }
 }
+
+/// A reading, its row in the fit, its series, and what it is compared with.
+type Row<'a> = (usize, usize, &'a Reading, Observed);
 
 /// The readings in the order in which their residuals are judged.
 struct Rows<'a> {
-    /// Row of the fit, series, and reading.
-    list: Vec<(usize, usize, &'a Reading, Observed)>,
+    list: Vec<Row<'a>>,
     /// Residuals in units of the sigmas, without what is most likely the discrepancy.
     standardised: Vec<f64>,
     weights: &'a [f64],
@@ -202,16 +193,11 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn new(problem: &'a Problem<'_>, fit: &'a Fit) -> Self {
-        let series = problem.series.iter().zip(problem.models).enumerate();
-        let readings = series.flat_map(|(index, (one, model))| {
-            let list = one.readings.readings().iter().zip(&model.observed);
-            list.map(move |(reading, (_, observed))| (index, reading, *observed))
-        });
-        let list = readings
-            .enumerate()
-            .map(|(row, (index, reading, observed))| (row, index, reading, observed));
+        let rows = problem.readings().enumerate();
         Self {
-            list: list.collect(),
+            list: rows
+                .map(|(row, (series, reading, observed))| (row, series, reading, observed))
+                .collect(),
             standardised: fit.standardised_noise(),
             weights: &fit.weights,
         }
@@ -219,51 +205,40 @@ impl<'a> Rows<'a> {
 
     /// Rows that lie far from all others.
     fn outliers(&self) -> Vec<usize> {
+        let count = self.standardised.len();
         let mut sizes: Vec<f64> = self.standardised.iter().map(|r| r.abs()).collect();
         sizes.sort_by(f64::total_cmp);
-        let spread = MEDIAN_TO_SIGMA * sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        let spread = MEDIAN_TO_SIGMA * sizes.get(count / 2).copied().unwrap_or(0.0);
         let is_far =
             |&row: &usize| self.standardised[row].abs() > OUTLIER * spread || self.weights[row] < LEFT_OUT;
-        let far: Vec<usize> = (0..self.standardised.len()).filter(is_far).collect();
+        let far: Vec<usize> = (0..count).filter(is_far).collect();
         // Of so many, they are no outliers: the rest is not what they lie out of. Of few readings none is told apart.
-        if self.standardised.len() < 6 || 4 * far.len() > self.standardised.len() {
-            Vec::new()
-        } else {
-            far
-        }
+        let are_outliers = count >= 6 && 4 * far.len() <= count;
+        if are_outliers { far } else { Vec::new() }
     }
 
     /// Residuals of each run and instrument, or of all that have one reading, in the order of the passes, without the outliers.
     fn sequences(&self, outliers: &[usize]) -> Vec<Vec<f64>> {
-        let of = |&(row, ..): &(usize, usize, &Reading, Observed)| self.standardised[row];
-        let groups = self.groups(outliers);
-        groups
-            .iter()
-            .map(|group| group.iter().map(of).collect())
-            .collect()
-    }
-
-    fn groups(&self, outliers: &[usize]) -> Vec<Vec<(usize, usize, &'a Reading, Observed)>> {
-        let mut groups: Vec<Vec<(usize, usize, &Reading, Observed)>> = Vec::new();
-        for one in self.list.iter().filter(|(row, ..)| !outliers.contains(row)) {
-            let same = |group: &&mut Vec<(usize, usize, &Reading, Observed)>| {
-                let (_, series, reading, observed) = group[0];
-                (series, reading.run, observed) == (one.1, one.2.run, one.3)
-            };
-            match groups.iter_mut().find(same) {
-                Some(group) => group.push(*one),
-                None => groups.push(vec![*one]),
+        let mut groups: Vec<Vec<&Row<'_>>> = Vec::new();
+        let group_of = |(_, series, reading, observed): &Row<'_>| (*series, reading.run, *observed);
+        for row in self.list.iter().filter(|(row, ..)| !outliers.contains(row)) {
+            match groups
+                .iter_mut()
+                .find(|group| group_of(group[0]) == group_of(row))
+            {
+                Some(group) => group.push(row),
+                None => groups.push(vec![row]),
             }
-        }
-        for group in &mut groups {
-            group.sort_by_key(|(_, _, reading, _)| reading.passes);
         }
         // Readings that are each of a run or an instrument of their own are judged as one series.
         let (mut groups, alone): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.len() > 1);
-        let mut alone = alone.concat();
-        alone.sort_by_key(|(row, _, reading, _)| (reading.passes, *row));
-        groups.push(alone);
-        groups
+        groups.push(alone.concat());
+        for group in &mut groups {
+            group.sort_by_key(|(_, _, reading, _)| reading.passes);
+        }
+        let residuals =
+            |group: &Vec<&Row<'_>>| group.iter().map(|(row, ..)| self.standardised[*row]).collect();
+        groups.iter().map(residuals).collect()
     }
 
     /// The outliers by pass and line.
@@ -276,10 +251,9 @@ impl<'a> Rows<'a> {
             format!("pass {pass}{of} (line {line})")
         };
         let list: Vec<String> = outliers.iter().map(one).collect();
-        let count = if outliers.len() == 1 {
-            "1 reading looks like an outlier".into()
-        } else {
-            format!("{} readings look like outliers", outliers.len())
+        let count = match outliers.len() {
+            1 => "1 reading looks like an outlier".into(),
+            count => format!("{count} readings look like outliers"),
         };
         let consequence = if is_robust {
             "left out"

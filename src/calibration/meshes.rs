@@ -2,9 +2,10 @@
 
 use calibrate::{CalibrationError, Emulator, Fit};
 
-use super::error::FitError;
+use super::error::study;
 use super::model::SeriesModel;
 use super::problem::{FIRST_LEVEL, LAST_LEVEL, Problem};
+use crate::Error;
 
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
 pub const MESH_SHIFT: f64 = 0.8;
@@ -27,7 +28,7 @@ pub struct Final {
 /// Fits with at most `limit` model runs, with profiles or without: on the coarsest mesh, whose runs cost
 /// least, then on the first that may answer. Where the one below it would move a parameter too far, on the
 /// finest one, to which is added what the next says more at the optimum.
-pub fn fit(problem: &Problem<'_>, limit: usize, profiles: bool) -> Result<Final, FitError> {
+pub fn fit(problem: &Problem<'_>, limit: usize, profiles: bool) -> Result<Final, Error> {
     let mut fits = Fits {
         problem,
         limit,
@@ -81,12 +82,7 @@ struct Fits<'a> {
 
 impl Fits<'_> {
     /// A fit on a level of meshes, which begins with what a fit on a coarser one learned.
-    fn on(
-        &mut self,
-        level: u32,
-        coarse: Option<&Fit>,
-        correction: Option<Vec<f64>>,
-    ) -> Result<Fit, FitError> {
+    fn on(&mut self, level: u32, coarse: Option<&Fit>, correction: Option<Vec<f64>>) -> Result<Fit, Error> {
         let model = self.problem.model(level, correction);
         let left = self.limit.saturating_sub(self.evaluations);
         let mut calibration = self.problem.calibration(&model, self.profiles, left)?;
@@ -96,16 +92,16 @@ impl Fits<'_> {
         let fit = calibration.fit().map_err(|error| match error {
             // Of all levels together.
             CalibrationError::EvaluationLimit { .. } => {
-                CalibrationError::EvaluationLimit { limit: self.limit }
+                study(CalibrationError::EvaluationLimit { limit: self.limit })
             }
-            other => other,
+            other => study(other),
         })?;
         self.evaluations += fit.evaluations;
         Ok(fit)
     }
 
     /// What a level predicts with these values of all parameters.
-    fn once(&mut self, level: u32, values: &[f64]) -> Result<Vec<f64>, FitError> {
+    fn once(&mut self, level: u32, values: &[f64]) -> Result<Vec<f64>, Error> {
         self.evaluations += 1;
         self.problem.predict(level, 1.0, values)
     }

@@ -1,9 +1,9 @@
 //! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
 
 use super::cell::Observed;
-use super::error::FitError;
 use super::problem::Problem;
 use super::terms::cells;
+use crate::Error;
 
 /// Share of the forces of one sign that makes it the sign of all: a few near zero may have either by noise.
 const NEARLY_ALL: f64 = 0.9;
@@ -11,13 +11,9 @@ const NEARLY_ALL: f64 = 0.9;
 const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
 /// What looks mistaken beside what the scenes' own values predict.
-pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, FitError> {
+pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
     let expected = problem.predict(0, 1.0, &problem.scene_values())?;
-    let measured: Vec<f64> = problem
-        .series
-        .iter()
-        .flat_map(|one| one.readings.values())
-        .collect();
+    let measured: Vec<f64> = problem.readings().map(|(_, reading, _)| reading.value).collect();
     let mut mistakes = Vec::new();
     for cell in cells(problem.series, problem.models) {
         if !matches!(cell.observed, Observed::Force(_)) {

@@ -55,7 +55,6 @@ pub use unknown::{Quantity, Unknown};
 
 use crate::readings::Readings;
 use crate::{Error, Scene};
-use error::FitError;
 use model::SeriesModel;
 use problem::Problem;
 use watch::Watch;
@@ -86,7 +85,7 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         .iter()
         .any(|unknown| unknown.quantity.is_of_cell());
     if fits_cell {
-        return Ok(fit(series, options)?);
+        return fit(series, options);
     }
     let kept: Vec<(Readings, Option<String>)> = series.iter().map(overload::within_reach).collect();
     let within = series.iter().zip(&kept);
@@ -99,7 +98,7 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
     Ok(answer)
 }
 
-fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, FitError> {
+fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
     let unknowns = problem::unknowns(series, options)?;
     let models = series
         .iter()
@@ -125,22 +124,19 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
     };
     let answer = answer(&problem, limit);
     if watch.is_stopped() {
-        return Err(Error::Stopped.into());
+        return Err(Error::Stopped);
     }
     answer
 }
 
-fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, FitError> {
+fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
     let mistakes = mistakes::mistakes(problem)?;
     // What follows from a wrong sign or unit is not worth intervals.
     match meshes::fit(problem, limit, mistakes.is_empty()) {
-        Ok(found) => Ok(answer::answer(problem, &found, mistakes)?),
-        Err(FitError::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
-            key: "data",
-            found: "readings without any fit",
-            reason: mistakes.join("; ").into(),
+        Ok(found) => answer::answer(problem, &found, mistakes),
+        Err(Error::Study { .. }) if !mistakes.is_empty() => {
+            error::unfit("data", "readings without any fit", mistakes.join("; "))
         }
-        .into()),
         Err(error) => Err(error),
     }
 }

@@ -14,6 +14,7 @@ use ground_field::DuctMotion;
 use rayon::prelude::*;
 
 use super::cell::Observed;
+use super::error::unfit;
 use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
@@ -52,11 +53,11 @@ pub struct SeriesModel {
 impl SeriesModel {
     pub fn new(series: &Series<'_>) -> Result<Self, Error> {
         if series.scene.warming().is_some() {
-            return Err(Error::Unfit {
-                key: "heat",
-                found: "a heated cable",
-                reason: "a fit follows passes, not days of heat: leave [heat] out, and readings at which the cable was warm".into(),
-            });
+            return unfit(
+                "heat",
+                "a heated cable",
+                "a fit follows passes, not days of heat: leave [heat] out, and readings at which the cable was warm",
+            );
         }
         let mut scene = series.scene.clone();
         let observe =

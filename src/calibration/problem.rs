@@ -2,8 +2,9 @@
 
 use calibrate::{Calibration, CalibrationError, Loss, Model, Options, Prior};
 
+use super::cell::Observed;
 use super::discrepancy::discrepancy;
-use super::error::FitError;
+use super::error::{study, unfit};
 use super::model::{CableModel, Memory, SeriesModel};
 use super::noise;
 use super::options::{CalibrateOptions, Series};
@@ -11,7 +12,7 @@ use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::Error;
-use crate::readings::Readings;
+use crate::readings::{Reading, Readings};
 use crate::scene::FrictionLaw;
 
 /// Coarsest level of meshes that may answer, with 12 nodes per depth, and finest that is fitted: 24 nodes per depth, corrected by 48.
@@ -47,8 +48,17 @@ impl Problem<'_> {
         }
     }
 
+    /// Every reading with its series and what it is compared with, in the order of the fit.
+    pub fn readings(&self) -> impl Iterator<Item = (usize, &Reading, Observed)> {
+        let series = self.series.iter().zip(self.models).enumerate();
+        series.flat_map(|(index, (one, model))| {
+            let list = one.readings.readings().iter().zip(&model.observed);
+            list.map(move |(reading, (_, observed))| (index, reading, *observed))
+        })
+    }
+
     /// What a level of meshes predicts with these values of all parameters, on ground of this stiffness.
-    pub fn predict(&self, level: u32, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, FitError> {
+    pub fn predict(&self, level: u32, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, Error> {
         let model = CableModel {
             stiffness,
             ..self.model(level, None)
@@ -56,7 +66,7 @@ impl Problem<'_> {
         let (of_model, of_terms) = values.split_at(self.unknowns.len());
         let mut predicted = model
             .predict(of_model)
-            .map_err(|source| CalibrationError::NoAnswer { places: 1, source })?;
+            .map_err(|source| study(CalibrationError::NoAnswer { places: 1, source }))?;
         for (term, size) in self.terms.iter().zip(of_terms) {
             let column = term.parameter.column().unwrap_or_default();
             for (value, entry) in predicted.iter_mut().zip(column) {
@@ -72,31 +82,38 @@ impl Problem<'_> {
         model: &'m CableModel<'m>,
         profiles: bool,
         runs: usize,
-    ) -> Result<Calibration<'m>, FitError> {
-        let mut parameters = self
-            .unknowns
-            .iter()
-            .map(|unknown| unknown.parameter(self.prior(*unknown)))
-            .collect::<Result<Vec<_>, _>>()?;
-        parameters.extend(self.terms.iter().map(|term| term.parameter.clone()));
+    ) -> Result<Calibration<'m>, Error> {
+        let functions = match self.options.discrepancy {
+            Some(share) => discrepancy(self.series, self.models, share)?,
+            None => Vec::new(),
+        };
         let readings = || self.series.iter().map(|series| series.readings);
-        let forces = readings().flat_map(Readings::values).collect();
         let sigmas: Option<Vec<Vec<f64>>> = readings().map(Readings::sigmas).collect();
-        let mut calibration = Calibration::new(model, parameters, forces)?;
-        if let Some(sigmas) = sigmas {
-            calibration = calibration.with_sigmas(sigmas.concat())?;
-        } else if let Some(relative) = noise::relative_sigmas(self.series) {
-            calibration = calibration.with_relative_sigmas(relative)?;
-        }
-        if let Some(share) = self.options.discrepancy {
-            calibration = calibration.with_discrepancy(&discrepancy(self.series, self.models, share)?)?;
-        }
+        let relative = noise::relative_sigmas(self.series);
         let mut options = Options::default();
         options.loss = self.options.loss;
         options.max_evaluations = runs.max(1);
         options.relative_noise = RIPPLE[model.level.min(LAST_LEVEL) as usize];
         options.profiles = profiles;
-        Ok(calibration.with_options(options)?)
+        let build = || {
+            let unknowns = self.unknowns.iter();
+            let parameters = unknowns.map(|unknown| unknown.parameter(self.prior(*unknown)));
+            let mut parameters = parameters.collect::<Result<Vec<_>, CalibrationError>>()?;
+            parameters.extend(self.terms.iter().map(|term| term.parameter.clone()));
+            let forces = readings().flat_map(Readings::values).collect();
+            let calibration = Calibration::new(model, parameters, forces)?;
+            let calibration = match (sigmas, relative) {
+                (Some(sigmas), _) => calibration.with_sigmas(sigmas.concat())?,
+                (None, Some(relative)) => calibration.with_relative_sigmas(relative)?,
+                (None, None) => calibration,
+            };
+            let calibration = match self.options.discrepancy {
+                Some(_) => calibration.with_discrepancy(&functions)?,
+                None => calibration,
+            };
+            calibration.with_options(options)
+        };
+        build().map_err(study)
     }
 
     /// What the scenes say.
@@ -124,22 +141,16 @@ impl Problem<'_> {
 }
 
 /// What is fitted, checked against the scenes.
-pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, FitError> {
+pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
     if series.is_empty() {
-        return Err(Error::Unfit {
-            key: "series",
-            found: "none",
-            reason: "there is nothing to fit".into(),
-        }
-        .into());
+        return unfit("series", "none", "there is nothing to fit");
     }
     if options.discrepancy.is_some() && options.loss != Loss::Squares {
-        return Err(Error::Unfit {
-            key: "discrepancy",
-            found: "a robust loss beside it",
-            reason: "it takes what is left of a reading for independent noise; leave one of them out".into(),
-        }
-        .into());
+        return unfit(
+            "discrepancy",
+            "a robust loss beside it",
+            "it takes what is left of a reading for independent noise; leave one of them out",
+        );
     }
     let mut unknowns = options.unknowns.clone();
     let coulomb = |unknown: &Unknown| {
@@ -159,45 +170,26 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
     if options.deflection.is_some() && !unknowns.contains(&ground) {
         unknowns.push(ground);
     }
-    if unknowns
-        .iter()
-        .any(|unknown| unknown.quantity == Quantity::ShapeFactor && coulomb(unknown))
-    {
-        return Err(Error::Unfit {
-            key: "friction.law",
-            found: "coulomb",
-            reason: "it has no shape factor to be fitted".into(),
-        }
-        .into());
+    let mut all = unknowns.iter();
+    if all.any(|unknown| unknown.quantity == Quantity::ShapeFactor && coulomb(unknown)) {
+        return unfit("friction.law", "coulomb", "it has no shape factor to be fitted");
     }
     let has_section = |unknown: &Unknown| {
         let Quantity::SectionCoefficient(section) = unknown.quantity else {
             return true;
         };
-        let mut scenes = series
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| unknown.acts_on(*index));
+        let of_series = series.iter().enumerate();
+        let mut scenes = of_series.filter(|(index, _)| unknown.acts_on(*index));
         scenes.all(|(_, one)| section < one.scene.route.len())
     };
     if !unknowns.iter().all(has_section) {
-        return Err(Error::Unfit {
-            key: "route",
-            found: "no section of this number",
-            reason: "sections of [[route]] are counted from 0".into(),
-        }
-        .into());
+        let found = "no section of this number";
+        return unfit("route", found, "sections of [[route]] are counted from 0");
     }
-    if unknowns
-        .iter()
-        .any(|unknown| unknown.series.is_some_and(|index| index >= series.len()))
-    {
-        return Err(Error::Unfit {
-            key: "unknowns",
-            found: "a series of a higher index than there are",
-            reason: "series are counted from 0".into(),
-        }
-        .into());
+    let mut indices = unknowns.iter().filter_map(|unknown| unknown.series);
+    if indices.any(|index| index >= series.len()) {
+        let found = "a series of a higher index than there are";
+        return unfit("unknowns", found, "series are counted from 0");
     }
     if let [only] = series {
         // What has a prior needs no reading.

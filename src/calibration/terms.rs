@@ -5,7 +5,7 @@
 use calibrate::{Parameter, Prior};
 
 use super::cell::Observed;
-use super::error::FitError;
+use super::error::{study, unfit};
 use super::model::SeriesModel;
 use super::options::{CalibrateOptions, Series};
 use super::unknown::{Quantity, Unknown};
@@ -93,18 +93,14 @@ pub fn terms(
     models: &[SeriesModel],
     asked: &[Unknown],
     options: &CalibrateOptions<'_>,
-) -> Result<Vec<Term>, FitError> {
+) -> Result<Vec<Term>, Error> {
     let cells = cells(series, models);
     let mut terms = Vec::new();
     for unknown in asked {
         let own: Vec<&Cell> = cells.iter().filter(|cell| unknown.acts_on(cell.series)).collect();
         if own.is_empty() {
-            return Err(Error::Unfit {
-                key: "fit",
-                found: "an error of a load cell",
-                reason: "there are no forces among the readings".into(),
-            }
-            .into());
+            let reason = "there are no forces among the readings";
+            return unfit("fit", "an error of a load cell", reason);
         }
         for cell in own {
             let name = cell.name(unknown.quantity, series.len());
@@ -120,7 +116,7 @@ pub fn term(
     quantity: Quantity,
     name: &str,
     options: &CalibrateOptions<'_>,
-) -> Result<Term, FitError> {
+) -> Result<Term, Error> {
     let largest = cell.largest.max(f64::MIN_POSITIVE);
     let (column, told, natural) = match quantity {
         Quantity::Drift => (&cell.drift, options.drift_sigma, ERROR * largest / cell.last),
@@ -128,9 +124,8 @@ pub fn term(
     };
     let sigma = told.unwrap_or(natural);
     let bound = FARTHEST * sigma;
-    let parameter = Parameter::term(name, -bound, bound, column)?;
-    Ok(Term {
-        quantity,
-        parameter: parameter.with_prior(Prior { value: 0.0, sigma })?,
-    })
+    let parameter = Parameter::term(name, -bound, bound, column);
+    let parameter = parameter.and_then(|parameter| parameter.with_prior(Prior { value: 0.0, sigma }));
+    let parameter = parameter.map_err(study)?;
+    Ok(Term { quantity, parameter })
 }

@@ -6,7 +6,7 @@ use super::design_clamps::{clamps, has, on_clamp};
 use super::failure::Failure;
 use super::terminal;
 use crate::answer::largest_movement_in_duct;
-use crate::design::{Binding, Design, Doubt, Place, Side, Spring, TradeOff};
+use crate::design::{Binding, Design, Place, Side, Spring, TradeOff};
 use crate::shown::{percent, words_if};
 use crate::{Limited, Limits, Scene, Units};
 
@@ -204,12 +204,13 @@ pub fn why_none(design: &Design, units: &Units) -> String {
 
 /// That nothing is within the limits, as surely as it is known.
 fn none(design: &Design) -> String {
-    let less = match design.doubt() {
-        None => return "no stiffness stays within the limits".to_owned(),
-        Some(Doubt::Error) => "the estimated error".to_owned(),
-        Some(Doubt::Step(step)) => format!("{}, the step of the search", percent(step)),
-    };
-    format!("none found within the limits, but the nearest exceeds them by less than {less}")
+    match design.doubt() {
+        None => "no stiffness stays within the limits".to_owned(),
+        Some(error) => format!(
+            "none found within the limits, but the nearest exceeds them by less than the error of the search, {}",
+            percent(error)
+        ),
+    }
 }
 
 /// Where the range of stiffness ends and why, or what leaves least room.
@@ -220,10 +221,7 @@ fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
     };
     let mut lines = Vec::new();
     if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
-        let with = |stiffness| Spring {
-            place: spring.place,
-            stiffness_n_per_m: Some(stiffness),
-        };
+        let with = |stiffness| Spring::new(spring.place, stiffness);
         let from = stiffness(units, &with(from));
         match to.map(|to| stiffness(units, &with(to))) {
             None => lines.push(format!("within the limits: {from} and everything stiffer")),

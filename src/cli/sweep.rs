@@ -10,11 +10,11 @@ use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
 use crate::shown::exact_percent;
+#[cfg(feature = "plot")]
+use crate::sweep::MapValue;
 use crate::sweep::{
     Axis, Band, Format, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary,
 };
-#[cfg(feature = "plot")]
-use crate::sweep::{MapValue, Row, SweepMap};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -99,13 +99,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
         Some(file) => {
-            let map = SweepMap::new(&sweep, arguments.map_of)?;
-            Some((files.output(file, "svg")?, map))
+            // Whether there can be one is known before anything is computed.
+            let _ = sweep.map(&[], arguments.map_of)?;
+            Some(files.output(file, "svg")?)
         }
         None => None,
     };
-    #[cfg(feature = "plot")]
-    let add = |row: &Row| map.iter().for_each(|(_, map)| map.add(row));
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
     let out = arguments.out.display();
@@ -116,8 +115,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let options = SweepOptions {
             force: arguments.force.force,
             progress,
-            #[cfg(feature = "plot")]
-            each: Some(&add),
             ..SweepOptions::default()
         };
         sweep.run(&arguments.out, &options)
@@ -132,8 +129,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Nothing);
     }
     #[cfg(feature = "plot")]
-    if let Some((file, map)) = map {
-        let svg = map.to_svg()?;
+    if let Some(file) = map {
+        let svg = sweep.map(&summary.rows, arguments.map_of)?.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
     let units = Units::typed(&sweep.file_at(0)?, None, None);

@@ -1,11 +1,14 @@
-//! What a design answers: force against movement.
-
-use std::cmp::Ordering;
+//! Springs, and what a scene answers with them: force against movement.
 
 use serde::{Deserialize, Serialize};
 
+use super::error::DesignError;
 use crate::answer::largest_movement_in_duct;
-use crate::{CableEnd, Limited, Limits, Place, Run, Scene, finite};
+use crate::scene::{End, Restraint};
+use crate::{CableEnd, Error, Limited, Limits, Place, Run, Scene};
+
+/// Where something is limited, what, and how much \[N or m\].
+pub type Limit = (Place, Limited, f64);
 
 /// Limits bind whose share is this near to the largest.
 const BINDS: f64 = 0.95;
@@ -15,7 +18,8 @@ const BINDS: f64 = 0.95;
 pub struct Spring {
     /// Where it is.
     pub place: Place,
-    /// Its stiffness \[N/m\]: 0 where the end is free or there is no clamp; `None` where the end is fixed.
+    /// Its stiffness \[N/m\]: 0 where the end is free or there is no clamp; `None` where the end is
+    /// fixed.
     pub stiffness_n_per_m: Option<f64>,
 }
 
@@ -28,7 +32,8 @@ pub struct ClampPeak {
     pub force_n: f64,
     /// Largest displacement of the cable there \[m\].
     pub movement_m: f64,
-    /// How far a clamp that slips has slipped in the end \[m\], positive toward growing x; none if it never slips.
+    /// How far a clamp that slips has slipped in the end \[m\], positive toward growing x; none if
+    /// it never slips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slipped_m: Option<f64>,
 }
@@ -57,15 +62,18 @@ pub struct TradeOff {
     pub clamp_force_n: Option<f64>,
     /// All clamps.
     pub clamps: Vec<ClampPeak>,
-    /// Whether an end moves by more than a hundredth of the duct's length: the cable leaves the duct, and its movement is only that it does.
+    /// Whether an end moves by more than a hundredth of the duct's length: the cable leaves the
+    /// duct, and its movement is only that it does.
     pub leaves_duct: bool,
-    /// Limits that these passes keep and more of them would not: at each the force after a pass that they level off at.
+    /// Limits that these passes keep and more of them would not: at each the force after a pass
+    /// that they level off at.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub exceeded_later: Vec<Binding>,
     /// Whether forces still grow after these passes, and how far is not known.
     #[serde(default)]
     pub still_growing: bool,
-    /// Estimated relative error of the forces; but for the answer, and the nearest, with the mesh's part of the run with fixed ends.
+    /// Estimated relative error of the forces; but for the answer, and the nearest, with the mesh's
+    /// part of the run with fixed ends.
     pub error_estimate: f64,
     /// Whether it is within all limits.
     pub within_limits: bool,
@@ -96,85 +104,21 @@ pub enum Side {
     Stiffer,
 }
 
-/// What holds the cable best.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Design {
-    /// The scene's title.
-    pub title: String,
-    /// What was varied: the first place of two.
-    pub place: Place,
-    /// All places where springs were varied.
-    pub places: Vec<Place>,
-    /// Number of passes.
-    pub passes: u64,
-    /// The limits.
-    pub limits: Limits,
-    /// Of one spring, the stiffnesses within all limits \[N/m\], from and to; no upper one where a fixed end is within them too. `None` where only a
-    /// fixed end or no stiffness is.
-    pub range_n_per_m: Option<(f64, Option<f64>)>,
-    /// What to take: within the limits, with margins to them. `None` where nothing stays within them.
-    pub answer: Option<TradeOff>,
-    /// Where nothing stays within the limits, what comes nearest to them.
-    pub nearest: Option<TradeOff>,
-    /// The limits that bind: of one spring those at the ends of its range, else those that the answer, or the nearest, is nearest to or
-    /// exceeds most.
-    pub binding: Vec<Binding>,
-    /// Everything that was computed with the scene's own tolerance, by growing stiffness, from a free end or no clamp on.
-    pub curve: Vec<TradeOff>,
-    /// How many runs of the scene it took.
-    pub runs: usize,
-}
-
 /// What no end may exceed, whatever is limited: the cable is to stay in the duct.
-pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = (Place, Limited, f64)> {
+pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = Limit> {
     let most = largest_movement_in_duct(scene);
     CableEnd::ALL
         .into_iter()
         .map(move |end| (end.into(), Limited::Movement, most))
 }
 
-finite::numbers! {
-    ClampPeak: position_m force_n movement_m slipped_m;
-    TradeOff: stiffness_n_per_m force_n movement_m upstream_force_n downstream_force_n upstream_movement_m downstream_movement_m
-        clamp_force_n clamps error_estimate;
-}
-
-impl Design {
-    /// The answer, or what comes nearest to the limits.
-    pub fn found(&self) -> Option<&TradeOff> {
-        self.answer.as_ref().or(self.nearest.as_ref())
-    }
-
-    /// The largest share of a limit that it comes to, at most 1 within the limits.
-    pub fn excess(&self) -> f64 {
-        let found = self.found();
-        found.map_or(f64::INFINITY, |found| found.excess(&self.limits))
-    }
-}
-
-/// The best of several designs: of those that keep their limits that with the largest margin, or the softest where all are clamps,
-/// which are as soft as their limits allow; else the one nearest to its limits.
-pub fn best(designs: &[Design]) -> Option<&Design> {
-    let kept = || designs.iter().filter(|design| design.answer.is_some());
-    let clamp = |design: &Design| match (&design.answer, &design.places[..]) {
-        (Some(answer), [Place::Clamp(_)]) => answer.stiffness_n_per_m,
-        _ => None,
-    };
-    let by_excess = |a: &&Design, b: &&Design| a.excess().total_cmp(&b.excess());
-    if kept().all(|design| clamp(design).is_some()) {
-        kept().min_by(|a, b| clamp(a).partial_cmp(&clamp(b)).unwrap_or(Ordering::Equal))
-    } else {
-        kept().min_by(by_excess)
-    }
-    .or_else(|| designs.iter().min_by(by_excess))
-}
-
 impl Spring {
-    pub(super) fn new(place: Place, stiffness: f64) -> Self {
+    /// A spring of this stiffness \[N/m\] at `place`: 0 is a free end or no clamp, infinity a fixed
+    /// end.
+    pub fn new(place: Place, stiffness: f64) -> Self {
         Self {
             place,
-            stiffness_n_per_m: stiffness.is_finite().then_some(stiffness),
+            stiffness_n_per_m: (stiffness != f64::INFINITY).then_some(stiffness),
         }
     }
 
@@ -182,18 +126,55 @@ impl Spring {
     pub fn stiffness(&self) -> f64 {
         self.stiffness_n_per_m.unwrap_or(f64::INFINITY)
     }
+
+    /// Refuses a place outside the duct, and a stiffness that has no meaning there.
+    pub(super) fn check(&self, scene: &Scene) -> Result<(), DesignError> {
+        let stiffness = self.stiffness();
+        let (name, found, allowed) = match self.place {
+            Place::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
+                let allowed = "a position in the duct, from 0 m to its length";
+                ("position of the clamp", position, allowed)
+            }
+            Place::Upstream | Place::Downstream if stiffness >= 0.0 => return Ok(()),
+            Place::Clamp(_) if stiffness >= 0.0 && stiffness.is_finite() => return Ok(()),
+            _ => ("stiffness", stiffness, "at least 0, and finite for a clamp"),
+        };
+        Err(DesignError::Invalid { name, found, allowed })
+    }
+
+    /// The valid scene with these springs.
+    pub(super) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, Error> {
+        let mut scene = scene.clone();
+        for spring in springs {
+            let stiffness = spring.stiffness();
+            let end = match stiffness {
+                0.0 => End::Free,
+                f64::INFINITY => End::Fixed,
+                _ => End::Spring(stiffness),
+            };
+            match spring.place {
+                Place::Upstream => scene.ends.upstream = end,
+                Place::Downstream => scene.ends.downstream = end,
+                Place::Clamp(_) if stiffness == 0.0 => {}
+                Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
+            }
+        }
+        scene.validate()?;
+        Ok(scene)
+    }
 }
 
 impl TradeOff {
     /// What `run` gives for `scene` with `springs`.
     pub(crate) fn of(scene: &Scene, run: &Run, springs: &[Spring], limits: &Limits) -> Self {
-        let forces = CableEnd::ALL.map(|end| run.largest(end, Limited::Force));
-        let movements = CableEnd::ALL.map(|end| run.largest(end, Limited::Movement));
-        let movement_m = movements[0].max(movements[1]);
-        let clamped = springs
-            .iter()
-            .any(|spring| matches!(spring.place, Place::Clamp(_)) && spring.stiffness() > 0.0);
-        let clamp = run.restraints.last().filter(|_| clamped);
+        let [upstream_force_n, downstream_force_n] =
+            CableEnd::ALL.map(|end| run.largest(end, Limited::Force));
+        let [upstream_movement_m, downstream_movement_m] =
+            CableEnd::ALL.map(|end| run.largest(end, Limited::Movement));
+        let movement_m = upstream_movement_m.max(downstream_movement_m);
+        let mut clamped = springs.iter().filter(|spring| spring.stiffness() > 0.0);
+        let is_clamped = clamped.any(|spring| spring.place.end().is_none());
+        let clamp = run.restraints.last().filter(|_| is_clamped);
         let clamps = run.restraints.iter().map(|clamp| {
             let place = Place::Clamp(clamp.position_m);
             ClampPeak {
@@ -206,12 +187,12 @@ impl TradeOff {
         let mut point = Self {
             stiffness_n_per_m: springs.first().and_then(|spring| spring.stiffness_n_per_m),
             springs: springs.to_vec(),
-            force_n: forces[0].max(forces[1]),
+            force_n: upstream_force_n.max(downstream_force_n),
             movement_m,
-            upstream_force_n: forces[0],
-            downstream_force_n: forces[1],
-            upstream_movement_m: movements[0],
-            downstream_movement_m: movements[1],
+            upstream_force_n,
+            downstream_force_n,
+            upstream_movement_m,
+            downstream_movement_m,
             clamp_force_n: clamp.map(|clamp| clamp.force_n),
             clamps: clamps.collect(),
             leaves_duct: movement_m > largest_movement_in_duct(scene),
@@ -220,21 +201,27 @@ impl TradeOff {
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
-        let verdicts = limits.verdicts(run).into_iter();
-        point.exceeded_later = verdicts
-            .filter_map(|verdict| {
-                let limit = (verdict.end, verdict.quantity, verdict.limit);
-                Some(Binding {
-                    value: verdict.levels_off_above?,
-                    ..point.binding(limit, None)
-                })
+        let later = limits.verdicts(run).into_iter().filter_map(|verdict| {
+            Some(Binding {
+                end: verdict.end,
+                quantity: verdict.quantity,
+                limit: verdict.limit,
+                value: verdict.levels_off_above?,
+                exceeded_by: None,
             })
-            .collect();
+        });
+        point.exceeded_later = later.collect();
         point.within_limits = point.excess(limits) <= 1.0;
         point
     }
 
-    /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the duct, which no limit allows.
+    /// Stiffness of the first spring \[N/m\], infinite where the end is fixed.
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness_n_per_m.unwrap_or(f64::INFINITY)
+    }
+
+    /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the
+    /// duct, which no limit allows.
     pub fn excess(&self, limits: &Limits) -> f64 {
         if self.leaves_duct {
             return f64::INFINITY;
@@ -245,29 +232,27 @@ impl TradeOff {
 
     /// What is limited, as this point has it \[N or m\]; zero at a clamp that is not there.
     pub fn value(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
-        match (quantity, place.into()) {
-            (Limited::Force, Place::Upstream) => self.upstream_force_n,
-            (Limited::Force, Place::Downstream) => self.downstream_force_n,
-            (Limited::Movement, Place::Upstream) => self.upstream_movement_m,
-            (Limited::Movement, Place::Downstream) => self.downstream_movement_m,
-            (_, place) => {
-                let mut clamps = self.clamps.iter();
-                let clamp = clamps.find(|clamp| place.is_clamp_at(clamp.position_m));
-                clamp.map_or(0.0, |clamp| match quantity {
-                    Limited::Force => clamp.force_n,
-                    Limited::Movement => clamp.movement_m,
-                })
-            }
+        let place = place.into();
+        let mut clamps = self.clamps.iter();
+        let clamp = clamps.find(|clamp| place.is_clamp_at(clamp.position_m));
+        let (force, movement) = match place {
+            Place::Upstream => (self.upstream_force_n, self.upstream_movement_m),
+            Place::Downstream => (self.downstream_force_n, self.downstream_movement_m),
+            Place::Clamp(_) => clamp.map_or((0.0, 0.0), |clamp| (clamp.force_n, clamp.movement_m)),
+        };
+        match quantity {
+            Limited::Force => force,
+            Limited::Movement => movement,
         }
     }
 
     /// What of it is beside a limit, at most 1 within the limit.
-    pub(super) fn share(&self, (place, quantity, limit): (Place, Limited, f64)) -> f64 {
+    pub(super) fn share(&self, (place, quantity, limit): Limit) -> f64 {
         self.value(place, quantity) / limit
     }
 
     /// A limit that binds here.
-    pub(super) fn binding(&self, limit: (Place, Limited, f64), exceeded_by: Option<Side>) -> Binding {
+    pub(super) fn binding(&self, limit: Limit, exceeded_by: Option<Side>) -> Binding {
         let (end, quantity, limit) = limit;
         Binding {
             end,

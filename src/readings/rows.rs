@@ -8,7 +8,7 @@ use super::columns::{Columns, Values, columns};
 use super::kinds::{DEFLECTION, FORCE, LAYOUT, measured};
 use super::list::Readings;
 use super::options::ReadOptions;
-use super::reading::{Measured, Place, Reading};
+use super::reading::{Place, Reading};
 use super::{DataError, runs};
 
 /// Fewest rows of vehicles that only grow for a running total: by chance one file in 120.
@@ -96,8 +96,6 @@ impl Columns<'_> {
             runs::split_where_passes_begin_anew(&mut readings);
         }
         runs::count_from_rest(&mut readings, self.options.run_start);
-        let too_small = self.too_small(&readings.list);
-        readings.notes.extend(too_small);
         Ok(readings)
     }
 
@@ -156,19 +154,6 @@ impl Columns<'_> {
             _ => return Ok(()),
         };
         Err(self.table.wrong(line, found, allowed))
-    }
-
-    /// A note where forces without a unit look like kilonewtons.
-    fn too_small(&self, list: &[Reading]) -> Option<String> {
-        let name = |values: &Values| &self.table.names[values.column];
-        let mut forces = self.values.iter().filter(|values| values.kind == FORCE);
-        let text = &name(forces.find(|values| name(values).unit.is_none())?).text;
-        let is_force = |reading: &&Reading| matches!(reading.measured, Measured::Force(_));
-        let sizes = list.iter().filter(is_force).map(|reading| reading.value.abs());
-        let largest = sizes.fold(0.0, f64::max);
-        let how = "names no unit and was read as newtons, at most";
-        let note = || format!("column {text} {how} {largest:.3} N: it looks like kN (--unit kN)");
-        (largest > 0.0 && largest < 10.0).then(note)
     }
 
     /// Refuses vehicles that may be a running total, unless their column was chosen.

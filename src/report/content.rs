@@ -7,7 +7,7 @@ use super::quantity::{Shown, round_below};
 use super::source::Source;
 use crate::answer::largest_movement_in_duct;
 use crate::calibration::held_end;
-use crate::design::Measure;
+use crate::design::Spring;
 use crate::profile::profile_over;
 use crate::readings::Readings;
 use crate::scene::Unit;
@@ -30,7 +30,7 @@ pub struct ReportOptions<'a> {
     /// Readings of the load cell, drawn over the computed force.
     pub readings: Option<&'a Readings>,
     /// Ways to hold the cable; without any, fixed end, springs and clamps that suit the scene.
-    pub measures: Option<&'a [Measure]>,
+    pub measures: Option<&'a [Spring]>,
     /// Limits that are judged at the top of the page.
     pub limits: Limits,
     /// Units in which the page is.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::quantity::Shown;
 use crate::design::compare::compare_over;
-use crate::design::{DesignError, Measure, Place, Spring, TradeOff};
+use crate::design::{DesignError, Place, Spring, TradeOff};
 use crate::ground::Ground;
 use crate::scene::End;
 use crate::{CableEnd, Error, Limits, PassRecord, Progress, Run, Scene};
@@ -34,7 +34,7 @@ pub struct Comparison {
 
 #[derive(Debug)]
 pub struct Way {
-    pub measure: Measure,
+    pub spring: Spring,
     /// Whether that is how the scene holds it.
     pub is_scene: bool,
     pub answer: Result<TradeOff, DesignError>,
@@ -51,7 +51,7 @@ impl Comparison {
         scene: &Scene,
         ground: &Arc<Ground>,
         run: &Run,
-        measures: Option<&[Measure]>,
+        measures: Option<&[Spring]>,
         progress: Progress<'_>,
     ) -> Result<Self, Error> {
         let mut scene = scene.clone();
@@ -62,10 +62,10 @@ impl Comparison {
             .last()
             .map_or(Place::Downstream, |last| end(&scene, last));
         let own_stiffness = measures.is_none().then(|| own_stiffness(&scene));
-        let measures = measures.map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
+        let measures = measures.map_or_else(|| suitable(&scene, end), <[Spring]>::to_vec);
         let held = held(&scene, end);
-        let is_scene = |measure: &Measure| measure.place == end && measure.stiffness == held;
-        let others: Vec<Measure> = measures.iter().copied().filter(|way| !is_scene(way)).collect();
+        let is_scene = |spring: &Spring| *spring == Spring::new(end, held);
+        let others: Vec<Spring> = measures.iter().copied().filter(|way| !is_scene(way)).collect();
         let compared = if others.is_empty() {
             Ok(Vec::new())
         } else {
@@ -77,19 +77,15 @@ impl Comparison {
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
         let mut answers = answers.into_iter();
-        let ways = measures.into_iter().filter_map(|measure| {
-            let is_scene = is_scene(&measure);
+        let ways = measures.into_iter().filter_map(|spring| {
+            let is_scene = is_scene(&spring);
             let answer = if is_scene {
-                let spring = Spring {
-                    place: end,
-                    stiffness_n_per_m: measure.stiffness.is_finite().then_some(measure.stiffness),
-                };
                 Ok(TradeOff::of(&scene, run, &[spring], &Limits::default()))
             } else {
                 answers.next()?
             };
             Some(Way {
-                measure,
+                spring,
                 is_scene,
                 answer,
             })
@@ -106,17 +102,17 @@ impl Comparison {
 
 impl Way {
     pub fn is_clamp(&self) -> bool {
-        matches!(self.measure.place, Place::Clamp(_))
+        matches!(self.spring.place, Place::Clamp(_))
     }
 
     /// Whether nothing holds the end.
     pub fn is_free_end(&self) -> bool {
-        !self.is_clamp() && self.measure.stiffness == 0.0
+        !self.is_clamp() && self.spring.stiffness() == 0.0
     }
 
     /// What it is, in words.
     pub fn name(&self, shown: &Shown) -> String {
-        let Measure { place, stiffness } = self.measure;
+        let (place, stiffness) = (self.spring.place, self.spring.stiffness());
         let spring = shown.stiffness(stiffness);
         let name = match place {
             Place::Clamp(position) => format!("clamp of {spring} at {}", shown.length(position)),
@@ -152,7 +148,7 @@ fn end(scene: &Scene, last: &PassRecord) -> Place {
 }
 
 /// Free, springs up to the scene's own and beyond, fixed, and clamps.
-fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
+fn suitable(scene: &Scene, end: Place) -> Vec<Spring> {
     let own = own_stiffness(scene);
     let held = held(scene, end);
     let mut stiffnesses: Vec<f64> = SPRINGS.iter().map(|share| share * own).collect();
@@ -172,8 +168,8 @@ fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
         };
         (Place::Clamp(share_of_length * scene.duct.length), share * own)
     });
-    let measure = |(place, stiffness)| Measure { place, stiffness };
-    springs.chain(clamps).map(measure).collect()
+    let spring = |(place, stiffness)| Spring::new(place, stiffness);
+    springs.chain(clamps).map(spring).collect()
 }
 
 /// EA/L \[N/m\].

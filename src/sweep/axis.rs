@@ -1,6 +1,6 @@
-//! One varied key: a list of values, or a distribution to draw from.
+//! One varied key: the values that it takes.
 
-use super::distribution::Distribution;
+use super::distribution::drawn;
 use super::error::SweepError;
 use super::numbers::{number, numbers, unit};
 use crate::scene::Unit;
@@ -15,23 +15,14 @@ const DIGITS: usize = 12;
 pub struct Axis {
     /// The scene's key.
     pub key: String,
-    /// Its values.
-    pub values: AxisValues,
-}
-
-/// The values of a key.
-#[derive(Debug, Clone, PartialEq)]
-pub enum AxisValues {
-    /// These, as they would stand after `--set KEY=`.
-    List(Vec<String>),
-    /// Drawn for each sample.
-    Drawn(Distribution),
+    /// Its values, as they would stand after `--set KEY=`, or [distributions](super::Distribution)
+    /// to draw from.
+    pub values: Vec<String>,
 }
 
 impl Axis {
-    /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a distribution: `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the
-    /// standard deviation SIGMA of the logarithm, `uniform(LOW, HIGH)`, `triangular(LOW, MODE, HIGH)`, each also with bounds, `min=LOW` and
-    /// `max=HIGH`. Numbers may have a unit: `0.6m:2m:0.2m`.
+    /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a
+    /// [distribution](super::Distribution::parse). Numbers may have a unit: `0.6m:2m:0.2m`.
     ///
     /// # Errors
     ///
@@ -42,25 +33,22 @@ impl Axis {
             found: found.to_owned(),
             allowed: allowed.to_owned(),
         };
-        let Some((key, written)) = text.split_once('=') else {
-            return Err(error(
-                "no `=`",
-                "KEY=A:B:STEP, KEY=V1,V2,… or KEY=normal(MEAN, SD)",
-            ));
-        };
-        let (key, written) = (key.trim(), written.trim());
-        if key.is_empty() || written.is_empty() {
-            return Err(error(
-                "no key or no value",
-                "a key such as duct.depth, and its values",
-            ));
-        }
-        let values = if let Some(distribution) = Distribution::parse(written) {
-            AxisValues::Drawn(distribution.map_err(|allowed| error(written, allowed))?)
+        let (key, written) = text
+            .split_once('=')
+            .map(|(key, written)| (key.trim(), written.trim()))
+            .filter(|(key, written)| !key.is_empty() && !written.is_empty())
+            .ok_or_else(|| {
+                let allowed =
+                    "KEY=A:B:STEP, KEY=V1,V2,… or KEY=normal(MEAN, SD), with a key such as duct.depth";
+                error("no key or no value", allowed)
+            })?;
+        let values = if let Some(distribution) = drawn(key, written) {
+            distribution.map_err(|allowed| error(written, allowed))?;
+            vec![written.to_owned()]
         } else if let Some(range) = range(written) {
-            AxisValues::List(range.map_err(|allowed| error(written, allowed))?)
+            range.map_err(|allowed| error(written, allowed))?
         } else {
-            AxisValues::List(list(written).map_err(|(found, allowed)| error(&found, &allowed))?)
+            list(written).map_err(|(found, allowed)| error(&found, &allowed))?
         };
         Ok(Self {
             key: key.to_owned(),
@@ -70,25 +58,13 @@ impl Axis {
 
     /// The unit of all its values, where they have one.
     pub(super) fn unit(&self) -> Option<Unit> {
-        match &self.values {
-            AxisValues::List(list) => {
-                let mut units = list
-                    .iter()
-                    .filter(|value| !value.is_empty())
-                    .map(|value| unit(value));
-                let first = units.next()?;
-                first.filter(|_| units.all(|unit| unit == first))
-            }
-            AxisValues::Drawn(distribution) => unit(&distribution.quantile(0.5).1),
-        }
-    }
-
-    /// How many values the key takes; those of a distribution are counted as samples.
-    pub fn count(&self) -> usize {
-        match &self.values {
-            AxisValues::List(list) => list.len(),
-            AxisValues::Drawn(_) => 1,
-        }
+        let of = |value: &String| match drawn(&self.key, value) {
+            Some(distribution) => unit(&distribution.ok()?.quantile(0.5).1),
+            None => unit(value),
+        };
+        let mut units = self.values.iter().filter(|value| !value.is_empty()).map(of);
+        let first = units.next()?;
+        first.filter(|_| units.all(|unit| unit == first))
     }
 }
 
@@ -116,6 +92,12 @@ fn split(text: &str) -> Vec<&str> {
 /// The values of V1,V2,…; the error is what was found and what is allowed.
 fn list(text: &str) -> Result<Vec<String>, (String, String)> {
     let list: Vec<&str> = split(text).into_iter().map(str::trim).collect();
+    let units = || {
+        list.iter()
+            .filter_map(|value| number(value))
+            .map(|(_, unit)| unit)
+    };
+    let last = units().next_back().unwrap_or_default();
     if list.iter().any(|value| value.is_empty()) {
         return Err(("an empty value".into(), "values between commas".into()));
     }
@@ -126,31 +108,20 @@ fn list(text: &str) -> Result<Vec<String>, (String, String)> {
         ));
     }
     if let ([first, second], Some(one)) = (&list[..], decimal_comma(text)) {
-        let unit = number(second).map_or("", |(_, unit)| unit);
-        let two = if unit.is_empty() {
-            format!("{first}, {second}")
-        } else {
-            format!("{first}{unit},{second}")
-        };
+        let space = if last.is_empty() { " " } else { "" };
         return Err((
             format!("{first} and {second}, or {one}?"),
-            format!("`{two}` for two values, `{one}` for one"),
+            format!("`{first}{last},{space}{second}` for two values, `{one}` for one"),
         ));
     }
     if let [one] = list[..]
         && let Some((first, last)) = one.split_once("..").or_else(|| one.split_once('-'))
-        && let (Some(_), Some(_)) = (number(first), number(last))
-        && number(one).is_none()
+        && let (Some(_), Some(_), None) = (number(first), number(last), number(one))
     {
-        return Err((
-            one.to_owned(),
-            format!("A:B:STEP for a range, such as {first}:{last}:STEP"),
-        ));
+        let range = format!("A:B:STEP for a range, such as {first}:{last}:STEP");
+        return Err((one.to_owned(), range));
     }
-    let numbers = || list.iter().filter_map(|value| number(value));
-    let units = || numbers().map(|(_, unit)| unit);
     if units().any(str::is_empty) && !units().all(str::is_empty) {
-        let last = units().next_back().unwrap_or_default();
         return Err((
             "values with a unit and without one".into(),
             format!("the unit at every value, such as {}{last}", list[0]),
@@ -159,7 +130,8 @@ fn list(text: &str) -> Result<Vec<String>, (String, String)> {
     Ok(list.into_iter().map(str::to_owned).collect())
 }
 
-/// Two values that may be one with a decimal comma, as it would be written with a point: `1,5m`, `0,25`, `1,05`.
+/// Two values that may be one with a decimal comma, as it would be written with a point: `1,5m`,
+/// `0,25`, `1,05`.
 fn decimal_comma(text: &str) -> Option<String> {
     let (whole, rest) = text.split_once(',')?;
     let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
@@ -176,22 +148,20 @@ fn decimal_comma(text: &str) -> Option<String> {
 /// The values of A:B:STEP, both ends included; `None` for what does not begin so.
 fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
     let parts: Vec<&str> = text.split(':').collect();
-    if parts.len() == 1 || number(parts[0]).is_none() {
-        return None;
-    }
+    number(parts[0]).filter(|_| parts.len() > 1)?;
     if parts.len() == 2 {
         return Some(Err("A:B:STEP, which needs a step, such as 1:2:0.5"));
     }
     let Some(([first, last, step], unit)) = numbers(&parts) else {
         return Some(Err("A:B:STEP, three numbers in one unit"));
     };
-    let has_unit = |part: &str| number(part).is_some_and(|(_, unit)| !unit.is_empty());
-    if has_unit(parts[0]) && has_unit(parts[1]) && !has_unit(parts[2]) {
+    let is_bare = |part: &str| number(part).is_some_and(|(_, unit)| unit.is_empty());
+    let steps = (last - first) / step;
+    if !is_bare(parts[0]) && !is_bare(parts[1]) && is_bare(parts[2]) {
         return Some(Err(
             "A:B:STEP with a unit at the STEP too: it is a distance, no number of values",
         ));
     }
-    let steps = (last - first) / step;
     if !steps.is_finite() || steps < 0.0 {
         return Some(Err("a STEP that leads from A to B"));
     }
@@ -207,17 +177,16 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
     let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
     let value = |i: u64| {
         let value = first + i as f64 * step;
-        let rounded = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+        let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
         // Next to the steps themselves, zero is zero.
-        if rounded.abs() < 1e-9 * step.abs() {
+        let value = if rounded.abs() < 1e-9 * step.abs() {
             0.0
         } else {
             rounded
-        }
+        };
+        format!("{value} {unit}").trim_end().to_owned()
     };
-    Some(Ok((0..=count)
-        .map(|i| format!("{} {unit}", value(i)).trim_end().to_owned())
-        .collect()))
+    Some(Ok((0..=count).map(value).collect()))
 }
 
 #[cfg(test)]
@@ -226,10 +195,7 @@ mod tests {
 
     #[track_caller]
     fn listed(text: &str) -> Vec<String> {
-        match Axis::parse(text).expect("an axis").values {
-            AxisValues::List(list) => list,
-            AxisValues::Drawn(_) => panic!("a list"),
-        }
+        Axis::parse(text).expect("an axis").values
     }
 
     #[test]

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
-use super::row::{Answer, Row};
+use super::distribution::drawn;
+use super::grid::Sweep;
+use super::point::{Answer, Row};
 
 /// What the samples at one point of the grid say.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,23 +45,38 @@ pub struct Quantiles {
     pub p95: f64,
 }
 
-impl Band {
-    /// What the samples at `at` say.
-    pub(super) fn of(at: Vec<(String, String)>, samples: &[&Row]) -> Self {
-        let answers: Vec<&Answer> = samples.iter().flat_map(|row| &row.outcome).collect();
-        let quantiles = |force: fn(&Answer) -> f64| quantiles(answers.iter().copied().map(force).collect());
-        Self {
-            at,
-            samples: answers.len(),
-            failed: samples.len() - answers.len(),
-            downstream_force_n: quantiles(|answer| answer.downstream_force_n),
-            upstream_force_n: quantiles(|answer| answer.upstream_force_n),
-            max_compression_n: quantiles(|answer| answer.max_compression_n),
+impl Sweep {
+    /// What the samples at each point of the grid say; nothing where nothing is drawn.
+    pub(super) fn bands(&self, rows: &[Row]) -> Vec<Band> {
+        if self.samples.count == 0 {
+            return Vec::new();
         }
+        let groups = rows.chunks(self.samples.count).enumerate();
+        groups
+            .map(|(group, rows)| {
+                let listed = self.axes.iter().zip(self.given(group));
+                let listed =
+                    listed.filter(|(axis, value)| !value.is_empty() && drawn(&axis.key, value).is_none());
+                let answers: Vec<&Answer> = rows.iter().flat_map(|row| &row.outcome).collect();
+                let quantiles =
+                    |force: fn(&Answer) -> f64| quantiles(answers.iter().copied().map(force).collect());
+                Band {
+                    at: listed
+                        .map(|(axis, value)| (axis.key.clone(), value.to_owned()))
+                        .collect(),
+                    samples: answers.len(),
+                    failed: rows.len() - answers.len(),
+                    downstream_force_n: quantiles(|answer| answer.downstream_force_n),
+                    upstream_force_n: quantiles(|answer| answer.upstream_force_n),
+                    max_compression_n: quantiles(|answer| answer.max_compression_n),
+                }
+            })
+            .collect()
     }
 }
 
-/// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50 (1996) 361, type 8).
+/// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50
+/// (1996) 361, type 8).
 fn quantiles(values: Vec<f64>) -> Option<Quantiles> {
     if values.len() < 2 {
         return None;

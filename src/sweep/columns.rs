@@ -1,106 +1,167 @@
-//! The columns of a table and the cells of its rows.
+//! The columns of a table, and the cells of its rows.
 
-use super::axis::{Axis, AxisValues};
+use serde_json::{Map, Value};
+
+use super::axis::Axis;
+use super::distribution::ID;
 use super::grid::Sweep;
-use super::list;
 use super::numbers::si;
-use super::row::Row;
-use super::sink::{Cell, Column, Kind};
+use super::point::Row;
 use crate::Units;
 use crate::answer::si_of_field;
-use crate::scene::si_unit;
+use crate::scene::{Unit, si_unit};
 
 /// Columns of an answer, by the names of its fields.
-const COLUMNS: [(&str, Kind); 8] = [
-    ("downstream_force_n", Kind::Number),
-    ("upstream_force_n", Kind::Number),
-    ("max_compression_n", Kind::Number),
-    ("saturation_force_n", Kind::Number),
-    ("passes_to_95_percent", Kind::Count),
-    ("upstream_displacement_m", Kind::Number),
-    ("downstream_displacement_m", Kind::Number),
-    ("error_estimate", Kind::Number),
+const ANSWER: [&str; 8] = [
+    "downstream_force_n",
+    "upstream_force_n",
+    "max_compression_n",
+    "saturation_force_n",
+    PASSES,
+    "upstream_displacement_m",
+    "downstream_displacement_m",
+    "error_estimate",
 ];
 /// Those of a cable that is heated, where the file says so.
-const HEAT_COLUMNS: [(&str, Kind); 5] = [
-    ("downstream_max_n", Kind::Number),
-    ("downstream_min_n", Kind::Number),
-    ("upstream_max_n", Kind::Number),
-    ("upstream_min_n", Kind::Number),
-    ("drift_per_day_m", Kind::Number),
+const HEAT_ANSWER: [&str; 5] = [
+    "downstream_max_n",
+    "downstream_min_n",
+    "upstream_max_n",
+    "upstream_min_n",
+    "drift_per_day_m",
 ];
+/// Columns of counts.
+const PASSES: &str = "passes_to_95_percent";
+const SAMPLE: &str = "sample";
+/// Columns of texts at the end.
+const STATUS: [&str; 2] = ["status", "error"];
 
 /// The section of a scene that heats the cable.
 const HEAT: &str = "heat";
 
-impl Sweep {
-    /// The columns of an answer.
-    pub(super) fn answer_columns(&self) -> impl Iterator<Item = (&'static str, Kind)> {
-        let sets = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
-        let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets);
-        let heat = HEAT_COLUMNS.into_iter().filter(move |_| is_heated);
-        COLUMNS.into_iter().chain(heat)
-    }
+/// A column of a sweep's table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AnswerColumn {
+    /// Its name: a key, or a field of [`Answer`](super::Answer).
+    pub name: String,
+    /// A value a row, in SI.
+    pub values: AnswerValues,
+    /// Name for a reader of a workbook, and the unit there.
+    pub(super) heading: (String, &'static str),
+    /// That unit, if it is not SI.
+    pub(super) unit: Option<Unit>,
+}
 
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let units = self.file_at(0).map(|file| Units::typed(&file, None, None));
-        let units = units.unwrap_or_default();
-        let column = |name: &str, kind| Column {
-            unit: si_unit(name).or(si_of_field(name).map(|(_, unit)| unit)),
-            shown: units.of_field(name).map(|(name, unit)| (name.to_owned(), unit)),
-            name: name.to_owned(),
-            kind,
-        };
+/// The values of a column; `None` where a row has none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnswerValues {
+    /// Numbers in SI.
+    Numbers(Vec<Option<f64>>),
+    /// Counts.
+    Counts(Vec<Option<u64>>),
+    /// Texts.
+    Texts(Vec<Option<String>>),
+}
 
-        let varied = self.axes.iter().map(|axis| match &axis.values {
-            _ if axis.key == list::ID => column(&axis.key, Kind::Text),
-            // What is drawn is a number: a text beside it fails in its row.
-            AxisValues::List(list)
-                if !self.drawn_keys.contains(&axis.key) && !list.iter().all(|value| is_number(value)) =>
-            {
-                column(&axis.key, Kind::Text)
-            }
-            _ => Column {
-                shown: axis.unit().map(|unit| (axis.key.clone(), unit)),
-                ..column(&axis.key, Kind::Number)
-            },
-        });
-        let sample = (self.samples.count > 0).then(|| column("sample", Kind::Count));
-        let answer = self.answer_columns().map(|(name, kind)| column(name, kind));
-        let end = ["status", "error"].map(|name| column(name, Kind::Text));
-        varied.chain(sample).chain(answer).chain(end).collect()
-    }
-
-    pub(super) fn cells(
-        &self,
-        values: Vec<String>,
-        columns: &[Column],
-        answers: &[(&str, Kind)],
-        row: &Row,
-    ) -> Vec<Cell> {
-        let varied = values
-            .into_iter()
-            .zip(columns)
-            .map(|(value, column)| match column.kind {
-                Kind::Text => Cell::Text(value),
-                _ => si(&value).map_or(Cell::Absent, Cell::Number),
-            });
-        let samples = self.samples.count;
-        let sample = (samples > 0).then(|| Cell::Count((row.index % samples) as u64));
-        let fields = serde_json::json!(row.outcome.as_ref().ok());
-        let answer = answers.iter().map(|&(name, kind)| match kind {
-            Kind::Count => fields[name].as_u64().map_or(Cell::Absent, Cell::Count),
-            _ => fields[name].as_f64().map_or(Cell::Absent, Cell::Number),
-        });
-        let end = match &row.outcome {
-            Ok(_) => [Cell::Text("ok".into()), Cell::Absent],
-            Err(error) => ["error", error.message()].map(|text| Cell::Text(text.into())),
-        };
-        varied.chain(sample).chain(answer).chain(end).collect()
+impl AnswerColumn {
+    /// Adds a cell; of another kind it is none.
+    pub(super) fn push(&mut self, cell: &Value) {
+        match &mut self.values {
+            AnswerValues::Numbers(values) => values.push(cell.as_f64()),
+            AnswerValues::Counts(values) => values.push(cell.as_u64()),
+            AnswerValues::Texts(values) => values.push(cell.as_str().map(str::to_owned)),
+        }
     }
 }
 
-/// Whether a cell stands for a number, or for none.
-fn is_number(cell: &str) -> bool {
-    cell.is_empty() || si(cell).is_some()
+impl Sweep {
+    /// The columns of its table, without rows.
+    pub fn columns(&self) -> Vec<AnswerColumn> {
+        let units = self.file_at(0).map(|file| Units::typed(&file, None, None));
+        let units = units.unwrap_or_default();
+        let column = |name: &str, values, typed: Option<Unit>| {
+            let typed = typed.map(|unit| (name, unit)).or(units.of_field(name));
+            let si = || si_unit(name).or(si_of_field(name).map(|(_, unit)| unit));
+            let (shown, unit) = match typed {
+                Some((shown, unit)) => (shown, unit.symbol()),
+                None => (name, si().unwrap_or_default()),
+            };
+            AnswerColumn {
+                name: name.to_owned(),
+                values,
+                heading: (shown.to_owned(), unit),
+                unit: typed.map(|(_, unit)| unit),
+            }
+        };
+        let numbers = || AnswerValues::Numbers(Vec::new());
+        let counts = || AnswerValues::Counts(Vec::new());
+        let texts = || AnswerValues::Texts(Vec::new());
+        let varied = self.axes.iter().map(|axis| {
+            let are_numbers = || {
+                axis.values
+                    .iter()
+                    .all(|value| value.is_empty() || si(value).is_some())
+            };
+            // What is drawn is a number: a text beside it fails in its row.
+            if axis.key != ID && (self.drawn_keys.contains(&axis.key) || are_numbers()) {
+                column(&axis.key, numbers(), axis.unit())
+            } else {
+                column(&axis.key, texts(), None)
+            }
+        });
+        let sample = (self.samples.count > 0).then_some(SAMPLE);
+        let sets_heat = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
+        let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets_heat);
+        let heat = HEAT_ANSWER.into_iter().filter(|_| is_heated);
+        let answer = sample.into_iter().chain(ANSWER).chain(heat).map(|name| {
+            let is_count = [PASSES, SAMPLE].contains(&name);
+            column(name, if is_count { counts() } else { numbers() }, None)
+        });
+        let status = STATUS.map(|name| column(name, texts(), None));
+        varied.chain(answer).chain(status).collect()
+    }
+
+    /// The cells of a row: numbers, texts, or null where there is none.
+    pub(super) fn cells(&self, row: &Row, columns: &[AnswerColumn]) -> Vec<Value> {
+        let varied = self.values(row.index).into_iter().zip(columns);
+        let mut cells: Vec<Value> = varied
+            .map(|(value, column)| match column.values {
+                AnswerValues::Texts(_) => Value::from(value),
+                _ => si(&value).map_or(Value::Null, Value::from),
+            })
+            .collect();
+        let mut fields = serde_json::json!(row.outcome.as_ref().ok());
+        if self.samples.count > 0 {
+            cells.push(Value::from(row.index % self.samples.count));
+        }
+        let answer = columns[cells.len()..columns.len() - STATUS.len()].iter();
+        cells.extend(answer.map(|column| fields.get_mut(&column.name).map_or(Value::Null, Value::take)));
+        cells.extend(match &row.outcome {
+            Ok(_) => [Value::from("ok"), Value::Null],
+            Err(error) => [Value::from("error"), Value::from(error.as_str())],
+        });
+        cells
+    }
+}
+
+/// The row of number `index` whose cells stand in a file; `None` for a record that is none.
+pub fn row_of(index: usize, record: &csv::StringRecord, columns: &[AnswerColumn]) -> Option<Row> {
+    let end = columns.len() - STATUS.len();
+    let outcome = match record.get(end)? {
+        "ok" => {
+            let number = |text: &str| match text.parse::<u64>() {
+                Ok(count) => Value::from(count),
+                Err(_) => text.parse::<f64>().map_or(Value::Null, Value::from),
+            };
+            let fields = columns[..end].iter().zip(record);
+            let fields: Map<String, Value> = fields
+                .filter(|(column, _)| ANSWER.contains(&&*column.name) || HEAT_ANSWER.contains(&&*column.name))
+                .map(|(column, text)| (column.name.clone(), number(text)))
+                .collect();
+            Ok(serde_json::from_value(Value::from(fields)).ok()?)
+        }
+        "error" => Err(record.get(end + 1)?.to_owned()),
+        _ => return None,
+    };
+    Some(Row { index, outcome })
 }

@@ -4,62 +4,74 @@ use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Triangular, Uniform
 
 use super::numbers::{number, numbers};
 
+/// The column that is carried over: it names a row and is no key of a scene.
+pub const ID: &str = "id";
+/// Keys whose text is never a number or a distribution.
+pub const TEXTS: [&str; 3] = ["title", "name", ID];
+
 /// A distribution of a key's value, whole or between two bounds.
-#[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
-    law: Law,
+    law: Box<dyn ContinuousCDF<f64, f64>>,
     /// Least and largest value that is drawn, in the unit.
     bounds: [f64; 2],
     /// Unit behind every drawn number; may be empty.
     unit: String,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Law {
-    Normal(Normal),
-    LogNormal(LogNormal),
-    Uniform(Uniform),
-    Triangular(Triangular),
-}
-
-impl Law {
-    fn distribution(&self) -> &dyn ContinuousCDF<f64, f64> {
-        match self {
-            Self::Normal(law) => law,
-            Self::LogNormal(law) => law,
-            Self::Uniform(law) => law,
-            Self::Triangular(law) => law,
-        }
-    }
-}
-
-const NORMAL: &str = "normal(MEAN, SD) with SD > 0, in one unit";
-const LOGNORMAL: &str = "lognormal(MEDIAN, SIGMA) with MEDIAN > 0 and SIGMA > 0, the standard deviation of the logarithm, a bare number";
-const UNIFORM: &str = "uniform(LOW, HIGH) with LOW < HIGH, in one unit";
-const TRIANGULAR: &str = "triangular(LOW, MODE, HIGH) with LOW < HIGH and MODE between them, in one unit";
+const LAWS: &str = "normal(MEAN, SD), lognormal(MEDIAN, SIGMA) with the standard deviation SIGMA of the logarithm, uniform(LOW, HIGH) or \
+    triangular(LOW, MODE, HIGH), with SD > 0, SIGMA > 0, MEDIAN > 0 and LOW < HIGH, all but SIGMA in one unit";
 const BOUNDS: &str = "min=LOW and max=HIGH behind the parameters, in their unit, with at least a thousandth of all values between them";
 
-/// Share of a law that lies between its bounds at least: of what lies farther out the distribution function has too few digits.
+/// Share of a law that lies between its bounds at least: of what lies farther out the distribution
+/// function has too few digits.
 const LEAST_SHARE: f64 = 1e-3;
 
 impl Distribution {
-    /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)`, `uniform(LOW, HIGH)` or `triangular(LOW, MODE, HIGH)`, each also with `min=LOW`
-    /// or `max=HIGH` behind its parameters; the error is what is allowed. `None` for a text that is no call.
-    pub(super) fn parse(text: &str) -> Option<Result<Self, &'static str>> {
+    /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the standard deviation SIGMA of
+    /// the logarithm, `uniform(LOW, HIGH)` or `triangular(LOW, MODE, HIGH)`, each also with
+    /// `min=LOW` or `max=HIGH` behind its parameters; the error is what is allowed. `None` for a
+    /// text that is no call.
+    pub fn parse(text: &str) -> Option<Result<Self, &'static str>> {
         let (name, rest) = text.split_once('(')?;
         let (name, parameters) = (name.trim(), rest.strip_suffix(')')?);
         let is_name = name.chars().all(|c| c.is_ascii_alphabetic());
-        is_name.then(|| distribution(name, parameters))
+        is_name.then(|| Self::of(name, parameters))
     }
 
-    /// The value below which the share `probability` of all draws lies, and its text with the unit; NaN unless it is from 0 to 1.
+    fn of(name: &str, parameters: &str) -> Result<Self, &'static str> {
+        let parts: Vec<&str> = parameters.split(',').collect();
+        let bounded = parts.iter().position(|part| part.contains('='));
+        let (parts, limits) = parts.split_at(bounded.unwrap_or(parts.len()));
+        let (law, unit) = law(name, parts).ok_or(LAWS)?;
+        let mut bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        for limit in limits {
+            let (name, value) = limit.split_once('=').ok_or(BOUNDS)?;
+            let (value, own) = number(value).ok_or(BOUNDS)?;
+            let bound = match name.trim() {
+                "min" => &mut bounds[0],
+                "max" => &mut bounds[1],
+                _ => return Err(BOUNDS),
+            };
+            if own != unit || bound.is_finite() {
+                return Err(BOUNDS);
+            }
+            *bound = value;
+        }
+        let [below, upto] = bounds.map(|bound| law.cdf(bound));
+        if !(LEAST_SHARE..=1.0).contains(&(upto - below)) {
+            return Err(BOUNDS);
+        }
+        Ok(Self { law, bounds, unit })
+    }
+
+    /// The value below which the share `probability` of all draws lies, and its text with the unit;
+    /// NaN unless it is from 0 to 1.
     pub fn quantile(&self, probability: f64) -> (f64, String) {
-        let (law, [least, most]) = (self.law.distribution(), self.bounds);
-        let [below, upto] = self.bounds.map(|bound| law.cdf(bound));
-        let is_share = (0.0..=1.0).contains(&probability);
-        let within = below + probability * (upto - below);
-        let value = if is_share {
-            law.inverse_cdf(within).clamp(least, most)
+        let [below, upto] = self.bounds.map(|bound| self.law.cdf(bound));
+        let [least, most] = self.bounds;
+        let value = if (0.0..=1.0).contains(&probability) {
+            let within = below + probability * (upto - below);
+            self.law.inverse_cdf(within).clamp(least, most)
         } else {
             f64::NAN
         };
@@ -67,67 +79,35 @@ impl Distribution {
     }
 }
 
-fn distribution(name: &str, parameters: &str) -> Result<Distribution, &'static str> {
-    let parts: Vec<&str> = parameters.split(',').collect();
-    let count = parts
-        .iter()
-        .position(|part| part.contains('='))
-        .unwrap_or(parts.len());
-    let (parts, limits) = parts.split_at(count);
-    let (law, unit) = match name {
+/// A law of this name and its unit.
+fn law(name: &str, parts: &[&str]) -> Option<(Box<dyn ContinuousCDF<f64, f64>>, String)> {
+    Some(match name {
         "normal" => {
-            let ([mean, deviation], unit) = numbers(parts).ok_or(NORMAL)?;
-            (
-                Law::Normal(Normal::new(mean, deviation).map_err(|_| NORMAL)?),
-                unit,
-            )
+            let ([mean, deviation], unit) = numbers(parts)?;
+            (Box::new(Normal::new(mean, deviation).ok()?), unit)
         }
         "lognormal" => {
-            let &[median, sigma] = parts else {
-                return Err(LOGNORMAL);
-            };
-            let (median, unit) = number(median).ok_or(LOGNORMAL)?;
-            let (sigma, none) = number(sigma).ok_or(LOGNORMAL)?;
-            if median <= 0.0 || !none.is_empty() {
-                return Err(LOGNORMAL);
-            }
-            let law = LogNormal::new(median.ln(), sigma).map_err(|_| LOGNORMAL)?;
-            (Law::LogNormal(law), unit.to_owned())
+            let &[median, sigma] = parts else { return None };
+            let ((median, unit), (sigma, none)) = (number(median)?, number(sigma)?);
+            let logarithm = (median > 0.0 && none.is_empty()).then(|| median.ln())?;
+            (Box::new(LogNormal::new(logarithm, sigma).ok()?), unit.to_owned())
         }
         "uniform" => {
-            let ([low, high], unit) = numbers(parts).ok_or(UNIFORM)?;
-            (Law::Uniform(Uniform::new(low, high).map_err(|_| UNIFORM)?), unit)
+            let ([low, high], unit) = numbers(parts)?;
+            (Box::new(Uniform::new(low, high).ok()?), unit)
         }
         "triangular" => {
-            let ([low, mode, high], unit) = numbers(parts).ok_or(TRIANGULAR)?;
-            let law = Triangular::new(low, high, mode).map_err(|_| TRIANGULAR)?;
-            (Law::Triangular(law), unit)
+            let ([low, mode, high], unit) = numbers(parts)?;
+            (Box::new(Triangular::new(low, high, mode).ok()?), unit)
         }
-        _ => {
-            return Err(
-                "normal(MEAN, SD), lognormal(MEDIAN, SIGMA), uniform(LOW, HIGH) or triangular(LOW, MODE, HIGH)",
-            );
-        }
-    };
-    let mut bounds = [f64::NEG_INFINITY, f64::INFINITY];
-    for limit in limits {
-        let (name, value) = limit.split_once('=').ok_or(BOUNDS)?;
-        let (value, own) = number(value).ok_or(BOUNDS)?;
-        let bound = match name.trim() {
-            "min" => &mut bounds[0],
-            "max" => &mut bounds[1],
-            _ => return Err(BOUNDS),
-        };
-        if own != unit || bound.is_finite() {
-            return Err(BOUNDS);
-        }
-        *bound = value;
-    }
-    let [below, upto] = bounds.map(|bound| law.distribution().cdf(bound));
-    if !(LEAST_SHARE..=1.0).contains(&(upto - below)) {
-        return Err(BOUNDS);
-    }
-    Ok(Distribution { law, bounds, unit })
+        _ => return None,
+    })
+}
+
+/// The distribution that stands at `key`, if one does: names are texts.
+pub fn drawn(key: &str, text: &str) -> Option<Result<Distribution, &'static str>> {
+    let is_name = TEXTS.contains(&key.rsplit('.').next().unwrap_or(key));
+    Distribution::parse(text).filter(|_| !is_name)
 }
 
 #[cfg(test)]
@@ -149,10 +129,12 @@ mod tests {
         close(quantile("lognormal(2, 0.5)", 0.975).0, 2.0 * (0.5 * z).exp());
         close(quantile("uniform(3, 7)", 0.25).0, 4.0);
         assert_eq!(quantile("uniform(10 tf, 20 tf)", 0.5).1, "15.0 tf");
-        // A quarter of the triangle lies below its mode, and half of that area below 1/√2 of the way there.
+        // A quarter of the triangle lies below its mode, and half of that area below 1/√2 of the
+        // way there.
         close(quantile("triangular(0, 1, 4)", 0.25).0, 1.0);
         close(quantile("triangular(0, 1, 4)", 0.125).0, 0.5_f64.sqrt());
-        // Of the upper half of a normal distribution, half lies below the upper quartile of the whole.
+        // Of the upper half of a normal distribution, half lies below the upper quartile of the
+        // whole.
         close(quantile("normal(0, 1, min=0)", 0.5).0, 0.6744897501960817);
         close(quantile("normal(0.25, 0.03, min=0.2, max=0.3)", 0.5).0, 0.25);
         let (least, text) = quantile("normal(1 kN, 5 kN, min=0 kN)", 0.0);

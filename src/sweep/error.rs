@@ -41,13 +41,15 @@ pub enum SweepError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// What stands at the journal's place beside the output is not the journal of this sweep: the journal, and what it is.
-    #[error("{0}: found {1}; allowed: the journal of this sweep, or none: remove it or name another output")]
-    OtherJournal(String, &'static str),
-    /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the next run.
+    /// What stands beside the output, in the place of rows that are done, is none of this sweep's:
+    /// its name, and what it is.
+    #[error("{0}: found {1}; allowed: rows of this sweep, or no such file: remove it or name another output")]
+    OtherRows(String, &'static str),
+    /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the
+    /// next run.
     #[error("stopped before it was done; the same sweep resumes where it was")]
     Stopped,
-    /// Another process writes the same output, with this journal.
+    /// Another process writes the same output, with these rows.
     #[error("{0}: another sweep is writing it")]
     Busy(String),
     /// The output cannot be written, or would replace what must not be lost.

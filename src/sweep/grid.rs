@@ -1,43 +1,35 @@
-//! The points of a sweep: every combination of the values of its keys.
+//! The points of a sweep: every combination of the values of its keys, or the rows of a table of
+//! ducts, each as often as it is sampled.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use super::axis::{Axis, AxisValues};
+use super::axis::Axis;
+use super::distribution::{ID, drawn};
 use super::error::SweepError;
-use super::list;
-use super::row::checksum;
-use crate::scene::{SceneError, Wrong, WrongKind, did_you_mean, nearest_key};
+use super::samples::{Samples, hash};
+use crate::scene::{SceneError, TypedValue, Wrong, WrongKind, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
-const MOST_POINTS: usize = 10_000_000;
+const MOST_POINTS: usize = 100_000_000;
 
 /// Tolerance of samples, whose scatter is far larger.
 pub const SAMPLE_TOLERANCE: f64 = 0.02;
 const TOLERANCE: &str = "solver.tolerance";
 
-/// How drawn keys are sampled.
-///
-/// A sample's value follows from the seed, the row (its `id`, or else its number), the key and the number of the sample alone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Samples {
-    /// Samples at every point of the grid, or of every row; 0 where nothing is drawn.
-    pub count: usize,
-    /// Another seed gives other samples.
-    pub seed: u64,
-}
-
 /// A scene and the values of its varied keys.
 #[derive(Debug, Clone)]
 pub struct Sweep {
     pub(super) file: SceneFile,
+    /// The keys. A value may be a distribution, or empty, which leaves the scene's own.
     pub(super) axes: Vec<Axis>,
     pub(super) samples: Samples,
-    pub(super) count: usize,
+    /// Combinations of the values, or rows.
+    groups: usize,
     /// Whether a point takes one value of each key, those of a row, in place of every combination.
-    pub(super) by_row: bool,
-    /// Keys that rows draw, here or in other parts of their table.
+    by_row: bool,
+    /// Keys that are drawn, here or in other parts of their table.
     pub(super) drawn_keys: BTreeSet<String>,
 }
 
@@ -46,65 +38,104 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value, samples are asked without a distribution or the
-    /// other way round, or there are more than ten million points; [`SweepError::Scene`] where a scene has no such
-    /// key.
+    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value,
+    /// samples are asked without a distribution or the other way round, or there are more than a
+    /// hundred million points; [`SweepError::Cell`] where a distribution is not written as it has
+    /// to be; [`SweepError::Scene`] where a scene has no such key.
     pub fn new(file: SceneFile, axes: Vec<Axis>, samples: Samples) -> Result<Self, SweepError> {
+        Self::of(file, axes, samples, false, BTreeSet::new())?.all_drawn()
+    }
+
+    /// A table of ducts: a row is the scene in `file` with the values of the columns, which are
+    /// named as keys and equally long. An empty cell leaves the scene's own value; a column `id` is
+    /// carried over.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Sweep::new`], and [`SweepError::Unfit`] where columns have different lengths.
+    pub fn of_table(
+        file: SceneFile,
+        columns: Vec<(String, Vec<String>)>,
+        samples: Samples,
+    ) -> Result<Self, SweepError> {
+        Self::of_part(file, columns, samples, [])?.all_drawn()
+    }
+
+    /// Some rows of a table of ducts, in which nothing needs to be drawn: `drawn` are the keys that
+    /// others of its rows draw, and whose columns hold numbers in all parts.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Sweep::of_table`], but for samples without a distribution.
+    pub fn of_part(
+        file: SceneFile,
+        columns: Vec<(String, Vec<String>)>,
+        samples: Samples,
+        drawn: impl IntoIterator<Item = String>,
+    ) -> Result<Self, SweepError> {
+        let axes = columns.into_iter().map(|(key, values)| Axis { key, values });
+        Self::of(file, axes.collect(), samples, true, drawn.into_iter().collect())
+    }
+
+    fn of(
+        file: SceneFile,
+        mut axes: Vec<Axis>,
+        samples: Samples,
+        by_row: bool,
+        drawn_keys: BTreeSet<String>,
+    ) -> Result<Self, SweepError> {
+        draw_in_scene(&file, &mut axes, by_row);
         let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
-        if axes.is_empty() {
-            return unfit("no varied key".into(), "at least one");
+        if axes.iter().all(|axis| axis.key == ID) {
+            return unfit("no varied key".into(), "at least one, such as duct.depth");
         }
-        for (index, axis) in axes.iter().enumerate() {
-            if axes[..index].iter().any(|other| other.key == axis.key) {
-                return unfit(format!("`{}` varied twice", axis.key), "every key once");
+        for (index, Axis { key, values }) in axes.iter().enumerate() {
+            if axes[..index].iter().any(|other| other.key == *key) {
+                return unfit(format!("`{key}` twice"), "every key once");
+            }
+            if values.is_empty() {
+                return unfit(format!("`{key}` without values"), "one value or more");
+            }
+            if by_row && values.len() != axes[0].values.len() {
+                return unfit(
+                    "columns of different lengths".into(),
+                    "a value a row, which may be empty",
+                );
             }
         }
-        if let Some(axis) = axes.iter().find(|axis| axis.count() == 0) {
-            return unfit(format!("`{}` without values", axis.key), "one value or more");
+        let factors = axes.iter().map(|axis| axis.values.len());
+        let groups = factors.take(if by_row { 1 } else { axes.len() });
+        let groups = groups.fold(1, usize::saturating_mul);
+        if groups.saturating_mul(samples.count.max(1)) > MOST_POINTS {
+            return unfit("too many points".into(), "at most a hundred million");
         }
-        let drawn = axes
-            .iter()
-            .any(|axis| matches!(axis.values, AxisValues::Drawn(_)));
-        if drawn && samples.count == 0 {
-            let found = "a distribution and no samples".into();
-            return unfit(found, "a number of samples with it");
-        }
-        if !drawn && samples.count > 0 {
-            return unfit("samples and no distribution".into(), "a distribution with them");
-        }
-        let count = axes
-            .iter()
-            .map(Axis::count)
-            .chain([samples.count.max(1)])
-            .try_fold(1_usize, usize::checked_mul)
-            .filter(|&count| count <= MOST_POINTS);
-        let Some(count) = count else {
-            return unfit("too many points".into(), "at most ten million");
-        };
-        let sweep = Self {
+        let mut sweep = Self {
             file,
             axes,
             samples,
-            count,
-            by_row: false,
-            drawn_keys: BTreeSet::new(),
+            groups,
+            by_row,
+            drawn_keys,
         };
-        sweep.knows_keys(0)?;
+        sweep.check_keys()?;
+        sweep.check_values()?;
         Ok(sweep)
     }
 
     /// An unknown key fails everywhere; what fails at some points only is recorded there.
-    pub(super) fn knows_keys(&self, index: usize) -> Result<(), SweepError> {
-        match self.scene(index) {
-            Err(SceneError::Wrong(wrong))
-                if matches!(wrong.kind, WrongKind::UnknownKey | WrongKind::Override) =>
+    fn check_keys(&self) -> Result<(), SweepError> {
+        let given = |axis: &Axis| axis.values.iter().position(|value| !value.is_empty());
+        let groups: BTreeSet<usize> = self.axes.iter().filter_map(given).collect();
+        for group in groups {
+            let index = if self.by_row { group } else { 0 } * self.samples.count.max(1);
+            if let Err(SceneError::Wrong(wrong)) = self.scene(index)
+                && matches!(wrong.kind, WrongKind::UnknownKey | WrongKind::Override)
             {
-                Err(self
-                    .unknown_column(&wrong)
-                    .unwrap_or(SceneError::Wrong(wrong).into()))
+                let column = self.unknown_column(&wrong);
+                return Err(column.unwrap_or(SceneError::Wrong(wrong).into()));
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
 
     /// The error of the column of a table whose name is no key, if `wrong` is of it.
@@ -120,9 +151,49 @@ impl Sweep {
         })
     }
 
+    /// Refuses a distribution that is none, or that nobody draws from, and remembers the keys that
+    /// are drawn.
+    fn check_values(&mut self) -> Result<(), SweepError> {
+        for Axis { key, values } in &self.axes {
+            for value in values {
+                let Some(distribution) = drawn(key, value) else {
+                    continue;
+                };
+                if let Err(allowed) = distribution {
+                    return Err(SweepError::Cell {
+                        key: key.clone(),
+                        found: value.clone(),
+                        allowed,
+                    });
+                }
+                if self.samples.count == 0 {
+                    return Err(SweepError::Unfit {
+                        found: format!("`{key}` with a distribution and no samples"),
+                        allowed: "a number of samples with it",
+                    });
+                }
+                if !self.drawn_keys.contains(key) {
+                    self.drawn_keys.insert(key.clone());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses samples of which nothing is drawn.
+    fn all_drawn(self) -> Result<Self, SweepError> {
+        if self.samples.count == 0 || !self.drawn_keys.is_empty() {
+            return Ok(self);
+        }
+        Err(SweepError::Unfit {
+            found: "samples and no distribution".into(),
+            allowed: "a distribution with them, as a value of a key or in the scene",
+        })
+    }
+
     /// How many points there are, samples included.
     pub fn count(&self) -> usize {
-        self.count
+        self.groups * self.samples.count.max(1)
     }
 
     /// The varied keys.
@@ -130,35 +201,46 @@ impl Sweep {
         &self.axes
     }
 
-    /// The value of each varied key at a point.
-    pub fn values(&self, index: usize) -> Vec<String> {
-        let samples = self.samples.count.max(1);
-        let (mut group, sample) = (index / samples, index % samples);
-        if self.by_row {
-            let id = self.id(group);
-            return self.row_values(group, |key| share(self.samples.seed, key, &id, sample));
+    /// The keys that are drawn, here or in the parts that [`Sweep::of_part`] was told of.
+    pub fn drawn_keys(&self) -> &BTreeSet<String> {
+        &self.drawn_keys
+    }
+
+    /// The value of each varied key in a group of samples, as it was given.
+    pub(super) fn given(&self, mut group: usize) -> Vec<&str> {
+        let mut values: Vec<&str> = Vec::with_capacity(self.axes.len());
+        for Axis { values: list, .. } in self.axes.iter().rev() {
+            values.push(&list[if self.by_row { group } else { group % list.len() }]);
+            group /= if self.by_row { 1 } else { list.len() };
         }
-        let mut values: Vec<String> = self
-            .axes
-            .iter()
-            .rev()
-            .map(|axis| match &axis.values {
-                AxisValues::List(list) => {
-                    let value = list[group % list.len()].clone();
-                    group /= list.len();
-                    value
-                }
-                AxisValues::Drawn(distribution) => {
-                    let share = share(self.samples.seed, &axis.key, "", sample);
-                    distribution.quantile(share).1
-                }
-            })
-            .collect();
         values.reverse();
         values
     }
 
-    /// The scene of a point. Samples are computed to [`SAMPLE_TOLERANCE`], unless the scene or an axis names `solver.tolerance`.
+    /// The value of each varied key at a point.
+    pub fn values(&self, index: usize) -> Vec<String> {
+        let samples = self.samples.count.max(1);
+        let (group, sample) = (index / samples, index % samples);
+        let given = self.given(group);
+        // What names a row: its id, or else its number. In a grid all points have the same samples.
+        let id = self.axes.iter().position(|axis| axis.key == ID);
+        let id = match id.map(|place| given[place]).filter(|id| !id.is_empty()) {
+            Some(id) => id.to_owned(),
+            None if self.by_row => group.to_string(),
+            None => String::new(),
+        };
+        let value = |(axis, given): (&Axis, &str)| match drawn(&axis.key, given) {
+            Some(Ok(distribution)) => {
+                let share = self.samples.share(&axis.key, &id, sample);
+                distribution.quantile(share).1
+            }
+            _ => given.to_owned(),
+        };
+        self.axes.iter().zip(given).map(value).collect()
+    }
+
+    /// The scene of a point. Samples are computed to [`SAMPLE_TOLERANCE`], unless the scene or an
+    /// axis names `solver.tolerance`.
     ///
     /// # Errors
     ///
@@ -172,7 +254,8 @@ impl Sweep {
         Ok(scene)
     }
 
-    /// Whether its points are samples to [`SAMPLE_TOLERANCE`], as neither the scene nor an axis names `solver.tolerance`.
+    /// Whether its points are samples to [`SAMPLE_TOLERANCE`], as neither the scene nor an axis
+    /// names `solver.tolerance`.
     pub fn has_sample_tolerance(&self) -> bool {
         let is_varied = self.axes.iter().any(|axis| axis.key == TOLERANCE);
         self.samples.count > 0 && !is_varied && !self.file.names(TOLERANCE)
@@ -184,35 +267,18 @@ impl Sweep {
     ///
     /// [`SceneError`] where there is nothing at a varied key.
     pub fn file_at(&self, index: usize) -> Result<SceneFile, SceneError> {
-        self.file_with(self.values(index))
-    }
-
-    /// The scene file with a value for every axis.
-    pub(super) fn file_with(&self, values: Vec<String>) -> Result<SceneFile, SceneError> {
-        let overrides: Vec<String> = self
-            .axes
-            .iter()
-            .zip(values)
-            // What a row leaves out is the scene's own.
-            .filter(|(axis, value)| !self.by_row || !(value.is_empty() || axis.key == list::ID))
-            .map(|(axis, value)| format!("{}={value}", axis.key))
-            .collect();
+        let values = self.axes.iter().zip(self.values(index));
+        let set = values.filter(|(axis, value)| !value.is_empty() && axis.key != ID);
+        let overrides: Vec<String> = set.map(|(axis, value)| format!("{}={value}", axis.key)).collect();
         self.file.with(&overrides)
     }
 
     /// The files that its scenes read beside their own: tables of axle loads.
     pub fn files(&self) -> BTreeSet<PathBuf> {
-        let named = self
-            .axes
-            .iter()
-            .filter(|axis| matches!(&*axis.key, "traffic" | "traffic.histogram"));
+        let axes = self.axes.iter();
+        let named = axes.filter(|axis| matches!(&*axis.key, "traffic" | "traffic.histogram"));
         let values: BTreeSet<String> = named
-            .flat_map(|axis| {
-                axis.list()
-                    .unwrap_or_default()
-                    .iter()
-                    .map(|value| format!("{}={value}", axis.key))
-            })
+            .flat_map(|axis| axis.values.iter().map(|value| format!("{}={value}", axis.key)))
             .collect();
         let of_values = values
             .iter()
@@ -220,59 +286,54 @@ impl Sweep {
         self.file.histogram().into_iter().chain(of_values).collect()
     }
 
-    /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in the files that they name.
+    /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in
+    /// the files that they name.
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
         let typed = self.file.typed().into_iter();
         let scene: Vec<_> = typed.map(|typed| (typed.key, typed.value)).collect();
-        let files: Vec<_> = self
-            .files()
-            .into_iter()
-            .map(|file| std::fs::read(file).ok())
-            .collect();
-        let text = format!(
-            "{version}\0{scene:?}\0{:?}\0{:?}\0{}\0{files:?}",
-            self.axes, self.samples, self.by_row
-        );
-        checksum(text.as_bytes())
+        let files = self.files().into_iter();
+        let files: Vec<_> = files.map(|file| std::fs::read(file).ok()).collect();
+        let Self {
+            axes,
+            samples,
+            by_row,
+            ..
+        } = self;
+        let text = format!("{version}\0{scene:?}\0{axes:?}\0{samples:?}\0{by_row}\0{files:?}");
+        hash(text.as_bytes())
     }
 }
 
-/// A number in (0, 1), evenly distributed: that of one sample of one key of the row `id`.
-fn share(seed: u64, key: &str, id: &str, sample: usize) -> f64 {
-    /// Half the distance between two numbers of the generator: keeps 0 out.
-    const HALF: f64 = 1.0 / (1_u64 << 54) as f64;
-    let name = if id.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{key}\0{id}")
-    };
-    let stream = fastrand::Rng::with_seed(seed ^ checksum(name.as_bytes())).u64(..);
-    // Generators of neighbouring seeds begin with related numbers, forks of them no more.
-    let mut random = fastrand::Rng::with_seed(stream.wrapping_add(sample as u64)).fork();
-    random.f64() + HALF
-}
-
-#[cfg(test)]
-mod tests {
-    use super::share;
-
-    /// Two keys are drawn independently: with n samples, √n times their correlation is a standard normal number.
-    #[test]
-    fn samples_of_two_keys_are_independent() {
-        const SAMPLES: usize = 1000;
-        const PAIRS: u64 = 200;
-        let draws = |seed, key| -> Vec<f64> { (0..SAMPLES).map(|k| share(seed, key, "", k) - 0.5).collect() };
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let scores: Vec<f64> = (0..PAIRS)
-            .map(|seed| {
-                let (a, b) = (draws(seed, "duct.depth"), draws(seed, "friction.coefficient"));
-                (SAMPLES as f64).sqrt() * dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt()
-            })
-            .collect();
-        // By chance one of 200 is so large once in 700 times; the mean square is off by four standard deviations.
-        assert!(scores.iter().all(|z| z.abs() < 4.5), "{scores:?}");
-        let mean_square = dot(&scores, &scores) / PAIRS as f64;
-        assert!((mean_square - 1.0).abs() < 0.4, "{mean_square}");
+/// Adds the keys at which the scene has a distribution: it is drawn in rows that have no value of
+/// their own, neither of the key nor of a section around it.
+fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
+    let rows = axes
+        .first()
+        .filter(|_| by_row)
+        .map_or(1, |axis| axis.values.len());
+    for typed in file.typed() {
+        let (key, TypedValue::Text(text)) = (typed.key, typed.value) else {
+            continue;
+        };
+        if drawn(&key, &text).is_none() {
+            continue;
+        }
+        if let Some(axis) = axes.iter_mut().find(|axis| axis.key == key) {
+            let empty = axis.values.iter_mut().filter(|value| value.is_empty());
+            empty.for_each(|value| value.clone_from(&text));
+            continue;
+        }
+        let is_around = |axis: &&Axis| {
+            let inner = key.strip_prefix(&*axis.key);
+            inner.is_some_and(|inner| inner.starts_with('.'))
+        };
+        let is_replaced = |row: usize| {
+            let mut around = axes.iter().filter(is_around);
+            around.any(|axis| axis.values.get(row).is_some_and(|value| !value.is_empty()))
+        };
+        let value = |row| if is_replaced(row) { "" } else { &text };
+        let values = (0..rows).map(|row| value(row).to_owned()).collect();
+        axes.push(Axis { key, values });
     }
 }

@@ -1,56 +1,37 @@
 //! The ground of the scene before, where the next one has the same.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use crate::ground::{Ground, road};
-use crate::scene::{self, TrafficVehicle};
 use crate::{Error, Scene};
 
-/// Gives each scene its ground, and the one of the scene before where nothing that it depends on differs.
-#[derive(Debug, Default)]
-pub struct KnownGround {
-    last: Mutex<Option<(Site, Arc<Ground>)>>,
-}
-
-/// All that the motion of the duct depends on.
-#[derive(Debug, Clone, PartialEq)]
-struct Site {
-    ground: scene::Ground,
-    vehicles: Vec<TrafficVehicle>,
-    /// Depth, distance to the side, reach and tolerance.
-    numbers: [f64; 4],
-}
-
-impl Site {
-    fn of(scene: &Scene) -> Self {
-        Self {
-            ground: scene.ground.clone(),
-            vehicles: scene.vehicles.clone(),
-            numbers: [
-                scene.duct.depth,
-                scene.duct.lateral_offset,
-                road::reach(scene),
-                scene.solver.tolerance,
-            ],
-        }
-    }
-}
+/// The last scene whose ground was computed, and that ground.
+#[derive(Default)]
+pub struct KnownGround(Option<(Scene, Arc<Ground>)>);
 
 impl KnownGround {
-    /// The ground of `scene`.
+    /// The ground of `scene`: that of the scene before where nothing differs that the motion of the
+    /// duct depends on.
     ///
     /// # Errors
     ///
     /// As for [`Ground::new`].
-    pub fn of(&self, scene: &Scene) -> Result<Arc<Ground>, Error> {
-        let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        let site = Site::of(scene);
-        let known = last().take_if(|(last, _)| *last == site);
-        let ground = match known {
-            Some((_, ground)) => ground,
-            None => Arc::new(Ground::new(scene, None, road::reach(scene))?),
-        };
-        *last() = Some((site, Arc::clone(&ground)));
+    pub fn of(&mut self, scene: &Scene) -> Result<Arc<Ground>, Error> {
+        if let Some((last, ground)) = &self.0
+            && is_same_site(last, scene)
+        {
+            return Ok(Arc::clone(ground));
+        }
+        let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
+        self.0 = Some((scene.clone(), Arc::clone(&ground)));
         Ok(ground)
     }
+}
+
+fn is_same_site(a: &Scene, b: &Scene) -> bool {
+    let numbers = |scene: &Scene| {
+        let (duct, tolerance) = (&scene.duct, scene.solver.tolerance);
+        [duct.depth, duct.lateral_offset, road::reach(scene), tolerance]
+    };
+    a.ground == b.ground && a.vehicles == b.vehicles && numbers(a) == numbers(b)
 }

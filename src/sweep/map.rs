@@ -1,13 +1,12 @@
 //! Occurrence map: force or movement over two varied keys.
 
-use std::sync::{Mutex, PoisonError};
-
-use super::axis::AxisValues;
+use super::axis::Axis;
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::numbers::{si, si_unit};
-use super::row::Row;
-use crate::figure::{Axis, Chart, FigureError};
+use super::numbers::si;
+use super::point::{Answer, Row};
+use crate::figure::{self, Chart};
+use crate::scene::si_unit;
 
 /// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
 const MOST_CELLS: usize = 500;
@@ -25,85 +24,56 @@ pub enum MapValue {
     Movement,
 }
 
-/// A map: takes the rows of a sweep, then draws them. A point that failed stays white.
-#[derive(Debug)]
-pub struct SweepMap<'a> {
-    sweep: &'a Sweep,
-    value: MapValue,
-    cells: Mutex<Vec<Option<f64>>>,
-}
-
-impl<'a> SweepMap<'a> {
-    /// A map over the two keys of `sweep`, the first along x.
+impl Sweep {
+    /// The map of these `rows` over the two keys, the first along x. A point without an answer
+    /// stays white.
     ///
     /// # Errors
     ///
     /// [`SweepError::Unfit`] unless two keys are varied, by lists of at most 500 values.
-    pub fn new(sweep: &'a Sweep, value: MapValue) -> Result<Self, SweepError> {
-        let listed = |axis: &super::axis::Axis| matches!(&axis.values, AxisValues::List(list) if list.len() <= MOST_CELLS);
-        if sweep.axes.len() != 2 || !sweep.axes.iter().all(listed) {
-            return Err(SweepError::Unfit {
-                found: format!("--map with {} varied keys", sweep.axes.len()),
-                allowed: "a map of two keys, each with a list or range of at most 500 values",
-            });
+    pub fn map(&self, rows: &[Row], value: MapValue) -> Result<Chart, SweepError> {
+        let [x, y] = &self.axes[..] else {
+            return Err(self.no_map());
+        };
+        let (columns, lines) = (x.values.len(), y.values.len());
+        if columns.max(lines) > MOST_CELLS || self.samples.count > 0 {
+            return Err(self.no_map());
         }
-        Ok(Self {
-            sweep,
-            value,
-            cells: Mutex::new(vec![None; sweep.count()]),
-        })
-    }
-
-    /// Takes a finished point.
-    pub fn add(&self, row: &Row) {
-        let Ok(answer) = &row.outcome else { return };
-        let (columns, rows) = (self.sweep.axes[0].count(), self.sweep.axes[1].count());
-        let (column, line) = (row.index / rows, row.index % rows);
         let larger = |a: f64, b: f64| f64::max(a.abs(), b.abs());
-        self.cells.lock().unwrap_or_else(PoisonError::into_inner)[line * columns + column] =
-            Some(match self.value {
+        let mut cells = vec![None; columns * lines];
+        for Row { index, outcome } in rows {
+            let of = |answer: &Answer| match value {
                 MapValue::Force => larger(answer.upstream_force_n, answer.downstream_force_n),
                 MapValue::Movement => {
                     1e3 * larger(answer.upstream_displacement_m, answer.downstream_displacement_m)
                 }
-            });
-    }
-
-    /// The map as SVG.
-    ///
-    /// # Errors
-    ///
-    /// [`FigureError`] where there is nothing to show, or no room for it.
-    pub fn to_svg(&self) -> Result<String, FigureError> {
-        let (title, label) = match self.value {
+            };
+            cells[index % lines * columns + index / lines] = outcome.as_ref().ok().map(of);
+        }
+        let (title, label) = match value {
             MapValue::Force => ("Largest force on an end", "force, N"),
             MapValue::Movement => ("Largest movement of an end", "movement, mm"),
         };
-        let [x, y] = [0, 1].map(|index| grid_axis(&self.sweep.axes[index]));
-        Chart::of_values(
-            title,
-            x,
-            y,
-            Axis::linear(label),
-            self.cells.lock().unwrap_or_else(PoisonError::into_inner).clone(),
-        )
-        .to_svg()
+        let scale = figure::Axis::linear(label);
+        Ok(Chart::of_values(title, along(x), along(y), scale, cells))
+    }
+
+    fn no_map(&self) -> SweepError {
+        SweepError::Unfit {
+            found: format!("--map with {} varied keys", self.axes.len()),
+            allowed: "a map of two keys, each with a list or range of at most 500 values",
+        }
     }
 }
 
 /// Ascending numbers have places, everything else names.
-fn grid_axis(axis: &super::axis::Axis) -> Axis {
-    let list = match &axis.values {
-        AxisValues::List(list) => list.as_slice(),
-        AxisValues::Drawn(_) => &[],
-    };
-    let numbers: Option<Vec<f64>> = list.iter().map(|value| si(value)).collect();
-    let unit = list.first().and_then(|value| si_unit(value));
+fn along(axis: &Axis) -> figure::Axis {
+    let numbers: Option<Vec<f64>> = axis.values.iter().map(|value| si(value)).collect();
     match numbers.filter(|numbers| numbers.is_sorted_by(|a, b| a < b)) {
         Some(numbers) => {
-            let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
-            Axis::linear(format!("{}{unit}", axis.key)).cells(numbers)
+            let unit = si_unit(&axis.key).map_or_else(String::new, |unit| format!(", {unit}"));
+            figure::Axis::linear(format!("{}{unit}", axis.key)).cells(numbers)
         }
-        None => Axis::names(&axis.key, list),
+        None => figure::Axis::names(&axis.key, &axis.values),
     }
 }

@@ -20,14 +20,6 @@ pub fn unit(text: &str) -> Option<Unit> {
     of_dimensions(text, Dimension::unit_of)
 }
 
-/// The SI unit of a number with a unit.
-#[cfg(feature = "plot")]
-pub fn si_unit(text: &str) -> Option<&'static str> {
-    of_dimensions(text, |dimension, text| {
-        dimension.parse(text).ok().map(|_| dimension.si())
-    })?
-}
-
 /// Numbers and the one unit that all of them have, or all but none.
 pub fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
     let texts: [&str; N] = texts.try_into().ok()?;

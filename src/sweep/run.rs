@@ -1,20 +1,33 @@
-//! All points of a sweep, and their table in a file.
+//! All points of a sweep, and their table in memory or in a file.
 
 use std::path::Path;
-use std::sync::Mutex;
 
 use serde::{Deserialize, Serialize};
 
 use super::bands::Band;
-use super::compute::lock;
+use super::columns::AnswerColumn;
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::journal::Journal;
-use super::options::SweepOptions;
-use super::row::Row;
-use super::sink::Kind;
+use super::point::Row;
 use super::table::Format;
-use crate::output::{Files, Output};
+use super::unfinished::Unfinished;
+use crate::output::Files;
+use crate::{Error, Progress, Run, Scene};
+
+/// Computes a point.
+pub type Evaluate<'a> = dyn Fn(&Scene) -> Result<Run, Error> + Sync + 'a;
+
+/// How to sweep, in rayon's threads: those of the pool in which it is called, or all cores.
+#[derive(Default, Clone, Copy)]
+pub struct SweepOptions<'a> {
+    /// Called with the share of the points that are done, at the start and after each point; it may
+    /// stop the sweep, which the same call resumes later.
+    pub progress: Progress<'a>,
+    /// Computes a point in place of [`crate::run`].
+    pub evaluate: Option<&'a Evaluate<'a>>,
+    /// Whether the output replaces a file whose name ends otherwise.
+    pub force: bool,
+}
 
 /// What a sweep did.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,20 +43,53 @@ pub struct SweepSummary {
     pub first_error: Option<String>,
     /// Quantiles at every point of the grid, where keys are drawn.
     pub bands: Vec<Band>,
+    /// All points, in the order of the grid.
+    #[serde(skip)]
+    pub rows: Vec<Row>,
 }
 
 impl Sweep {
-    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv`
-    /// or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the
-    /// names of its columns.
+    /// Computes all points and returns the columns that [`Sweep::run`] writes, without any file.
     ///
-    /// The journal stands beside it, as `output.journal`, until the table is in place. Where `output` is a link, it stands beside
-    /// what that points to.
+    /// ```
+    /// use creepage::SceneFile;
+    /// use creepage::sweep::{AnswerValues, Samples, Sweep, SweepOptions};
+    ///
+    /// let file = SceneFile::read("examples/scenes/full-scale-upper.toml")?.with(&["traffic.passes=1"])?;
+    /// let depths = vec![("duct.depth".to_owned(), vec!["1.2 m".to_owned(), "2 m".to_owned()])];
+    /// let sweep = Sweep::of_table(file, depths, Samples::default())?;
+    /// let columns = sweep.answers(&SweepOptions::default())?;
+    /// assert_eq!(columns[0].values, AnswerValues::Numbers(vec![Some(1.2), Some(2.0)]));
+    /// assert_eq!(columns[1].name, "downstream_force_n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     ///
-    /// [`SweepError`] when the output cannot be written, or it or its journal is something else already. What fails at a point is
-    /// a row of the table.
+    /// [`SweepError::Stopped`] where the progress stopped it. What fails at a point is a row of the
+    /// table.
+    pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
+        let mut columns = self.columns();
+        self.compute(0, options, &mut |row| {
+            let cells = self.cells(&row, &columns);
+            let both = columns.iter_mut().zip(&cells);
+            both.for_each(|(column, cell)| column.push(cell));
+            Ok(())
+        })?;
+        Ok(columns)
+    }
+
+    /// Computes all points that are not done yet and writes the table to `output`, whose name ends
+    /// in `.csv` or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed,
+    /// which stand below the names of its columns.
+    ///
+    /// Until the table is in place its rows stand beside it, as `output.unfinished`. Where `output`
+    /// is a link, they stand beside what that points to.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError`] when the output cannot be written, or what stands beside it is no part of
+    /// this sweep. What fails at a point is a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
         if self.count() > format.most_rows() {
@@ -53,75 +99,28 @@ impl Sweep {
             });
         }
         let output = Files::reading([], options.force).output(output, format.ending())?;
-        let mut beside = output.path().as_os_str().to_owned();
-        beside.push(".journal");
-        let mut journal = Journal::open(beside.into(), self.name(), self.count())?;
-        let resumed = journal.done();
-        let finished = journal.finished();
-        let keeper = Mutex::new(&mut journal);
-        self.compute(&finished, options, &|row| lock(&keeper).append(row))?;
-        journal.force()?;
-        let summary = self.write(&journal, resumed, &output, format, options.each)?;
-        journal.remove()?;
-        Ok(summary)
-    }
-
-    fn write(
-        &self,
-        journal: &Journal,
-        resumed: usize,
-        output: &Output,
-        format: Format,
-        each: Option<&dyn Fn(&Row)>,
-    ) -> Result<SweepSummary, SweepError> {
         let columns = self.columns();
-        let answers: Vec<(&str, Kind)> = self.answer_columns().collect();
-        let mut summary = SweepSummary {
-            points: self.count(),
-            resumed,
-            failed: 0,
-            first_error: None,
-            bands: Vec::new(),
-        };
-        let mut samples = Vec::new();
+        let mut unfinished = Unfinished::open(output.path(), self, &columns)?;
+        let resumed = unfinished.rows.len();
+        self.compute(resumed, options, &mut |row| {
+            let cells = self.cells(&row, &columns);
+            unfinished.keep(row, &cells)
+        })?;
+        let rows = unfinished.rows.iter();
+        let table = rows.map(|row| self.cells(row, &columns));
         let failed = |source| SweepError::File(output.path().display().to_string(), source);
         // It comes into its place when it is whole.
-        let mut table = format
-            .sink(output.begin()?, &columns, &self.file)
-            .map_err(failed)?;
-        for row in journal.rows() {
-            if let Some(each) = each {
-                each(row);
-            }
-            if let Err(error) = &row.outcome {
-                summary.failed += 1;
-                summary.first_error.get_or_insert_with(|| error.to_string());
-            }
-            let values = self.values(row.index);
-            if self.samples.count > 0 {
-                samples.push(row);
-                if samples.len() == self.samples.count {
-                    summary
-                        .bands
-                        .push(Band::of(self.listed(row.index, &values), &samples));
-                    samples.clear();
-                }
-            }
-            table
-                .row(self.cells(values, &columns, &answers, row))
-                .map_err(failed)?;
-        }
-        table.finish().map_err(failed)?.finish()?;
-        Ok(summary)
-    }
-
-    /// The keys that a point has values for and does not draw.
-    fn listed(&self, index: usize, values: &[String]) -> Vec<(String, String)> {
-        let drawn: Vec<&str> = self.drawn(index / self.samples.count.max(1)).collect();
-        let pairs = self.axes.iter().zip(values);
-        pairs
-            .filter(|(axis, value)| !(drawn.contains(&&*axis.key) || self.by_row && value.is_empty()))
-            .map(|(axis, value)| (axis.key.clone(), value.clone()))
-            .collect()
+        let draft = format.write(output.begin()?, &columns, &self.file, table);
+        draft.map_err(failed)?.finish()?;
+        let rows = unfinished.remove()?;
+        let errors = || rows.iter().filter_map(|row| row.outcome.as_ref().err());
+        Ok(SweepSummary {
+            points: rows.len(),
+            resumed,
+            failed: errors().count(),
+            first_error: errors().next().cloned(),
+            bands: self.bands(&rows),
+            rows,
+        })
     }
 }

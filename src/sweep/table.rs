@@ -3,11 +3,15 @@
 use std::io;
 use std::path::Path;
 
+use serde_json::Value;
+
+use super::columns::AnswerColumn;
 use super::error::SweepError;
 use super::numbers::si;
-use super::sink::{Cell, Column, Sink};
 use crate::SceneFile;
 use crate::output::Draft;
+#[cfg(feature = "xlsx")]
+use crate::workbook::{self, Book, Cell};
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,56 +52,91 @@ impl Format {
         }
     }
 
-    /// Most rows that a table of this format holds.
+    /// Most rows that a table of this format holds: a sheet has two more, for the names and the
+    /// units of its columns.
     pub fn most_rows(self) -> usize {
         match self {
+            Self::Csv => usize::MAX,
             #[cfg(feature = "xlsx")]
-            Self::Xlsx => super::xlsx::MOST_ROWS,
-            _ => usize::MAX,
+            Self::Xlsx => 1_048_574,
         }
     }
 
+    /// Writes the table, and of a workbook also the `scene`, to `draft`.
     #[cfg_attr(
         not(feature = "xlsx"),
         allow(unused_variables, reason = "only a workbook holds the scene")
     )]
-    pub fn sink(self, file: Draft, columns: &[Column], scene: &SceneFile) -> io::Result<Box<dyn Sink>> {
-        Ok(match self {
+    pub fn write(
+        self,
+        draft: Draft,
+        columns: &[AnswerColumn],
+        scene: &SceneFile,
+        mut rows: impl Iterator<Item = Vec<Value>>,
+    ) -> io::Result<Draft> {
+        match self {
             Self::Csv => {
-                let mut writer = csv::Writer::from_writer(file);
+                let mut writer = csv::Writer::from_writer(draft);
                 writer.write_record(columns.iter().map(|column| &column.name))?;
-                Box::new(writer)
+                rows.try_for_each(|cells| writer.write_record(texts(&cells)))?;
+                let draft = writer.into_inner();
+                draft.map_err(|error| io::Error::other(error.to_string()))
             }
             #[cfg(feature = "xlsx")]
-            Self::Xlsx => Box::new(super::xlsx::Xlsx::new(file, columns, scene)?),
-        })
+            Self::Xlsx => write_book(draft, columns, scene, rows),
+        }
     }
 }
 
-impl Sink for csv::Writer<Draft> {
-    fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
-        let text = |cell| match cell {
-            Cell::Absent => String::new(),
-            Cell::Number(value) => value.to_string(),
-            Cell::Count(value) => value.to_string(),
-            Cell::Text(value) => harmless(&value),
-        };
-        Ok(self.write_record(cells.into_iter().map(text))?)
-    }
-
-    fn finish(self: Box<Self>) -> io::Result<Draft> {
-        let draft = self.into_inner();
-        draft.map_err(|error| io::Error::other(error.to_string()))
-    }
+/// Cells as texts.
+pub fn texts(cells: &[Value]) -> impl Iterator<Item = String> {
+    cells.iter().map(|cell| match cell {
+        Value::String(text) => harmless(text),
+        Value::Number(number) if number.is_f64() => number.as_f64().unwrap_or_default().to_string(),
+        Value::Number(count) => count.to_string(),
+        _ => String::new(),
+    })
 }
 
-/// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one, unless it is a number.
+/// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one,
+/// unless it is a number.
 fn harmless(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none() {
         format!("'{text}")
     } else {
         text.to_owned()
     }
+}
+
+#[cfg(feature = "xlsx")]
+fn write_book(
+    mut draft: Draft,
+    columns: &[AnswerColumn],
+    scene: &SceneFile,
+    rows: impl Iterator<Item = Vec<Value>>,
+) -> io::Result<Draft> {
+    let fill = || {
+        let title = scene.scene().map_or(String::new(), |scene| scene.title);
+        let mut book = Book::new(&title)?;
+        let headings = columns
+            .iter()
+            .map(|column| (&*column.heading.0, column.heading.1));
+        book.sheet("sweep", &headings.collect::<Vec<_>>())?;
+        for cells in rows {
+            let cells = cells.into_iter().zip(columns).map(|(cell, column)| match cell {
+                Value::String(text) => Cell::Text(text),
+                cell => cell.as_f64().map_or(Cell::Absent, |si| {
+                    Cell::Number(column.unit.map_or(si, |unit| unit.of_si(si)))
+                }),
+            });
+            book.row(cells, false)?;
+        }
+        workbook::scene(&mut book, scene)?;
+        book.finish()
+    };
+    let bytes = fill().map_err(|error: rust_xlsxwriter::XlsxError| io::Error::other(error))?;
+    io::Write::write_all(&mut draft, &bytes)?;
+    Ok(draft)
 }
 
 #[cfg(test)]

@@ -127,7 +127,7 @@ fn devices_and_pipes_are_written_as_they_are() {
 
 #[test]
 fn a_sweep_follows_no_link_to_its_own_files() {
-    let folder = Folder::new("journal");
+    let folder = Folder::new("unfinished");
     let sweep = [
         "sweep",
         "scene.toml",
@@ -138,14 +138,14 @@ fn a_sweep_follows_no_link_to_its_own_files() {
     ];
     for victim in ["", PRECIOUS] {
         folder.write("victim", victim);
-        let _ = fs::remove_file(folder.path("out.csv.journal"));
-        folder.link("victim", "out.csv.journal");
+        let _ = fs::remove_file(folder.path("out.csv.unfinished"));
+        folder.link("victim", "out.csv.unfinished");
         folder.refused(&sweep, "found a link");
     }
-    fs::remove_file(folder.path("out.csv.journal")).expect("the link");
-    folder.link("nowhere", "out.csv.journal");
+    fs::remove_file(folder.path("out.csv.unfinished")).expect("the link");
+    folder.link("nowhere", "out.csv.unfinished");
     folder.refused(&sweep, "found a link");
-    fs::remove_file(folder.path("out.csv.journal")).expect("the link");
+    fs::remove_file(folder.path("out.csv.unfinished")).expect("the link");
 
     folder.link("victim", "out.csv.partial");
     folder.succeeds(&sweep);

@@ -31,7 +31,7 @@ fn stop(cases: usize, seed: u64) {
     let run = |passes| ["run", "scene.toml", "--set", passes, "--csv", "target.csv"].to_vec();
     let report = |passes| ["report", "scene.toml", "--set", passes, "-o", "target.html"].to_vec();
     let sweep = |vary| sweep(vary).to_vec();
-    // What is written first, and what is stopped. Failing points are fast: that sweep is mostly its journal and its table.
+    // What is written first, and what is stopped. Failing points are fast: that sweep is mostly its rows and its table.
     let commands = [
         (run(few), run(PASSES), "csv"),
         (report(few), report(PASSES), "html"),
@@ -45,8 +45,8 @@ fn stop(cases: usize, seed: u64) {
         let (first, command, ending) = &commands[case % commands.len()];
         let (name, number) = SIGNALS[random.usize(..SIGNALS.len())];
         let target = format!("target.{ending}");
-        let journal = format!("{target}.journal");
-        for file in [&target, &journal] {
+        let unfinished = format!("{target}.unfinished");
+        for file in [&target, &unfinished] {
             let _ = std::fs::remove_file(folder.path(file));
         }
         folder.succeeds(first);
@@ -65,8 +65,8 @@ fn stop(cases: usize, seed: u64) {
         if ended_by(status).is_some() {
             assert_eq!(ended_by(status), Some(number), "{command:?}");
         }
-        // A sweep goes on from its journal; everything else is as it was, or whole.
-        after.remove(&journal);
+        // A sweep goes on behind its rows; everything else is as it was, or whole.
+        after.remove(&unfinished);
         if after != before {
             assert_eq!(
                 after.keys().collect::<Vec<_>>(),
@@ -86,7 +86,7 @@ fn a_stopped_command_leaves_the_older_file_and_nothing_else() {
 
 /// Stops a sweep while its table is half written; `None` where the table was complete before the signal came.
 fn stop_half_way(folder: &Folder, (name, number): (&str, i32)) -> Option<()> {
-    let journal = folder.path("target.csv.journal");
+    let unfinished = folder.path("target.csv.unfinished");
     let mut command = folder.command(creepage(), &sweep("friction.dynamic_coefficient=-50000:-1:1"));
     let mut child = command
         .stdout(Stdio::null())
@@ -101,8 +101,8 @@ fn stop_half_way(folder: &Folder, (name, number): (&str, i32)) -> Option<()> {
         .spawn()
         .expect("a shell");
     let is_half = || folder.names().iter().any(|name| name.ends_with(".partial"));
-    // Before there is a journal it is but the probe of the place.
-    while !(journal.exists() && is_half()) && child.try_wait().expect("a state").is_none() {}
+    // Before there are rows it is but the probe of the place.
+    while !(unfinished.exists() && is_half()) && child.try_wait().expect("a state").is_none() {}
     drop(shell.stdin.take());
     shell.wait().expect("it ends");
     let status = child.wait().expect("it ends");
@@ -130,7 +130,7 @@ fn what_is_half_written_goes() {
             folder.succeeds(&sweep("duct.depth=1,2"));
             let before = folder.contents();
             let stopped = stop_half_way(&folder, signal).is_some();
-            let _ = std::fs::remove_file(folder.path("target.csv.journal"));
+            let _ = std::fs::remove_file(folder.path("target.csv.unfinished"));
             let after = folder.contents();
             let same = after.keys().eq(before.keys());
             assert!(same, "{signal:?}: {:?}", folder.names());

@@ -99,7 +99,10 @@ fn a_stopped_sweep_says_what_it_keeps() {
     let said = "the finished points are kept beside table.csv; the same command goes on from there";
     assert!(stopped.said.contains(said), "{}", stopped.said);
     let names = folder.names();
-    assert!(names.iter().any(|name| name == "table.csv.journal"), "{names:?}");
+    assert!(
+        names.iter().any(|name| name == "table.csv.unfinished"),
+        "{names:?}"
+    );
     assert!(!names.iter().any(|name| name == "table.csv"), "{names:?}");
 }
 

@@ -32,10 +32,10 @@ fn on_a_full_disk_the_older_file_stays() {
         let output = folder.creepage_after("trap '' XFSZ\nulimit -f 1", &command);
         assert_eq!(output.status.code(), Some(1), "{command:?}: {}", said(&output));
         assert!(said(&output).contains("too large"), "{}", said(&output));
-        // A sweep goes on from its journal when there is room.
-        let journal = folder.path(&format!("{name}.journal"));
-        assert_eq!(journal.exists(), arguments[0] == "sweep");
-        let _ = std::fs::remove_file(journal);
+        // A sweep goes on behind its rows when there is room.
+        let unfinished = folder.path(&format!("{name}.unfinished"));
+        assert_eq!(unfinished.exists(), arguments[0] == "sweep");
+        let _ = std::fs::remove_file(unfinished);
         assert!(folder.contents() == before, "{command:?}: {:?}", folder.names());
     }
 }

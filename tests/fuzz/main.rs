@@ -14,7 +14,7 @@ use creepage::Readings;
 use creepage::SceneFile;
 use creepage::presets::{self, PresetKind};
 use creepage::scene::{Dimension, SceneError};
-use creepage::sweep::{Axis, AxisValues};
+use creepage::sweep::{Axis, Distribution};
 use fastrand::Rng;
 
 use mutate::mutated;
@@ -269,10 +269,10 @@ fn axis(text: &str) -> bool {
     let read = Axis::parse(text);
     match &read {
         Ok(axis) => {
-            assert!(!axis.key.is_empty() && (1..=1_000_001).contains(&axis.count()));
-            match &axis.values {
-                AxisValues::List(values) => assert!(values.iter().all(|value| !value.is_empty())),
-                AxisValues::Drawn(distribution) => {
+            assert!(!axis.key.is_empty() && (1..=1_000_001).contains(&axis.values.len()));
+            for value in &axis.values {
+                assert!(!value.is_empty());
+                if let Some(Ok(distribution)) = Distribution::parse(value) {
                     let (low, high) = (distribution.quantile(0.1), distribution.quantile(0.9));
                     assert!(low.0 <= high.0, "{low:?} {high:?}");
                 }

@@ -2,7 +2,7 @@
 
 use creepage::Readings;
 use creepage::calibration::{Quantity, Unknown};
-use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
+use creepage::design::{DesignOptions, Limits, Place, Spring, compare, design};
 use creepage::scene::{
     Arrangement, Duct, End, Following, Law, Layer, Restraint, RouteSection, Scene, SceneError, SolverMethod,
     TrafficVehicle, Wheel,
@@ -199,12 +199,8 @@ fn designs_fits_and_reports_refuse_an_edited_scene_too() {
     let place = Place::Downstream;
     let options = DesignOptions::new(place, limits);
     assert!(design(&scene, &options).expect_err("no vehicles").is_bad_input());
-    let measure = Measure {
-        place,
-        stiffness: 1e6,
-    };
     assert!(
-        compare(&scene, &[measure], Progress::default())
+        compare(&scene, &[Spring::new(place, 1e6)], Progress::default())
             .expect_err("no vehicles")
             .is_bad_input()
     );

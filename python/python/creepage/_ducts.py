@@ -2,7 +2,6 @@
 
 import hashlib
 import os
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -88,7 +87,6 @@ def copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: int
     group = ducts_per_group(per_part)
     drawn: set = set()
     files: set = set()
-    unnamed: list = []
     count = 0
     heads: Any = None
 
@@ -96,7 +94,7 @@ def copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: int
         nonlocal count, heads
         writer = None
         for rows in _batches(ducts, group):
-            table = _with_ids(rows, count, unnamed)
+            table = _with_ids(rows, count)
             heads, keys, named = _creepage.heads(scene, table, samples)
             drawn.update(keys)
             files.update(map(str, named))
@@ -107,8 +105,6 @@ def copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: int
         if writer is None:
             raise InputError("found no row in the table of ducts; allowed: one or more")
         writer.close()
-        if unnamed:
-            _check_ids(beside, unnamed)
         if samples and not drawn:
             raise InputError("found samples and no distribution; allowed: a distribution with them, in a cell of the table or in the scene")
 
@@ -120,8 +116,8 @@ def copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: int
     return {"ducts": count, "columns": columns, "files": {file: digest(file) for file in sorted(files)}}
 
 
-def _with_ids(rows: Any, first: int, unnamed: list) -> Any:
-    """The rows as texts, with an id each: its own, or else its number, which is added to the unnamed where others have ids."""
+def _with_ids(rows: Any, first: int) -> Any:
+    """The rows as texts, with an id each: its own, or else its number."""
     import pyarrow
 
     names, columns = _creepage.texts(rows)
@@ -129,21 +125,6 @@ def _with_ids(rows: Any, first: int, unnamed: list) -> Any:
     if "id" in names:
         own = columns[names.index("id")]
         columns[names.index("id")] = [name or number for name, number in zip(own, numbers)]
-        unnamed.extend(number for name, number in zip(own, numbers) if not name)
     else:
         names, columns = ["id", *names], [numbers, *columns]
     return pyarrow.table([pyarrow.array(column, "string") for column in columns], names=names)
-
-
-def _check_ids(path: str, unnamed: list) -> None:
-    """Refuses a row without an id whose number is the id of another: both would draw the same samples."""
-    import pyarrow
-    import pyarrow.parquet
-
-    ids = Counter(pyarrow.parquet.read_table(path, columns=["id"])["id"].to_pylist())
-    twice = next((number for number in unnamed if ids[number] > 1), None)
-    if twice is not None:
-        raise InputError(
-            f"found the id `{twice}`, by which a row without an id is known too, as its number from 0 is {twice}; "
-            "allowed: an id in every row, or ids that are no such numbers"
-        )

@@ -4,14 +4,13 @@ use std::path::Path;
 
 use creepage_tables::{Layout, Name, Options, Row, Table, TableError};
 
+use super::distribution::{ID, TEXTS};
 use super::error::SweepError;
+use super::grid::Sweep;
+use super::samples::Samples;
 use super::table::Format;
+use crate::SceneFile;
 use crate::scene::Dimension;
-
-/// The column that is carried over: it names a row and is no key of a scene.
-pub const ID: &str = "id";
-/// Keys whose text is never a number or a distribution.
-pub const TEXTS: [&str; 3] = ["title", "name", ID];
 
 const LAYOUT: Layout = Layout {
     kinds: &[],
@@ -31,6 +30,23 @@ const LAYOUT: Layout = Layout {
     most: 256 << 20,
     allowed: "columns named as keys of a scene",
 };
+
+impl Sweep {
+    /// The ducts of a table, `.csv` or `.xlsx`, read as `options` say, as [`Sweep::of_table`] takes
+    /// them.
+    ///
+    /// # Errors
+    ///
+    /// As for [`read`] and [`Sweep::of_table`].
+    pub fn of_rows(
+        file: SceneFile,
+        table: &Path,
+        options: &Options,
+        samples: Samples,
+    ) -> Result<Self, SweepError> {
+        Self::of_table(file, read(table, options)?, samples)
+    }
+}
 
 /// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, read as `options` say, each with
 /// a value a row; empty where the row has none. Numbers have a decimal point, and the unit of their

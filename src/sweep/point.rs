@@ -1,0 +1,79 @@
+//! The answer of one point.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Run;
+
+/// What one point of a sweep answers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Answer {
+    /// Force on the downstream end after the last pass \[N\].
+    pub downstream_force_n: f64,
+    /// Force on the upstream end after the last pass \[N\].
+    pub upstream_force_n: f64,
+    /// Largest compression along the cable after the last pass \[N\].
+    pub max_compression_n: f64,
+    /// Where the force levels off \[N\], if it does.
+    pub saturation_force_n: Option<f64>,
+    /// Passes to 95 % of that.
+    pub passes_to_95_percent: Option<u64>,
+    /// Displacement of the upstream end after the last pass \[m\].
+    pub upstream_displacement_m: f64,
+    /// Displacement of the downstream end after the last pass \[m\].
+    pub downstream_displacement_m: f64,
+    /// Estimated relative error of the forces.
+    pub error_estimate: f64,
+    /// What heat adds, over all days.
+    #[serde(flatten, default)]
+    pub heat: Option<HeatAnswer>,
+}
+
+/// What a cable that is heated every day shows over all days.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HeatAnswer {
+    /// Largest force on the downstream end \[N\].
+    pub downstream_max_n: f64,
+    /// Least force on the downstream end \[N\].
+    pub downstream_min_n: f64,
+    /// Largest force on the upstream end \[N\].
+    pub upstream_max_n: f64,
+    /// Least force on the upstream end \[N\].
+    pub upstream_min_n: f64,
+    /// Movement of the cable from day to day in the end \[m\], where days repeat but for that.
+    pub drift_per_day_m: Option<f64>,
+}
+
+/// A point that is done.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Row {
+    /// Number of the point in the grid, from 0.
+    pub index: usize,
+    /// The answer, or why there is none, in one line.
+    pub outcome: Result<Answer, String>,
+}
+
+impl Answer {
+    /// The last pass of a run; `None` for a run without passes.
+    pub fn of(run: &Run) -> Option<Self> {
+        let last = run.passes.last()?;
+        Some(Self {
+            downstream_force_n: last.downstream_force_n,
+            upstream_force_n: last.upstream_force_n,
+            max_compression_n: last.max_compression_n,
+            saturation_force_n: run.saturation.map(|saturation| saturation.force_n),
+            passes_to_95_percent: run.saturation.map(|saturation| saturation.passes_to_95_percent),
+            upstream_displacement_m: last.upstream_displacement_m,
+            downstream_displacement_m: last.downstream_displacement_m,
+            error_estimate: run.error_estimate.relative,
+            heat: run.heat.as_ref().map(|heat| HeatAnswer {
+                downstream_max_n: heat.all_days.downstream_max_n,
+                downstream_min_n: heat.all_days.downstream_min_n,
+                upstream_max_n: heat.all_days.upstream_max_n,
+                upstream_min_n: heat.all_days.upstream_min_n,
+                drift_per_day_m: heat.drift_per_day_m,
+            }),
+        })
+    }
+}
