@@ -14,9 +14,18 @@ use super::balance;
 use super::record::{ForceRange, Saturation};
 use crate::Scene;
 use crate::scene::End;
-use crate::tuning::saturation::{
-    FEWEST_PASSES, LARGEST_RATIO, LARGEST_REMAINDER, NEARLY, NOTHING, TELLS, WINDOW,
-};
+use crate::tuning::saturation::{LARGEST_RATIO, LARGEST_REMAINDER, TELLS};
+
+/// Fewest passes from which anything can be said.
+const FEWEST_PASSES: usize = 12;
+/// One in so many of the passes, the last of them, shows the largest force now, and what
+/// vehicles in random order do.
+const WINDOW: usize = 12;
+/// A force already reached may exceed the saturation by this share of it, which is no more than
+/// an extrapolation's error.
+const NEARLY: f64 = 0.02;
+/// A force below this share of the largest in any pass is none.
+const NOTHING: f64 = 1e-3;
 
 /// Share of the saturated force whose pass is stated.
 pub const LEVEL: f64 = 0.95;
@@ -45,27 +54,29 @@ pub fn saturation(
         beyond,
         scale: peaks.fold(0.0, f64::max),
     };
-    let ends = [scene.ends.upstream, scene.ends.downstream];
-    let at_ends: [fn(&PassOutcome) -> f64; 2] = [|o| o.force.upstream, |o| o.force.downstream];
-    let at = |end: usize| match ends[end] {
-        End::Free => Some((0.0, 0.0)),
-        _ => course.leads_to(at_ends[end]),
+    let leads_to = |is_held: bool, force: fn(&PassOutcome) -> f64| {
+        if is_held {
+            course.leads_to(force)
+        } else {
+            Some((0.0, 0.0))
+        }
     };
-    let (Some(upstream), Some(downstream)) = (at(0), at(1)) else {
+    let ends = [scene.ends.upstream, scene.ends.downstream];
+    let [upstream, downstream] = ends.map(|end| end != End::Free);
+    let (Some(upstream_n), Some(downstream_n)) = (
+        leads_to(upstream, |outcome| outcome.force.upstream),
+        leads_to(downstream, |outcome| outcome.force.downstream),
+    ) else {
         return (None, None);
     };
     let range = ForceRange {
-        downstream_min_n: downstream.0,
-        downstream_max_n: downstream.1,
-        upstream_min_n: upstream.0,
-        upstream_max_n: upstream.1,
+        downstream_min_n: downstream_n.0,
+        downstream_max_n: downstream_n.1,
+        upstream_min_n: upstream_n.0,
+        upstream_max_n: upstream_n.1,
     };
-    let inside = match ends {
-        [End::Free, End::Free] => course.leads_to(|o| o.max_compression),
-        _ => Some((0.0, 0.0)),
-    };
-    let largest =
-        inside.map(|inside| [downstream, upstream, inside].map(|(least, most)| larger(least, most)));
+    let inside = leads_to(!upstream && !downstream, |outcome| outcome.max_compression);
+    let largest = inside.map(|inside| [downstream_n, upstream_n, inside].map(|(a, b)| larger(a, b)));
     (
         largest.and_then(|largest| course.levels_off(largest)),
         Some(range),
@@ -162,23 +173,13 @@ impl Course<'_> {
     }
 }
 
-/// Largest force on an end in a pass, in size.
+/// Largest force on an end in a pass, or inside the cable after it, in size.
 fn peak(outcome: &PassOutcome) -> f64 {
-    let PassOutcome {
-        peak,
-        lowest,
-        max_compression,
-        ..
-    } = outcome;
-    [
-        peak.upstream,
-        peak.downstream,
-        lowest.upstream,
-        lowest.downstream,
-        *max_compression,
-    ]
-    .into_iter()
-    .fold(0.0, |largest, force| largest.max(force.abs()))
+    let during = [outcome.peak, outcome.lowest];
+    let during = during
+        .into_iter()
+        .flat_map(|force| [force.upstream, force.downstream]);
+    during.fold(outcome.max_compression, larger).abs()
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
