@@ -13,6 +13,7 @@ use cycle_jump::{Beyond, Record};
 use super::balance;
 use super::record::{ForceRange, Saturation};
 use crate::Scene;
+use crate::plan::Period;
 use crate::scene::End;
 use crate::tuning::saturation::{LARGEST_RATIO, LARGEST_REMAINDER, TELLS};
 
@@ -37,19 +38,20 @@ type Range = (f64, f64);
 /// and the forces on the ends once nothing changes any more, over the vehicles of a `period`.
 pub fn saturation(
     scene: &Scene,
-    period: usize,
+    period: &Period,
     records: &[Record],
     beyond: Option<&Beyond>,
 ) -> (Option<Saturation>, Option<ForceRange>) {
     // Vehicles in random order show what they do in many passes only.
-    let period = match scene.order() {
-        Order::Random { .. } => period.max(records.len() / WINDOW),
-        _ => period,
+    let passes = match scene.order() {
+        Order::Random { .. } => period.len().max(records.len() / WINDOW),
+        _ => period.len(),
     };
     let peaks = records.iter().map(|record| peak(&record.outcome));
     let course = Course {
         scene,
         period,
+        passes,
         records,
         beyond,
         scale: peaks.fold(0.0, f64::max),
@@ -86,8 +88,9 @@ pub fn saturation(
 /// The course of the forces of a run.
 struct Course<'a> {
     scene: &'a Scene,
+    period: &'a Period,
     /// Passes over which they are looked at.
-    period: usize,
+    passes: usize,
     records: &'a [Record],
     beyond: Option<&'a Beyond>,
     /// A force that counts as large \[N\].
@@ -103,7 +106,7 @@ impl Course<'_> {
             Some(beyond) => range(beyond.period.iter().map(force))?,
             // Listed passes grow ever farther apart: their gains say nothing.
             None if self.records.last()?.pass != self.records.len() as u64 => return None,
-            None => extrapolate(&forces.clone().collect::<Vec<_>>(), self.period, self.scale)?,
+            None => extrapolate(&forces.clone().collect::<Vec<_>>(), self.passes, self.scale)?,
         };
         let reached = forces.fold(0.0, larger);
         let largest = larger(least, most).abs();
@@ -150,15 +153,17 @@ impl Course<'_> {
     /// The first pass that leaves 95 % of the saturated `force` \[N\].
     fn reaches(&self, force: f64) -> Option<&Record> {
         let is_there = |record: &Record, end: f64| self.shown(&record.outcome) / (LEVEL * end) >= 1.0;
-        // Of vehicles in random order, a row between jumps is the mean of a period: it leads to the
-        // mean.
-        let leads_to = match (self.beyond, self.scene.order()) {
-            (Some(Beyond { period, .. }), Order::Random { .. }) => {
+        // Of vehicles that stand in for the traffic, a row after the first ones is the mean of a
+        // period: it leads to the mean.
+        let leads_to = match self.beyond {
+            Some(Beyond { period, .. }) if !self.period.is_own() => {
                 period.iter().map(|outcome| self.shown(outcome)).sum::<f64>() / period.len() as f64
             }
             _ => force,
         };
-        let within = self.records.iter().find(|record| is_there(record, leads_to));
+        let first = self.beyond.map_or(0, |_| self.period.first.len() as u64);
+        let mut later_rows = self.records.iter().filter(|record| record.pass > first);
+        let within = later_rows.find(|record| is_there(record, leads_to));
         // Beyond them a pass leads to what the same pass of the last period leaves; if that is
         // little, it says nothing.
         let later = |beyond: &'_ Beyond, record: &Record| {

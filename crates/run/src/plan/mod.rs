@@ -70,16 +70,13 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first)?;
     let choice = method::choose(scene, &levels, &period)?;
-    let mut warnings = warnings::warnings(scene);
-    warnings.extend(warnings::absent(scene)?);
-    warnings.extend(warnings::inertia(scene, choice.inertia));
     Ok(Plan {
+        warnings: warnings::warnings(scene, choice.inertia)?,
         scene,
         ground,
         period,
         choice,
         levels,
-        warnings,
         start: None,
     })
 }

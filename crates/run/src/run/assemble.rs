@@ -26,7 +26,7 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
     let (days, heat) = solved.heat.clone().unzip();
     let (saturation, range) = match heat {
         Some(_) => (None, None),
-        None => saturation(scene, plan.period.len(), &found.records, found.beyond.as_ref()),
+        None => saturation(scene, &plan.period, &found.records, found.beyond.as_ref()),
     };
     let first = &ground.motions[0];
     let before = plan.start.map_or(0, SavedState::passes);
