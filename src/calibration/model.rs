@@ -21,7 +21,7 @@ use super::watch::Watch;
 use crate::ground::Ground;
 use crate::plan::{CableMethod, PassMethod, Period, plan};
 use crate::{Error, Progress, Scene};
-use creepage_run::passes::{Jumping, Task};
+use creepage_run::passes::{JumpSize, Jumping, Task};
 
 /// Nodes per depth of the duct on the coarsest mesh, which only shows where to look; every further level has twice as many.
 const COARSEST: f64 = 3.0;
@@ -183,12 +183,13 @@ impl SeriesModel {
 fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
     Jumping {
         period,
-        tolerance: JUMP,
-        first_periods: FIRST_PERIODS,
-        first_jump: FIRST_JUMP,
+        size: JumpSize {
+            tolerance: JUMP,
+            first_periods: FIRST_PERIODS,
+            first_jump: FIRST_JUMP,
+        },
         most_passes: MOST_PASSES,
         guide,
-        simulated: None,
         beyond: false,
     }
 }

@@ -117,12 +117,30 @@ pub fn difference(scene: &Scene, every: &Run, found: &Run) -> Difference {
         .iter()
         .flat_map(forces_during)
         .fold(friction, |most, f| most.max(f.abs()));
+    // Where other vehicles stand in for the traffic, a pass after the first ones is shown by the mean over a period around it, or over
+    // the last one.
+    let period = creepage::plan(scene).expect("a plan").period;
+    let (length, count) = (period.len(), every.passes.len());
     let of_pass = |record: &PassRecord| {
         let place = every
             .passes
             .binary_search_by_key(&record.pass, |other| other.pass)
             .ok()?;
-        let right = forces_after(&every.passes[place]);
+        let shown = if period.is_own() || !record.interpolated || place < period.first.len() {
+            place..place + 1
+        } else {
+            let begin = place
+                .saturating_sub((length - 1) / 2)
+                .min(count.saturating_sub(length));
+            begin..(begin + length).min(count)
+        };
+        let mean = |of: usize| {
+            let forces = every.passes[shown.clone()]
+                .iter()
+                .map(|pass| forces_after(pass)[of]);
+            forces.sum::<f64>() / shown.len() as f64
+        };
+        let right = [0, 1, 2].map(mean);
         let scale = right
             .iter()
             .fold(SMALL * largest, |most, force| most.max(force.abs()));

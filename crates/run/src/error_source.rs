@@ -29,6 +29,11 @@ impl ErrorSource {
         Self::Days,
     ];
 
+    /// Whether it comes from what is not simulated.
+    pub(crate) fn is_skipping(self) -> bool {
+        matches!(self, Self::Passes | Self::Days)
+    }
+
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {

@@ -12,6 +12,7 @@ mod error_source;
 pub mod finite;
 #[doc(hidden)]
 pub mod ground;
+mod jumps;
 #[doc(hidden)]
 pub mod passes;
 #[doc(hidden)]

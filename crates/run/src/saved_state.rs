@@ -73,14 +73,14 @@ struct SavedClamp {
 }
 
 /// What `passes` of one run have left, behind those of the runs `before` it.
-fn history(before: Option<&SavedState>, passes: impl Iterator<Item = PastPass>) -> Vec<PastPass> {
+fn history(before: Option<&SavedState>, passes: Vec<PastPass>) -> Vec<PastPass> {
     let mut history = before.map_or(Vec::new(), |before| before.history.clone());
     let first = before.map_or(0, SavedState::passes);
     let begin = match before {
         None => Some(0.0),
         Some(_) => history.last().and_then(|last| last.days),
     };
-    history.extend(passes.map(|past| PastPass {
+    history.extend(passes.into_iter().map(|past| PastPass {
         pass: first + past.pass,
         days: begin.zip(past.days).map(|(begin, days)| begin + days),
         ..past
@@ -139,7 +139,7 @@ impl SavedState {
         cable: &DuctedCable,
         state: &CableState,
         before: Option<&Self>,
-        history_of_run: impl Iterator<Item = PastPass>,
+        past: Vec<PastPass>,
     ) -> Self {
         let duct = duct(scene);
         let ends = [cable.upstream(), cable.downstream()]
@@ -155,7 +155,7 @@ impl SavedState {
         Self {
             version: VERSION,
             passes: before.map_or(0, Self::passes) + scene.traffic.passes,
-            history: history(before, history_of_run),
+            history: history(before, past),
             hash: hash(&duct),
             duct,
             ends: [ends[0], ends[1]],

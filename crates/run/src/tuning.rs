@@ -32,8 +32,6 @@ pub mod meshes {
     pub const MOVED: f64 = 8.0;
     /// Most nodes eliminated in all passes on one mesh: about ten seconds.
     pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
-    /// The same on a mesh finer than the first, at this tolerance.
-    pub const FINER: (usize, f64) = (1_000_000_000, 0.01);
     /// A mesh twice as fine takes about this many times the node updates.
     pub const REFINEMENT_COST: usize = 4;
     /// What is left to the mesh at least, as a share of the tolerance, or of the largest other
@@ -52,15 +50,6 @@ pub mod meshes {
     pub const MANY: usize = 40;
     /// Weight of the only difference.
     pub const WEIGHT_ALONE: f64 = 3.0;
-    /// What the error is beside the difference to a mesh twice as fine, at second order.
-    pub const VERIFIED: f64 = 4.0 / 3.0;
-    /// A larger error than this, or the tolerance if that is larger still, is no answer.
-    pub const DOUBTFUL: f64 = 0.1;
-    /// Forces below this share of the largest one of the run are compared with that share of it,
-    /// and movements of an end below this share of the duct's largest.
-    pub const SMALL: f64 = 0.1;
-    /// The length of cable \[m\] on which friction holds a force that does not count.
-    pub const SHORT: f64 = 0.01;
 }
 
 /// Which method a plan takes, and its rough time.
@@ -69,16 +58,10 @@ pub mod methods {
     /// explicit.
     pub const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
     pub const EXPLICIT_SECONDS: f64 = 1e-9;
-    /// Time steps of the explicit solver per step of a vehicle, as a rule.
-    pub const EXPLICIT_STEPS: f64 = 40.0;
     /// Periods that are simulated at the start, and then for every factor e of periods: half of all
     /// scenes need fewer, and nearly all.
     pub const TYPICAL_PERIODS: (f64, f64) = (12.0, 2.2);
     pub const MOST_PERIODS: (f64, f64) = (20.0, 8.0);
-    /// As a rule where a period has more than so many vehicles: most of what jumps would have to
-    /// follow happens within the first one.
-    pub const MANY: usize = 48;
-    pub const TYPICAL_LONG_PERIODS: (f64, f64) = (4.5, 0.3);
     /// Periods of a day that are simulated where the cable is heated every day, and days with them
     /// until one is like the one before.
     pub const PERIODS_A_DAY: f64 = 24.0;
@@ -89,11 +72,6 @@ pub mod methods {
     pub const JUMP_MESHES: f64 = 2.0;
     /// Jumps are taken where they spare this share of the passes.
     pub const SPARED: f64 = 0.3;
-    /// Where every pass is simulated although jumps are possible, it takes no longer than this
-    /// \[s\].
-    pub const LONGEST_SECONDS: f64 = 60.0;
-    /// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
-    pub const LONGEST_WITHOUT_REST: f64 = 600.0;
     /// What an even order leaves wrong as a rule where vehicles come in random order: 3 to 4 % of
     /// early forces.
     pub const DRAWN_ERROR: f64 = 0.04;
@@ -120,83 +98,25 @@ pub mod periods {
     /// follow each other in the traffic.
     pub const EXACT: usize = 2;
     pub const SHORT: usize = 600;
-    /// Another mix is looked for among those that are at most twice as long, or so long.
-    pub const OTHERS: usize = 48;
-}
-
-/// Which passes stand for listed ones.
-pub mod listing {
-    /// Passes at the beginning in which the scene's own vehicles drive, at least; at the end, and
-    /// the last of them that show those vehicles: the first ones still follow other vehicles.
-    pub const FIRST: u64 = 100;
-    pub const LAST: u64 = 150;
-    pub const LAST_SHOWN: u64 = 12;
-    /// Periods that jumps need at least beside those at the beginning and the end.
-    pub const PERIODS_OF_A_JUMP: u64 = 3;
-    /// Passes of a longer period whose mean stands for it, evenly over it.
-    pub const OF_A_MEAN: u64 = 48;
-    /// Passes that are nearly alike and are compared with each other.
-    pub const ALIKE: usize = 4;
-    /// A pass is shown by one that is at most this share of its number away: forces change on the
-    /// scale of that number.
-    pub const AWAY: f64 = 0.03;
-    /// Or at most so many passes.
-    pub const NEAR: u64 = 12;
-    /// And follows at least so many vehicles that are the same: what came before them hardly counts
-    /// any more.
-    pub const DEEP: usize = 60;
 }
 
 /// Jumps over passes, and draws of a random order.
 pub mod jumps {
-    /// Periods after which a run with jumps takes no more of them, of few vehicles and of many.
-    pub const PATIENCE: u64 = 600;
-    pub const FEW: u64 = 12;
-    pub const PATIENCE_WITH_MANY: u64 = 12;
-    /// Share of the tolerance by which a row may depend on which pass of a period shows it.
-    pub const DOUBTFUL: f64 = 0.5;
+    /// Passes after which a run takes no more jumps, and fewest and most periods of them.
+    pub const PATIENCE: (u64, u64, u64) = (7200, 12, 600);
     /// Error of a single jump beside the tolerance to begin with, and length of the first jump
     /// beside the periods before it; the largest such error.
     pub const FIRST: (f64, f64) = (6.0, 0.8);
     pub const LARGEST: f64 = 0.06;
-    /// What both are multiplied by, and how often at most. Cut to a third the errors of 237 random
-    /// scenes are no smaller, and an eighth more passes are simulated.
-    pub const FINER: f64 = 0.5;
-    pub const FINEST: usize = 8;
-    /// Share of the tolerance that jumps may take, and at least where the mesh leaves less.
-    pub const SHARE: f64 = 0.5;
-    pub const LEAST_SHARE: f64 = 0.35;
-    /// Periods simulated at the start: of one or two vehicles, of more, and fewer of many, about so
-    /// many passes in all.
-    pub const FIRST_PERIODS: u64 = 8;
-    pub const FIRST_LONG_PERIODS: u64 = 5;
-    pub const LONG: usize = 3;
+    /// Share of the tolerance that jumps may take: the first mesh leaves about as much.
+    pub const SHARE: f64 = 0.4;
+    /// Passes simulated at the start, about, and fewest and most periods of them.
+    pub const FIRST_PASSES: usize = 120;
     pub const FEWEST_FIRST_PERIODS: u64 = 2;
-    pub const FIRST_PASSES: usize = 200;
-    /// And at most where only early jumps are off; and passes in them at most.
-    pub const MOST_FIRST_PERIODS: u64 = 48;
-    pub const MOST_FIRST_PASSES: u64 = 200;
+    pub const MOST_FIRST_PERIODS: u64 = 8;
     /// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct
-    /// is so many depths short: that costs little, and the few nodes that a coarser mesh gives it
-    /// behave differently. Those over the traffic's own periods of more than so many vehicles are
-    /// looked for on the level below that one, which spares a sixth of the time of a million
-    /// passes, and so are draws. What stand-ins change depends more on the mesh.
+    /// is so many depths short.
     pub const SHORT: f64 = 20.0;
-    pub const MANY: usize = 48;
-    /// Finer jumps take about so many times the passes. No finer ones are looked for where they
-    /// would take more nodes than this on the first level: some ten seconds.
-    pub const COST_OF_FINER: usize = 2;
-    pub const MAX_NODE_UPDATES: usize = 1_000_000_000;
-    /// Draws of a random order at least, at most, and as long as they take no more nodes than this.
-    pub const FEWEST_DRAWS: usize = 4;
-    pub const MOST_DRAWS: usize = 24;
-    pub const MAX_DRAWN_UPDATES: usize = 500_000_000;
-    /// Standard errors that are stated as the error.
-    pub const STATED: f64 = 2.0;
-    /// Random runs, their passes, and how many of these forget the order before.
-    pub const RUNS: u64 = 8;
-    pub const PASSES: usize = 90;
-    pub const FORGOTTEN: usize = 30;
 }
 
 /// Days of heat.
@@ -218,8 +138,6 @@ pub mod days {
     pub const RESOLVED: usize = 2;
     pub const WEIGHT: f64 = 0.4;
     pub const WEIGHT_UNRESOLVED: f64 = 2.0;
-    /// Parts of a period with which days begin that are compared.
-    pub const QUARTERS: usize = 4;
     /// Share of the tolerance that jumps over days may take, and the most that they take: slow
     /// two-way creep adds up what larger ones miss.
     pub const JUMPS_SHARE: f64 = 0.5;
@@ -227,17 +145,11 @@ pub mod days {
     /// Up to so many passes a day all are simulated on a day with real ones; and where a day has no
     /// whole sequence.
     pub const FEW: u64 = 100;
-    /// Days simulated after the first one, before any is jumped over.
-    pub const FIRST_DAYS: u64 = 3;
-    /// Days simulated after which no more are jumped over, and after which the run gives up.
-    pub const MOST_DAYS: (u64, u64) = (150, 1000);
     /// Nodes per length scale of the motion at most: real passes measure what the law misses. Of
     /// sixteen random scenes none states another error than with as fine a law as 24 nodes make,
     /// and forces differ by less than 0.1 %; a short duct, with a mesh far finer, would be minutes
     /// in it.
     pub const FINEST: f64 = 6.0;
-    /// Periods that it takes: the first one brings the cable into the state that lasts.
-    pub const PERIODS: usize = 2;
 }
 
 /// Where forces level off.
@@ -246,17 +158,7 @@ pub mod saturation {
     pub const LARGEST_RATIO: f64 = 0.5;
     /// Largest part of the saturated force that may be extrapolated.
     pub const LARGEST_REMAINDER: f64 = 0.03;
-    /// Fewest passes from which anything can be said.
-    pub const FEWEST_PASSES: usize = 12;
-    /// One in so many of the passes, the last of them, shows the largest force now, and what
-    /// vehicles in random order do.
-    pub const WINDOW: usize = 12;
-    /// A force already reached may exceed the saturation by this share of it, which is no more than
-    /// an extrapolation's error.
-    pub const NEARLY: f64 = 0.02;
     /// Of a period's passes, those that leave this share of the largest force at least show how it
     /// grows.
     pub const TELLS: f64 = 0.5;
-    /// A force below this share of the largest in any pass is none.
-    pub const NOTHING: f64 = 1e-3;
 }

@@ -14,7 +14,13 @@ use ground_field::DuctMotion;
 
 use crate::ground::peak;
 use crate::scene::Scene;
-use crate::tuning::meshes::{SHORT, SMALL};
+
+/// Forces below this share of the largest one of the run are compared with that share of it,
+/// and movements of an end below this share of the duct's largest.
+pub const SMALL: f64 = 0.1;
+
+/// The length of cable \[m\] on which friction holds a force that does not count.
+const SHORT: f64 = 0.01;
 
 /// A share of the forces and one of the movements.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -114,9 +120,18 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
     let whole = Whole::of(a, scale);
     let of_both = a.iter().filter_map(|record| {
         let same = b.binary_search_by_key(&record.pass, |other| other.pass).ok()?;
-        Some((&record.outcome, &b[same].outcome))
+        let (a, b) = (places(&record.outcome), places(&b[same].outcome));
+        let shares = a.iter().zip(&b).enumerate().map(|(place, (a, b))| {
+            let own = if place < MOVEMENT {
+                largest(a).max(whole.force)
+            } else {
+                whole.places[place]
+            };
+            share(apart(a, b), own)
+        });
+        Some(of_places(shares))
     });
-    of_both.map(|(a, b)| whole.difference(a, b)).collect()
+    of_both.collect()
 }
 
 /// The largest of these differences.
@@ -128,148 +143,103 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
 /// the largest at its place.
 pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     let whole = Whole::of(a, scale);
-    let bounds = |records: &[Record]| {
-        let forces = records.iter().map(|record| forces(&record.outcome));
-        let moved = records.iter().map(|record| vec![movements(&record.outcome)]);
-        (extremes(forces), extremes(moved))
-    };
-    let ((forces, moved), (other_forces, other_moved)) = (bounds(a), bounds(b));
-    let largest_forces = whole.places.iter().map(|largest| largest.max(whole.force));
-    let force = forces.iter().zip(&other_forces).zip(largest_forces);
-    let force = force.map(|((a, b), largest)| share(apart(a, b), largest));
-    let movement = moved
-        .iter()
-        .zip(&other_moved)
-        .map(|(a, b)| share(apart(a, b), whole.movement));
-    Shares {
-        force: force.fold(0.0, f64::max),
-        movement: movement.fold(0.0, f64::max),
-    }
+    let bounds = [f64::min, f64::max].map(|bound| {
+        let (a, b) = (extremes(a, bound), extremes(b, bound));
+        let apart = a.iter().zip(&b).map(|(a, b)| apart(a, b));
+        of_places(
+            apart
+                .zip(&whole.places)
+                .map(|(apart, largest)| share(apart, *largest)),
+        )
+    });
+    bounds.into_iter().collect()
 }
 
 /// Largest force on an end during a pass or in the cable after it, in size \[N\].
 pub fn largest_force(outcome: &PassOutcome) -> f64 {
-    let places = forces(outcome);
-    places[..CLAMPS]
-        .iter()
-        .map(|place| largest(place))
-        .fold(0.0, f64::max)
+    let places = places(outcome);
+    places[..MOVEMENT].iter().map(largest).fold(0.0, f64::max)
 }
 
-/// Forces at a place, as many for each.
+/// Forces or movements at a place, as many for each.
 type Values = [f64; 4];
 
-/// Number of places before the clamps: the cable, its upstream and its downstream end.
-const CLAMPS: usize = 3;
+/// The place of the movements of the ends: before it the cable and its upstream and downstream end,
+/// behind it the clamps.
+const MOVEMENT: usize = 3;
 
-/// Forces of a pass, place by place.
-fn forces(outcome: &PassOutcome) -> Vec<Values> {
+/// Forces and movements of a pass, place by place.
+fn places(outcome: &PassOutcome) -> Vec<Values> {
     let PassOutcome {
-        force, peak, lowest, ..
+        force,
+        peak,
+        lowest,
+        max_compression,
+        max_tension,
+        ..
     } = outcome;
+    let moved = [outcome.upstream_displacement, outcome.downstream_displacement];
     let mut places = vec![
-        [
-            force.upstream,
-            force.downstream,
-            outcome.max_compression,
-            outcome.max_tension,
-        ],
+        [force.upstream, force.downstream, *max_compression, *max_tension],
         [peak.upstream, lowest.upstream, 0.0, 0.0],
         [peak.downstream, lowest.downstream, 0.0, 0.0],
+        [moved[0], moved[1], 0.0, 0.0],
     ];
     let clamps = outcome.restraints.iter().zip(&outcome.restraint_ranges);
     places.extend(clamps.map(|(&force, &[least, most])| [force, least, most, 0.0]));
     places
 }
 
-/// Movements of the ends.
-fn movements(outcome: &PassOutcome) -> Values {
-    [
-        outcome.upstream_displacement,
-        outcome.downstream_displacement,
-        0.0,
-        0.0,
-    ]
+/// The largest share at any place: a clamp moves with its force.
+fn of_places(shares: impl Iterator<Item = f64>) -> Shares {
+    let of_place = |(place, share)| Shares {
+        force: if place == MOVEMENT { 0.0 } else { share },
+        movement: if place < MOVEMENT { 0.0 } else { share },
+    };
+    shares.enumerate().map(of_place).collect()
 }
 
 /// What the passes of a run are compared with.
 struct Whole {
-    /// Largest force at each place \[N\].
+    /// The largest at each place \[N or m\], if that counts.
     places: Vec<f64>,
-    /// The least force \[N\] and movement \[m\] that others are compared with.
+    /// The least force that others are compared with \[N\].
     force: f64,
-    movement: f64,
 }
 
 impl Whole {
     fn of(records: &[Record], scale: Scale) -> Self {
-        let mut places = Vec::new();
-        let mut movement = scale.movement;
-        for Record { outcome, .. } in records {
-            let forces = forces(outcome);
-            places.resize(forces.len().max(places.len()), 0.0);
-            for (most, values) in places.iter_mut().zip(forces) {
-                *most = f64::max(*most, largest(&values));
-            }
-            movement = movement.max(largest(&movements(outcome)));
+        let all = [f64::min, f64::max].map(|bound| extremes(records, bound));
+        let all = all[0].iter().zip(&all[1]);
+        let mut places: Vec<f64> = all.map(|(a, b)| largest(a).max(largest(b))).collect();
+        let forces = places.iter().enumerate().filter(|(place, _)| *place != MOVEMENT);
+        let force = forces.fold(scale.force, |most, (_, place)| most.max(SMALL * place));
+        for (place, most) in places.iter_mut().enumerate() {
+            *most = most.max(if place == MOVEMENT { scale.movement } else { force });
         }
-        Self {
-            force: places
-                .iter()
-                .fold(scale.force, |most, place| most.max(SMALL * place)),
-            places,
-            movement,
-        }
-    }
-
-    /// Difference of one pass.
-    fn difference(&self, a: &PassOutcome, b: &PassOutcome) -> Shares {
-        let places = forces(a).into_iter().zip(forces(b)).enumerate();
-        let shares = places.map(|(place, (a, b))| {
-            let own = if place < CLAMPS {
-                largest(&a)
-            } else {
-                self.places[place]
-            };
-            share(apart(&a, &b), own.max(self.force))
-        });
-        let (mut force, mut on_clamps) = (0.0_f64, 0.0_f64);
-        for (place, share) in shares.enumerate() {
-            force = force.max(share);
-            if place >= CLAMPS {
-                on_clamps = on_clamps.max(share);
-            }
-        }
-        let moved = share(apart(&movements(a), &movements(b)), self.movement);
-        Shares {
-            force,
-            movement: moved.max(on_clamps),
-        }
+        Self { places, force }
     }
 }
 
-/// The least and the largest of each value of each place.
-fn extremes(all: impl Iterator<Item = Vec<Values>>) -> Vec<[f64; 8]> {
-    let mut extremes = Vec::new();
-    for places in all {
-        extremes.resize(places.len().max(extremes.len()), [0.0; 8]);
-        for (bounds, values) in extremes.iter_mut().zip(places) {
-            let (least, most) = bounds.split_at_mut(values.len());
-            for ((least, most), value) in least.iter_mut().zip(most).zip(values) {
-                *least = f64::min(*least, value);
-                *most = f64::max(*most, value);
-            }
+/// The least or the largest of each value of each place, and nothing.
+fn extremes(records: &[Record], bound: fn(f64, f64) -> f64) -> Vec<Values> {
+    let mut extremes: Vec<Values> = Vec::new();
+    for record in records {
+        let places = places(&record.outcome);
+        extremes.resize(places.len().max(extremes.len()), [0.0; 4]);
+        for (most, value) in extremes.as_flattened_mut().iter_mut().zip(places.as_flattened()) {
+            *most = bound(*most, *value);
         }
     }
     extremes
 }
 
-fn largest(values: &[f64]) -> f64 {
+fn largest(values: &Values) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
 /// The largest difference of two lists of values.
-fn apart(a: &[f64], b: &[f64]) -> f64 {
+fn apart(a: &Values, b: &Values) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
@@ -338,10 +308,10 @@ mod tests {
     #[test]
     fn a_force_on_a_clamp_during_a_pass_counts_too() {
         let coarse = pass(&[500.0], |outcome| {
-            outcome.restraint_ranges = vec![[-800.0, 500.0]]
+            outcome.restraint_ranges = vec![[-800.0, 500.0]];
         });
         let fine = pass(&[500.0], |outcome| {
-            outcome.restraint_ranges = vec![[-840.0, 500.0]]
+            outcome.restraint_ranges = vec![[-840.0, 500.0]];
         });
         assert_eq!(difference(&coarse, &fine, SCALE).force, 40.0 / 800.0);
     }

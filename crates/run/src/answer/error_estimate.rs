@@ -6,89 +6,87 @@
 //! uneven, and two meshes may agree by chance. So more is counted: the largest of a share of each
 //! difference seen so far, and never less than what is typical of the level.
 
+use std::ops::{Index, IndexMut};
+
 use super::ErrorShares;
 use super::differences::Shares;
 use crate::Error;
 use crate::error_source::ErrorSource;
 use crate::shown::percent;
-use crate::tuning::meshes::{DOUBTFUL, MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
+use crate::tuning::meshes::{MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 
-/// The error of a run by its parts.
+/// A larger error than this, or the tolerance if that is larger still, is no answer.
+const DOUBTFUL: f64 = 0.1;
+
+/// The error of a run by its parts: shares of the forces and of the movements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorParts {
-    /// Node spacing and vehicle step.
-    pub mesh: Shares,
-    /// Accuracy of D_l as a share of its peak, counted in full as error of the force.
-    pub ground: Shares,
-    /// Inertia, where it is left out.
-    pub inertia: f64,
-    /// Road beyond where vehicles are followed.
-    pub road: Shares,
-    /// Passes that were not simulated.
-    pub passes: Shares,
-    /// Days of which few passes were simulated, or none.
-    pub temperature: Shares,
+    parts: [Shares; ErrorSource::ALL.len()],
     /// Whether a finer run was made to measure the mesh's part.
     pub measured: bool,
 }
 
-impl ErrorParts {
-    /// The `accuracy` of the ground and what leaving `inertia` out may cost, as yet nothing else.
-    pub fn new(accuracy: f64, inertia: f64) -> Self {
-        Self {
-            mesh: Shares::default(),
-            ground: Shares::both(accuracy),
-            inertia,
-            road: Shares::default(),
-            passes: Shares::default(),
-            temperature: Shares::default(),
-            measured: false,
-        }
-    }
+impl Index<ErrorSource> for ErrorParts {
+    type Output = Shares;
 
-    /// The part that comes from `source`.
-    pub fn of(&self, source: ErrorSource) -> Shares {
-        match source {
-            ErrorSource::Mesh => self.mesh,
-            ErrorSource::Ground => self.ground,
-            ErrorSource::Inertia => Shares::both(self.inertia),
-            ErrorSource::Road => self.road,
-            ErrorSource::Passes => self.passes,
-            ErrorSource::Days => self.temperature,
-        }
+    fn index(&self, source: ErrorSource) -> &Shares {
+        &self.parts[source as usize]
+    }
+}
+
+impl IndexMut<ErrorSource> for ErrorParts {
+    fn index_mut(&mut self, source: ErrorSource) -> &mut Shares {
+        &mut self.parts[source as usize]
+    }
+}
+
+impl ErrorParts {
+    /// The `accuracy` of D_l as a share of its peak, counted in full as error of the force, and
+    /// what leaving `inertia` out may cost; as yet nothing else.
+    pub fn new(accuracy: f64, inertia: f64) -> Self {
+        let mut error = Self {
+            parts: [Shares::default(); ErrorSource::ALL.len()],
+            measured: false,
+        };
+        error[ErrorSource::Ground] = Shares::both(accuracy);
+        error[ErrorSource::Inertia] = Shares::both(inertia);
+        error
     }
 
     pub fn total(&self) -> Shares {
-        let parts = ErrorSource::ALL.map(|source| self.of(source));
-        parts.into_iter().fold(Shares::default(), |sum, part| sum + part)
+        self.parts
+            .into_iter()
+            .fold(Shares::default(), |sum, part| sum + part)
     }
 
     /// The same for a reader.
     pub fn shares(&self) -> ErrorShares {
-        let total = self.total();
+        let [mesh, ground, inertia, road, passes, temperature] = self.parts.map(|part| part.force);
         ErrorShares {
-            mesh: self.mesh.force,
-            ground: self.ground.force,
-            inertia: self.inertia,
-            road: self.road.force,
-            passes: self.passes.force,
-            temperature: self.temperature.force,
-            law: self.passes.force,
-            movement: total.movement,
+            mesh,
+            ground,
+            inertia,
+            road,
+            passes,
+            temperature,
+            law: passes,
+            movement: self.total().movement,
         }
+    }
+
+    /// The largest part of those that are `eligible`, by the share that `of` gives.
+    pub fn largest(&self, eligible: impl Fn(ErrorSource) -> bool, of: fn(Shares) -> f64) -> ErrorSource {
+        let sources = ErrorSource::ALL.into_iter().filter(|source| eligible(*source));
+        let largest = sources.max_by(|a, b| of(self[*a]).total_cmp(&of(self[*b])));
+        largest.unwrap_or(ErrorSource::Mesh)
     }
 
     /// What keeps the forces from being an answer: passes or days that could be simulated, if that
     /// would do, else the largest part.
     fn cause(&self, tolerance: f64) -> ErrorSource {
-        let simulated = self.total().less(self.passes).less(self.temperature);
-        let is_skipped = |source: &ErrorSource| matches!(source, ErrorSource::Passes | ErrorSource::Days);
-        let skipping = !is_doubtful(simulated.force, tolerance);
-        let sources = ErrorSource::ALL
-            .into_iter()
-            .filter(|source| is_skipped(source) == skipping);
-        let largest = sources.max_by(|a, b| self.of(*a).force.total_cmp(&self.of(*b).force));
-        largest.unwrap_or(ErrorSource::Mesh)
+        let skipped = self[ErrorSource::Passes] + self[ErrorSource::Days];
+        let skipping = !is_doubtful(self.total().less(skipped).force, tolerance);
+        self.largest(|source| source.is_skipping() == skipping, |share| share.force)
     }
 }
 
@@ -99,12 +97,9 @@ impl std::fmt::Display for ErrorParts {
         } else {
             "from runs on coarser meshes: "
         })?;
-        let is_shown = |source: &ErrorSource| {
-            !matches!(source, ErrorSource::Passes | ErrorSource::Days)
-                || self.of(*source) != Shares::default()
-        };
+        let is_shown = |source: &ErrorSource| !source.is_skipping() || self[*source] != Shares::default();
         let shown = ErrorSource::ALL.into_iter().filter(is_shown);
-        let parts = shown.map(|source| format!("{} {}", source.name(), percent(self.of(source).force)));
+        let parts = shown.map(|source| format!("{} {}", source.name(), percent(self[source].force)));
         let parts = parts.collect::<Vec<_>>().join(", ");
         write!(
             f,

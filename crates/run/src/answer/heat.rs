@@ -85,11 +85,6 @@ pub struct HeatRecord {
     pub cold_profile: ForceProfile,
 }
 
-/// The larger in size.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if b.abs() > a.abs() { b } else { a }
-}
-
 impl HeatRecord {
     /// The last of `days` that all of its passes were computed of, if `passes` end within one; else
     /// the last.
@@ -131,7 +126,7 @@ impl DayExtremes {
     /// The force on the end that is largest in size \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
         let [least, most] = self.of(end)[0];
-        larger(most, least)
+        if -least > most { least } else { most }
     }
 
     /// How far the end is from where it was laid, whichever way \[m\].

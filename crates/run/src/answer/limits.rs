@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::heat::larger;
-use super::place::{Limited, Moment, Place};
-use super::record::{PassRecord, Run};
-use super::units::Units;
-use crate::scene::CableEnd;
+use super::place::{Limited, Place};
+use super::record::Run;
+use super::units::{FORCE_DIGIT, MOVEMENT_DIGIT, Units, in_unit};
+use crate::scene::{CableEnd, Unit};
 
 /// What must not be exceeded at one place; of either sign.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -75,39 +74,6 @@ pub struct Verdict {
     pub doubtful: bool,
 }
 
-impl PassRecord {
-    /// The force on an end that is largest in size after the pass and during it \[N\].
-    pub fn largest_force(&self, end: CableEnd) -> f64 {
-        let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
-        let least = end.of([self.upstream_least_n, self.downstream_least_n]);
-        larger(larger(self.force_after(end), peak), least)
-    }
-
-    /// Force on an end after the pass \[N\].
-    pub fn force_after(&self, end: CableEnd) -> f64 {
-        end.of([self.upstream_force_n, self.downstream_force_n])
-    }
-
-    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]:
-    /// a spring moves in proportion to its force. How far a free end moves to and fro during a
-    /// pass, some micrometres, is left out.
-    pub fn largest_movement(&self, end: CableEnd) -> f64 {
-        let [after, during] = [self.force_after(end), self.largest_force(end)].map(f64::abs);
-        let movement = self.movement(end);
-        if after > 0.0 {
-            movement * during / after
-        } else {
-            movement
-        }
-    }
-
-    /// How far an end is displaced after the pass, whichever way \[m\].
-    pub fn movement(&self, end: CableEnd) -> f64 {
-        end.of([self.upstream_displacement_m, self.downstream_displacement_m])
-            .abs()
-    }
-}
-
 impl Limited {
     /// What is limited at a place, in words.
     pub fn at(self, place: impl Into<Place>) -> String {
@@ -124,20 +90,23 @@ impl Limited {
         }
     }
 
-    /// The symbol of its unit for a reader.
-    pub fn symbol_in(self, units: &Units) -> &'static str {
+    /// Its unit for a reader, and the last digit that is shown of it \[N or m\].
+    fn unit_in(self, units: &Units) -> (Unit, f64) {
         match self {
-            Self::Force => units.force.symbol(),
-            Self::Movement => units.movement.symbol(),
+            Self::Force => (units.force, FORCE_DIGIT),
+            Self::Movement => (units.movement, MOVEMENT_DIGIT),
         }
+    }
+
+    /// The symbol of that unit.
+    pub fn symbol_in(self, units: &Units) -> &'static str {
+        self.unit_in(units).0.symbol()
     }
 
     /// A value of it in that unit.
     pub fn number_in(self, units: &Units, value: f64) -> String {
-        match self {
-            Self::Force => units.force(value),
-            Self::Movement => units.movement(value),
-        }
+        let (unit, digit) = self.unit_in(units);
+        in_unit(value, unit, digit)
     }
 
     /// The same with the unit.
@@ -147,13 +116,11 @@ impl Limited {
 
     /// The same of a value that was given: "20 kN", not "20.0000 kN".
     pub fn given_in(self, units: &Units, value: f64) -> String {
-        let shown = self.shown_in(units, value);
-        match shown.split_once(' ') {
-            Some((number, unit)) if number.contains('.') => {
-                format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
-            }
-            _ => shown,
+        let mut number = self.number_in(units, value);
+        if number.contains('.') {
+            number = number.trim_end_matches('0').trim_end_matches('.').to_owned();
         }
+        format!("{number} {}", self.symbol_in(units))
     }
 }
 
@@ -194,52 +161,43 @@ impl Limits {
 
     /// What `run` makes of each limit.
     pub fn verdicts(&self, run: &Run) -> Vec<Verdict> {
-        let verdict = |(end, quantity, limit): (Place, Limited, f64)| {
-            let largest = run.farthest(end, quantity);
-            let (pulled, largest) = (quantity == Limited::Force && largest < 0.0, largest.abs());
-            let exceeds = |moment: Moment<'_>| run.at(end, quantity, moment) > limit;
-            let mut passes = run.passes.iter().enumerate();
-            let pass = passes.find(|(index, record)| exceeds(Moment::Pass(*index, record)));
-            let mut days = run.days.iter();
-            let day = days.find(|day| exceeds(Moment::Day(day))).zip(run.heat.as_ref());
-            let mut extremes = run.extremes.iter();
-            let extreme = extremes.find(|pass| exceeds(Moment::Extreme(pass)));
-            let last = run.passes.last().map_or(u64::MAX, |record| record.pass);
-            let first = [
-                pass.map(|(_, record)| record.pass),
-                day.map(|(day, heat)| day.day * heat.passes_per_day),
-                extreme.map(|pass| pass.after.pass.min(last)),
-            ];
-            let first = first.into_iter().flatten().min();
-            let years = |pass| {
-                let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
-                Some(listed.years? * pass as f64 / listed.pass as f64)
-            };
-            let level = run.saturation.zip(end.end());
-            let level = level.map(|(level, end)| end.of([level.upstream_force_n, level.downstream_force_n]));
-            let level = level.filter(|level| {
-                quantity == Limited::Force && first.is_none() && level.abs() > limit && run.heat.is_none()
-            });
-            Verdict {
-                end,
-                quantity,
-                limit,
-                largest,
-                pulled,
-                during_a_pass: largest > run.largest_at_rest(end, quantity),
-                reached_after: first.map(|pass| Reached {
-                    pass,
-                    years: years(pass),
-                }),
-                levels_off_above: level,
-                doubtful: (largest - limit).abs() <= run.error_of_largest(end, quantity),
-            }
-        };
+        let verdict = |(place, quantity, limit)| Verdict::new(run, place, quantity, limit);
         self.all().map(verdict).collect()
     }
 }
 
 impl Verdict {
+    fn new(run: &Run, place: Place, quantity: Limited, limit: f64) -> Self {
+        let farthest = run.farthest(place, quantity);
+        let (pulled, largest) = (quantity == Limited::Force && farthest < 0.0, farthest.abs());
+        let at_rest = run.values(place, quantity).map(|value| value.at_rest.abs());
+        let exceeding = run
+            .values(place, quantity)
+            .filter(|value| value.largest.abs() > limit);
+        let first = exceeding.map(|value| value.pass).min();
+        let years = |pass| {
+            let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
+            Some(listed.years? * pass as f64 / listed.pass as f64)
+        };
+        let level = run.saturation.zip(place.end());
+        let level = level.map(|(level, end)| end.of([level.upstream_force_n, level.downstream_force_n]));
+        let levels_off = quantity == Limited::Force && first.is_none() && run.heat.is_none();
+        Self {
+            end: place,
+            quantity,
+            limit,
+            largest,
+            pulled,
+            during_a_pass: largest > at_rest.fold(0.0, f64::max),
+            reached_after: first.map(|pass| Reached {
+                pass,
+                years: years(pass),
+            }),
+            levels_off_above: level.filter(|level| levels_off && level.abs() > limit),
+            doubtful: (largest - limit).abs() <= run.error_of_largest(place, quantity),
+        }
+    }
+
     /// Whether the computed passes exceed the limit, or more of them would.
     pub fn is_exceeded(&self) -> bool {
         self.reached_after.is_some() || self.levels_off_above.is_some()

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::heat::{DayExtremes, larger};
-use super::record::{ExtremePass, PassRecord, Run};
+use super::differences::SMALL;
+use super::record::{PassRecord, Run};
+use super::saturation::larger;
 use super::units::Units;
 use crate::scene::{CableEnd, Scene};
 use crate::shown::exact;
-use crate::tuning::meshes::SMALL;
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
@@ -37,9 +37,9 @@ pub enum Place {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limited {
-    /// Force on an end or a clamp, after passes and during them \[N\].
+    /// Force on an end after passes and during them, on a clamp after passes \[N\].
     Force,
-    /// Displacement of the end after passes, or of the cable at the clamp also during them \[m\].
+    /// Displacement of the end, or of the cable at the clamp, after passes \[m\].
     Movement,
 }
 
@@ -82,74 +82,28 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// A moment of a run at which forces and movements are known.
-#[derive(Clone, Copy)]
-pub(super) enum Moment<'r> {
-    /// During and after a listed pass, of which this is the index.
-    Pass(usize, &'r PassRecord),
-    /// During and after a pass beside the listed ones.
-    Extreme(&'r ExtremePass),
-    /// A day, when heat is hardest between passes.
-    Day(&'r DayExtremes),
+/// A force \[N\] or movement \[m\] at one place in one pass or on one day; forces on ends have a sign.
+pub(super) struct Value {
+    pub pass: u64,
+    /// With the cable at rest.
+    pub at_rest: f64,
+    /// While a vehicle is above the duct, or at rest if that is larger.
+    pub largest: f64,
 }
 
 impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all
-    /// days: also the force during passes, and the movement of an end's spring and of a clamp; in random order, where passes between jumps are means, with the scatter of
-    /// single ones. Zero where there is no such clamp.
+    /// days: also the force during passes, and the movement of an end's spring or of a clamp then;
+    /// in random order, where passes between jumps are means, with the scatter of single ones. Zero
+    /// where there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         self.farthest(place.into(), quantity).abs()
     }
 
     /// The same with its sign.
     pub(super) fn farthest(&self, place: Place, quantity: Limited) -> f64 {
-        let values = self
-            .moments()
-            .map(|moment| self.value(place, quantity, moment, self.has_peaks(moment)));
-        values.fold(0.0, larger)
-    }
-
-    /// The same without what happens while a vehicle is above the duct.
-    pub(super) fn largest_at_rest(&self, place: Place, quantity: Limited) -> f64 {
-        let values = self
-            .moments()
-            .map(|moment| self.value(place, quantity, moment, false).abs());
-        values.fold(0.0, f64::max)
-    }
-
-    /// The estimated error of [`Run::largest`] \[N or m\]. It is a share of the largest force at
-    /// `place`, or of a tenth of the largest at any place if that is more; and of the largest
-    /// movement of an end.
-    pub(super) fn error_of_largest(&self, place: Place, quantity: Limited) -> f64 {
-        let largest = |place: Place| self.largest(place, quantity);
-        let ends = CableEnd::ALL.map(|end| largest(end.into()));
-        let share = match quantity {
-            Limited::Force => self.error_estimate.relative,
-            Limited::Movement => self.error_estimate.parts.movement,
-        };
-        let of = match (quantity, place) {
-            (Limited::Force, _) => SMALL * self.largest_force(),
-            (Limited::Movement, Place::Clamp(_)) => {
-                let clamps = self
-                    .restraints
-                    .iter()
-                    .filter(|clamp| place.is_clamp_at(clamp.position_m));
-                let softest = clamps.fold(f64::INFINITY, |least, clamp| least.min(clamp.stiffness_n_per_m));
-                SMALL * self.largest_force() / softest
-            }
-            (Limited::Movement, _) => ends[0].max(ends[1]),
-        };
-        share * of.max(largest(place))
-    }
-
-    /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size
-    /// \[N\].
-    fn largest_force(&self) -> f64 {
-        let clamps = self.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
-        let places = CableEnd::ALL.map(Place::from).into_iter().chain(clamps);
-        let inside = self.passes.iter().map(|record| record.max_compression_n);
-        let at_places = places.map(|place| self.largest(place, Limited::Force));
-        at_places.chain(inside).fold(0.0, f64::max)
+        let values = self.values(place, quantity);
+        values.fold(0.0, |most, value| larger(most, value.largest))
     }
 
     /// Warns where the cable leaves its duct.
@@ -166,72 +120,144 @@ impl Run {
         }
     }
 
-    fn moments(&self) -> impl Iterator<Item = Moment<'_>> {
-        let passes = self.passes.iter().enumerate();
-        let passes = passes.map(|(index, record)| Moment::Pass(index, record));
-        let days = self.heat.iter().map(|heat| Moment::Day(&heat.all_days));
-        passes
-            .chain(days)
-            .chain(self.extremes.iter().map(Moment::Extreme))
-    }
-
-    /// The largest at one moment, in size.
-    pub(super) fn at(&self, place: Place, quantity: Limited, moment: Moment<'_>) -> f64 {
-        self.value(place, quantity, moment, self.has_peaks(moment)).abs()
-    }
-
-    /// Whether forces during a pass are known: on days of heat passes between simulated ones have
-    /// the peaks of others.
-    fn has_peaks(&self, moment: Moment<'_>) -> bool {
-        let is_known = |record: &PassRecord| self.heat.is_none() || !record.interpolated;
-        !matches!(moment, Moment::Pass(_, record) if !is_known(record))
-    }
-
-    /// The same, with what happens while a vehicle is above the duct if `during`.
-    fn value(&self, place: Place, quantity: Limited, moment: Moment<'_>, during: bool) -> f64 {
-        let Some(end) = place.end() else {
-            return self.on_clamps(place, quantity, moment, during);
-        };
-        let (record, scatter) = match moment {
-            Moment::Day(day) => {
-                return match quantity {
-                    Limited::Force => day.largest_force(end),
-                    Limited::Movement => day.movement(end),
-                };
+    /// The estimated error of [`Run::largest`] \[N or m\]. It is a share of the largest force at
+    /// `place`, or of a tenth of the largest at any place if that is more; and of the largest
+    /// movement of an end.
+    pub(super) fn error_of_largest(&self, place: Place, quantity: Limited) -> f64 {
+        let ends = CableEnd::ALL.map(|end| self.largest(end, quantity));
+        let of = match (quantity, place) {
+            (Limited::Force, _) => SMALL * self.largest_force(),
+            (Limited::Movement, Place::Clamp(_)) => {
+                let clamps = self.clamps_at(place);
+                let softest = clamps.fold(f64::INFINITY, |least, k| {
+                    least.min(self.restraints[k].stiffness_n_per_m)
+                });
+                SMALL * self.largest_force() / softest
             }
-            Moment::Pass(_, record) => (record, self.scatter(end, record)),
-            Moment::Extreme(pass) => (&pass.after, 0.0),
+            (Limited::Movement, _) => ends[0].max(ends[1]),
         };
+        let share = match quantity {
+            Limited::Force => self.error_estimate.relative,
+            Limited::Movement => self.error_estimate.parts.movement,
+        };
+        share * of.max(self.largest(place, quantity))
+    }
+
+    /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size
+    /// \[N\].
+    fn largest_force(&self) -> f64 {
+        let clamps = self.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
+        let places = CableEnd::ALL.map(Place::from).into_iter().chain(clamps);
+        let inside = self.passes.iter().map(|record| record.max_compression_n);
+        let at_places = places.map(|place| self.largest(place, Limited::Force));
+        at_places.chain(inside).fold(0.0, f64::max)
+    }
+
+    fn clamps_at(&self, place: Place) -> impl Iterator<Item = usize> {
+        let clamps = self.restraints.iter().enumerate();
+        let clamps = clamps.filter(move |(_, clamp)| place.is_clamp_at(clamp.position_m));
+        clamps.map(|(index, _)| index)
+    }
+
+    /// What there is at `place` in all listed passes, on all days, and in the passes beside them.
+    pub(super) fn values(&self, place: Place, quantity: Limited) -> impl Iterator<Item = Value> {
+        let value = move |pass, clamp: &dyn Fn(usize) -> [f64; 2], end: &dyn Fn(CableEnd) -> [f64; 2]| {
+            let on_clamps = || self.on_clamps(place, quantity, clamp);
+            let [at_rest, largest] = place.end().map_or_else(on_clamps, end);
+            Value {
+                pass,
+                at_rest,
+                largest,
+            }
+        };
+        let listed = self.passes.iter().enumerate().map(move |(index, record)| {
+            // On days of heat passes between simulated ones have the peaks of others.
+            let has_peaks = self.heat.is_none() || !record.interpolated;
+            let known = |[at_rest, largest]: [f64; 2]| [at_rest, if has_peaks { largest } else { at_rest }];
+            let clamp = |clamp: usize| {
+                let clamp = &self.restraints[clamp];
+                known([clamp.after_passes_n[index], clamp.during_passes_n[index]])
+            };
+            let end = |end| known(record.values(end, quantity, self.scatter(end, record)));
+            value(record.pass, &clamp, &end)
+        });
+        let last = self.passes.last().map_or(u64::MAX, |record| record.pass);
+        let extremes = self.extremes.iter().map(move |extreme| {
+            let end = |end| extreme.after.values(end, quantity, 0.0);
+            value(
+                extreme.after.pass.min(last),
+                &|clamp| [extreme.restraints_n[clamp], extreme.restraint_peaks_n[clamp]],
+                &end,
+            )
+        });
+        let days = self.heat.iter().flat_map(move |heat| {
+            let days = self.days.iter().chain([&heat.all_days]);
+            days.map(move |day| {
+                let clamp =
+                    |clamp: usize| [larger(day.restraints[clamp].max_n, day.restraints[clamp].min_n); 2];
+                let end = |end| match quantity {
+                    Limited::Force => [day.largest_force(end); 2],
+                    Limited::Movement => [day.movement(end); 2],
+                };
+                value((day.day * heat.passes_per_day).min(last), &clamp, &end)
+            })
+        });
+        listed.chain(extremes).chain(days)
+    }
+
+    /// The largest in size of the clamps at `place`, on which there are these forces at rest and
+    /// during a pass.
+    fn on_clamps(&self, place: Place, quantity: Limited, forces: &dyn Fn(usize) -> [f64; 2]) -> [f64; 2] {
+        let values = self.clamps_at(place).map(|index| {
+            let clamp = &self.restraints[index];
+            forces(index).map(|force| match quantity {
+                Limited::Force => force.abs(),
+                Limited::Movement => {
+                    force.abs() / clamp.stiffness_n_per_m + clamp.slipped_m.unwrap_or(0.0).abs()
+                }
+            })
+        });
+        values.fold([0.0; 2], |[a, b], [c, d]| [c.max(a), d.max(b)])
+    }
+}
+
+impl PassRecord {
+    /// What there is at an end after the pass, and during it if that is larger; single passes may
+    /// show `scatter` more force than this one.
+    fn values(&self, end: CableEnd, quantity: Limited, scatter: f64) -> [f64; 2] {
         let wider = |force: f64| force + scatter.copysign(force);
         match quantity {
-            Limited::Force if during => wider(record.largest_force(end)),
-            Limited::Force => wider(record.force_after(end)),
-            Limited::Movement if during => record.largest_movement(end),
-            Limited::Movement => record.movement(end),
+            Limited::Force => [self.force_after(end), self.largest_force(end)].map(wider),
+            Limited::Movement => [self.movement(end), self.largest_movement(end)],
         }
     }
 
-    /// The largest of the clamps at `place`, in size.
-    fn on_clamps(&self, place: Place, quantity: Limited, moment: Moment<'_>, during: bool) -> f64 {
-        let clamps = self.restraints.iter().enumerate();
-        let clamps = clamps.filter(|(_, clamp)| place.is_clamp_at(clamp.position_m));
-        let values = clamps.map(|(index, clamp)| {
-            let force = match moment {
-                Moment::Pass(pass, _) if during => clamp.during_passes_n[pass].abs(),
-                Moment::Pass(pass, _) => clamp.after_passes_n[pass].abs(),
-                Moment::Extreme(pass) if during => pass.restraint_peaks_n[index].abs(),
-                Moment::Extreme(pass) => pass.restraints_n[index].abs(),
-                Moment::Day(day) => day.restraints[index]
-                    .max_n
-                    .abs()
-                    .max(day.restraints[index].min_n.abs()),
-            };
-            match quantity {
-                Limited::Force => force,
-                Limited::Movement => force / clamp.stiffness_n_per_m + clamp.slipped_m.unwrap_or(0.0).abs(),
-            }
-        });
-        values.fold(0.0, f64::max)
+    /// The force on an end that is largest in size after the pass and during it \[N\].
+    pub fn largest_force(&self, end: CableEnd) -> f64 {
+        let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
+        let least = end.of([self.upstream_least_n, self.downstream_least_n]);
+        larger(larger(self.force_after(end), peak), least)
+    }
+
+    /// Force on an end after the pass \[N\].
+    pub fn force_after(&self, end: CableEnd) -> f64 {
+        end.of([self.upstream_force_n, self.downstream_force_n])
+    }
+
+    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]:
+    /// a spring moves in proportion to its force. How far a free end moves to and fro during a
+    /// pass, some micrometres, is left out.
+    pub fn largest_movement(&self, end: CableEnd) -> f64 {
+        match self.force_after(end).abs() {
+            after if after > 0.0 => self.movement(end) * self.largest_force(end).abs() / after,
+            _ => self.movement(end),
+        }
+    }
+
+    /// How far an end is displaced after the pass, whichever way \[m\].
+    pub fn movement(&self, end: CableEnd) -> f64 {
+        end.of([self.upstream_displacement_m, self.downstream_displacement_m])
+            .abs()
     }
 }
 

@@ -214,7 +214,7 @@ pub struct Saturation {
     /// The force that is largest in size of those that an end shows after any pass of a period,
     /// once nothing changes any more \[N\]; inside the cable where no end is held.
     pub force_n: f64,
-    /// Passes to 95 % of it; of the mean where vehicles come in random order.
+    /// Passes to 95 % of it; of the mean where other vehicles stand in for them.
     pub passes_to_95_percent: u64,
     /// The same of the downstream end alone \[N\].
     pub downstream_force_n: f64,

@@ -13,10 +13,20 @@ use cycle_jump::{Beyond, Record};
 use super::balance;
 use super::record::{ForceRange, Saturation};
 use crate::Scene;
+use crate::plan::Period;
 use crate::scene::End;
-use crate::tuning::saturation::{
-    FEWEST_PASSES, LARGEST_RATIO, LARGEST_REMAINDER, NEARLY, NOTHING, TELLS, WINDOW,
-};
+use crate::tuning::saturation::{LARGEST_RATIO, LARGEST_REMAINDER, TELLS};
+
+/// Fewest passes from which anything can be said.
+const FEWEST_PASSES: usize = 12;
+/// One in so many of the passes, the last of them, shows the largest force now, and what
+/// vehicles in random order do.
+const WINDOW: usize = 12;
+/// A force already reached may exceed the saturation by this share of it, which is no more than
+/// an extrapolation's error.
+const NEARLY: f64 = 0.02;
+/// A force below this share of the largest in any pass is none.
+const NOTHING: f64 = 1e-3;
 
 /// Share of the saturated force whose pass is stated.
 pub const LEVEL: f64 = 0.95;
@@ -28,44 +38,47 @@ type Range = (f64, f64);
 /// and the forces on the ends once nothing changes any more, over the vehicles of a `period`.
 pub fn saturation(
     scene: &Scene,
-    period: usize,
+    period: &Period,
     records: &[Record],
     beyond: Option<&Beyond>,
 ) -> (Option<Saturation>, Option<ForceRange>) {
     // Vehicles in random order show what they do in many passes only.
-    let period = match scene.order() {
-        Order::Random { .. } => period.max(records.len() / WINDOW),
-        _ => period,
+    let passes = match scene.order() {
+        Order::Random { .. } => period.len().max(records.len() / WINDOW),
+        _ => period.len(),
     };
     let peaks = records.iter().map(|record| peak(&record.outcome));
     let course = Course {
         scene,
         period,
+        passes,
         records,
         beyond,
         scale: peaks.fold(0.0, f64::max),
     };
-    let ends = [scene.ends.upstream, scene.ends.downstream];
-    let at_ends: [fn(&PassOutcome) -> f64; 2] = [|o| o.force.upstream, |o| o.force.downstream];
-    let at = |end: usize| match ends[end] {
-        End::Free => Some((0.0, 0.0)),
-        _ => course.leads_to(at_ends[end]),
+    let leads_to = |is_held: bool, force: fn(&PassOutcome) -> f64| {
+        if is_held {
+            course.leads_to(force)
+        } else {
+            Some((0.0, 0.0))
+        }
     };
-    let (Some(upstream), Some(downstream)) = (at(0), at(1)) else {
+    let ends = [scene.ends.upstream, scene.ends.downstream];
+    let [upstream, downstream] = ends.map(|end| end != End::Free);
+    let (Some(upstream_n), Some(downstream_n)) = (
+        leads_to(upstream, |outcome| outcome.force.upstream),
+        leads_to(downstream, |outcome| outcome.force.downstream),
+    ) else {
         return (None, None);
     };
     let range = ForceRange {
-        downstream_min_n: downstream.0,
-        downstream_max_n: downstream.1,
-        upstream_min_n: upstream.0,
-        upstream_max_n: upstream.1,
+        downstream_min_n: downstream_n.0,
+        downstream_max_n: downstream_n.1,
+        upstream_min_n: upstream_n.0,
+        upstream_max_n: upstream_n.1,
     };
-    let inside = match ends {
-        [End::Free, End::Free] => course.leads_to(|o| o.max_compression),
-        _ => Some((0.0, 0.0)),
-    };
-    let largest =
-        inside.map(|inside| [downstream, upstream, inside].map(|(least, most)| larger(least, most)));
+    let inside = leads_to(!upstream && !downstream, |outcome| outcome.max_compression);
+    let largest = inside.map(|inside| [downstream_n, upstream_n, inside].map(|(a, b)| larger(a, b)));
     (
         largest.and_then(|largest| course.levels_off(largest)),
         Some(range),
@@ -75,8 +88,9 @@ pub fn saturation(
 /// The course of the forces of a run.
 struct Course<'a> {
     scene: &'a Scene,
+    period: &'a Period,
     /// Passes over which they are looked at.
-    period: usize,
+    passes: usize,
     records: &'a [Record],
     beyond: Option<&'a Beyond>,
     /// A force that counts as large \[N\].
@@ -92,7 +106,7 @@ impl Course<'_> {
             Some(beyond) => range(beyond.period.iter().map(force))?,
             // Listed passes grow ever farther apart: their gains say nothing.
             None if self.records.last()?.pass != self.records.len() as u64 => return None,
-            None => extrapolate(&forces.clone().collect::<Vec<_>>(), self.period, self.scale)?,
+            None => extrapolate(&forces.clone().collect::<Vec<_>>(), self.passes, self.scale)?,
         };
         let reached = forces.fold(0.0, larger);
         let largest = larger(least, most).abs();
@@ -139,15 +153,17 @@ impl Course<'_> {
     /// The first pass that leaves 95 % of the saturated `force` \[N\].
     fn reaches(&self, force: f64) -> Option<&Record> {
         let is_there = |record: &Record, end: f64| self.shown(&record.outcome) / (LEVEL * end) >= 1.0;
-        // Of vehicles in random order, a row between jumps is the mean of a period: it leads to the
-        // mean.
-        let leads_to = match (self.beyond, self.scene.order()) {
-            (Some(Beyond { period, .. }), Order::Random { .. }) => {
+        // Of vehicles that stand in for the traffic, a row after the first ones is the mean of a
+        // period: it leads to the mean.
+        let leads_to = match self.beyond {
+            Some(Beyond { period, .. }) if !self.period.is_own() => {
                 period.iter().map(|outcome| self.shown(outcome)).sum::<f64>() / period.len() as f64
             }
             _ => force,
         };
-        let within = self.records.iter().find(|record| is_there(record, leads_to));
+        let first = self.beyond.map_or(0, |_| self.period.first.len() as u64);
+        let mut later_rows = self.records.iter().filter(|record| record.pass > first);
+        let within = later_rows.find(|record| is_there(record, leads_to));
         // Beyond them a pass leads to what the same pass of the last period leaves; if that is
         // little, it says nothing.
         let later = |beyond: &'_ Beyond, record: &Record| {
@@ -162,23 +178,13 @@ impl Course<'_> {
     }
 }
 
-/// Largest force on an end in a pass, in size.
+/// Largest force on an end in a pass, or inside the cable after it, in size.
 fn peak(outcome: &PassOutcome) -> f64 {
-    let PassOutcome {
-        peak,
-        lowest,
-        max_compression,
-        ..
-    } = outcome;
-    [
-        peak.upstream,
-        peak.downstream,
-        lowest.upstream,
-        lowest.downstream,
-        *max_compression,
-    ]
-    .into_iter()
-    .fold(0.0, |largest, force| largest.max(force.abs()))
+    let during = [outcome.peak, outcome.lowest];
+    let during = during
+        .into_iter()
+        .flat_map(|force| [force.upstream, force.downstream]);
+    during.fold(outcome.max_compression, larger).abs()
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<Range> {

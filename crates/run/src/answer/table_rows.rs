@@ -27,7 +27,7 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
 
 /// In what `rows` differ beside the number of the pass, and what that is in each: the hour of the
 /// day where the cable is heated and there are `a_day` passes, else the vehicle. `None` where they
-/// do not, and where rows are means over many vehicles.
+/// do not.
 pub fn in_rows(
     rows: &[&PassRecord],
     scene: &Scene,
@@ -43,23 +43,23 @@ pub fn in_rows(
         return None;
     }
     let last = rows.last().map_or(0, |record| record.pass);
-    let order = traffic(scene, scene.order()).ok()?;
-    let period = Period::own(scene).ok()?;
-    let first = if period.is_some() {
+    let own = Period::own(scene).ok()?;
+    let known = if own.is_some() {
         0
     } else {
         last.min(known_order(scene))
     };
-    let first: Vec<usize> = order.take(first as usize).collect();
-    let vehicle = |pass: u64| {
-        let place = pass as usize - 1;
-        period
-            .as_ref()
-            .map_or_else(|| first.get(place), |period| period.get(place % period.len()))
-    };
-    let name = |record: &&PassRecord| match vehicle(record.pass) {
-        Some(vehicle) => scene.vehicles[*vehicle].name.clone(),
-        None => "mean".to_owned(),
+    let order = traffic(scene, scene.order()).ok()?;
+    let first: Vec<usize> = order.take(known as usize).collect();
+    let name = |record: &&PassRecord| {
+        let place = record.pass as usize - 1;
+        let vehicle = match &own {
+            Some(period) => period.get(place % period.len()),
+            // Between jumps over other vehicles than the scene's rows are means.
+            None if record.interpolated => None,
+            None => first.get(place),
+        };
+        vehicle.map_or("mean".to_owned(), |vehicle| scene.vehicles[*vehicle].name.clone())
     };
     Some(("vehicle", rows.iter().map(name).collect()))
 }

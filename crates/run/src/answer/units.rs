@@ -4,8 +4,8 @@ use crate::scene::{Dimension, SceneFile, Unit};
 use crate::shown::rounded;
 
 /// The last digit that is shown of a force \[N\] and of a movement \[m\].
-const FORCE_DIGIT: f64 = 0.1;
-const MOVEMENT_DIGIT: f64 = 1e-7;
+pub(super) const FORCE_DIGIT: f64 = 0.1;
+pub(super) const MOVEMENT_DIGIT: f64 = 1e-7;
 /// Digits that are shown behind the first one of a large value.
 const DIGITS: f64 = 4.0;
 /// Units of stiffness whose force suits the ends of a cable. Springs are stiff: the MN of "3 MN/m"

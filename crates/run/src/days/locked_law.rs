@@ -10,8 +10,11 @@ use crate::cable::cable;
 use crate::ground::{length_scale, road};
 use crate::passes::Task;
 use crate::plan::Period;
-use crate::tuning::days::{FINEST, PERIODS};
+use crate::tuning::days::FINEST;
 use crate::tuning::ground::LAW_LENGTH;
+
+/// Periods that it takes: the first one brings the cable into the state that lasts.
+const PERIODS: usize = 2;
 
 /// The law for `passes` of `traffic` on the mesh of `task`, or a coarser one: both ends free, a
 /// body force that balances the locked friction. And what it costs.

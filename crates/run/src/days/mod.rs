@@ -1,7 +1,8 @@
 //! The days of a plan whose cable is heated.
 
-mod heated_days;
+mod day_simulator;
+mod days_on_meshes;
 mod locked_law;
-mod on_meshes;
+mod record;
 
-pub use on_meshes::solve;
+pub use days_on_meshes::solve;

@@ -2,7 +2,7 @@
 
 use ground_field::GroundField;
 
-use super::jump_search::KnownJumps;
+use super::simulation::JumpSize;
 use crate::answer::differences::Shares;
 use crate::{Progress, SavedState};
 
@@ -32,4 +32,11 @@ pub struct FixedMesh {
     pub error: Shares,
     /// Jumps that were good enough.
     pub jumps: Option<KnownJumps>,
+}
+
+/// Jumps that are good enough, and what they leave wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownJumps {
+    pub size: JumpSize,
+    pub error: Shares,
 }

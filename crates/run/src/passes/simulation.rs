@@ -1,7 +1,8 @@
 //! All passes of a scene on one mesh: every one simulated, or few with jumps between them.
 
 use cable_dem::{CableError, CableState, DuctedCable, PassOutcome, SigmoidLeak, Statistics};
-use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve};
+use cycle_jump::days::Days;
+use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve, peaks};
 
 use super::listing::{Listing, listed_passes};
 use super::solver::PassSolver;
@@ -12,22 +13,26 @@ use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
 use crate::ground::length_scale;
 use crate::plan::Period;
-use crate::tuning::jumps::{DOUBTFUL, FEW, PATIENCE, PATIENCE_WITH_MANY};
+use crate::tuning::jumps::PATIENCE;
+
+/// How large jumps are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JumpSize {
+    /// Error of a single jump.
+    pub tolerance: f64,
+    /// Periods simulated at the start, and length of the first jump beside them.
+    pub first_periods: u64,
+    pub first_jump: f64,
+}
 
 /// How jumps are taken.
 #[derive(Debug, Clone, Copy)]
 pub struct Jumping<'a> {
     pub period: &'a Period,
-    /// Error of a jump.
-    pub tolerance: f64,
-    /// Periods simulated at the start, and length of the first jump beside them.
-    pub first_periods: u64,
-    pub first_jump: f64,
+    pub size: JumpSize,
     /// Passes after which it is given up.
     pub most_passes: u64,
     pub guide: Guide<'a>,
-    /// About how many passes they leave to be simulated, where that is known.
-    pub simulated: Option<u64>,
     /// Whether it is followed where the forces lead.
     pub beyond: bool,
 }
@@ -54,11 +59,10 @@ pub struct Passes {
     pub schedule: Vec<u64>,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
-    /// Passes of the records that are not shown: other vehicles before them than those of the
-    /// period would leave other forces.
-    pub doubtful: Vec<u64>,
-    /// Passes of the period beside them that show more.
+    /// Passes of the period beside the records that show more.
     pub peaks: Vec<Record>,
+    /// The days, of a cable that is heated every day.
+    pub days: Option<Days>,
 }
 
 /// Force along the cable as it is left in `state`.
@@ -103,12 +107,11 @@ impl Task<'_> {
         let mut records = Vec::new();
         for (vehicle, pass) in traffic.zip(1..=count) {
             let outcome = simulation.pass(vehicle, Some(pass), &mut state)?;
-            let record = Record {
+            records.push(Record {
                 pass,
                 outcome,
                 interpolated: false,
-            };
-            records.push(record);
+            });
         }
         Ok(simulation.passes(records, state, count))
     }
@@ -117,69 +120,50 @@ impl Task<'_> {
     fn jumps(&self, jumping: &Jumping<'_>) -> Result<Jumps, Error> {
         let scale = Scale::new(self.scene, self.motions);
         let length = jumping.period.len() as u64;
-        let patience = (PATIENCE * length.min(FEW)).max(PATIENCE_WITH_MANY * length);
+        let (passes, fewest, most) = PATIENCE;
+        let patience = length * (passes / length).clamp(fewest, most);
         let length_scale = length_scale(self.motions, self.scene.duct.depth);
-        let jumps = Jumps::new(jumping.tolerance, length_scale, (scale.force, scale.movement))?
-            .with_start(jumping.first_periods, jumping.first_jump)?;
+        let size = jumping.size;
+        let jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?
+            .with_start(size.first_periods, size.first_jump)?;
         Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
     }
 
     /// Simulates few passes, with jumps between them; the passes `listed` and the stages are
     /// recorded.
     pub fn with_jumps(&self, jumping: &Jumping<'_>, listed: &[u64]) -> Result<Passes, Error> {
-        let Self { scene, mesh, .. } = self;
         let mut simulation = Simulation::new(self)?;
         simulation.jumps = true;
-        simulation.foreseen = jumping.simulated;
         let jumps = self.jumps(jumping)?;
-        let count = scene.traffic.passes;
-        // The row of a stage may be shown by another pass: the stage itself is wanted too.
-        let with_stages = |mut passes: Vec<u64>| {
-            passes.extend(self.stages.iter().filter(|stage| (1..=count).contains(*stage)));
-            passes.sort_unstable();
-            passes.dedup();
-            passes
+        let (period, count) = (jumping.period, self.scene.traffic.passes);
+        // The row of a stage may be shown by other passes: the stage itself is wanted too.
+        let stages = self.stages.iter().filter(|stage| (1..=count).contains(*stage));
+        let ascending = |passes: &mut dyn Iterator<Item = u64>| -> Vec<u64> {
+            let passes: std::collections::BTreeSet<u64> = passes.collect();
+            passes.into_iter().collect()
         };
-        let listing = Listing::new(
-            scene,
-            jumping.period,
-            jumping.first_periods,
-            &with_stages(listed.to_vec()),
-        )?;
-        let wanted = with_stages(listing.wanted());
+        let listed = ascending(&mut listed.iter().chain(stages.clone()).copied());
+        let listing = Listing::new(period, &listed, count);
+        let wanted = ascending(&mut listing.wanted().chain(stages.copied()));
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
-        let (first, last) = listing.one_by_one;
-        // Jumps end before the last passes, in which the scene's own vehicles drive.
-        let mut request = Request::new(count - last, &jumping.period.vehicles)?;
-        (request.wanted, request.beyond) = (&wanted, &beyond);
-        (request.looked_at, request.first_passes) = (self.stages, first);
-        request.guide = jumping.guide;
         let begin = self.begin()?;
+        let mut request = Request::new(count, &period.vehicles)?;
+        (request.wanted, request.beyond) = (&wanted, &beyond);
+        (request.looked_at, request.guide) = (self.stages, jumping.guide);
         request.start = begin.as_ref();
+        request.first_passes = period.first.len() as u64;
         let cable = simulation.cable.clone();
-        let mut evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
-            let vehicle = listing.vehicle(jumping.period, phase, number);
+        let pass = |Next { phase, number }, state: &mut CableState| {
+            let first = number.and_then(|pass| period.first.get(pass as usize - 1));
+            let vehicle = *first.unwrap_or(&period.vehicles[phase]);
             simulation.pass(vehicle, number, state)
-        })?;
-        for pass in count - last + 1..=count {
-            let vehicle = listing.vehicle(jumping.period, 0, Some(pass));
-            let outcome = simulation.pass(vehicle, Some(pass), &mut evolution.state)?;
-            evolution.simulated += 1;
-            evolution.records.push(Record {
-                pass,
-                outcome: outcome.moved(evolution.offset),
-                interpolated: false,
-            });
-        }
-        let records = listing.records(&evolution);
-        let doubtful = listing.doubtful(&evolution, &records, DOUBTFUL * scene.solver.tolerance);
-        let is_shown = |record: &&Record| doubtful.binary_search(&record.pass).is_err();
-        let shown: Vec<Record> = records.iter().filter(is_shown).cloned().collect();
-        let peaks = listing.peaks(&evolution, &shown);
+        };
+        let evolution = evolve(&cable, &self.mesh, &jumps, &request, pass)?;
+        let records = listing.records(&evolution.records);
+        let peaks = peaks(&records, evolution.records);
         let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
         passes.schedule = evolution.schedule;
         passes.beyond = evolution.beyond;
-        passes.doubtful = doubtful;
         passes.peaks = peaks;
         Ok(passes)
     }
@@ -212,12 +196,10 @@ pub struct Simulation<'a> {
     slip: Option<SlipRecord>,
     stages: Vec<Stage>,
     statistics: Statistics,
-    /// Whether passes come in leaps; then about how many are simulated, where that is known.
+    /// Whether passes come in leaps.
     jumps: bool,
-    foreseen: Option<u64>,
-    /// The farthest pass so far, and how many are simulated.
+    /// The farthest pass so far.
     reached: u64,
-    simulated: u64,
 }
 
 impl<'a> Simulation<'a> {
@@ -230,9 +212,7 @@ impl<'a> Simulation<'a> {
             stages: Vec::new(),
             statistics: Statistics::default(),
             jumps: false,
-            foreseen: None,
             reached: 0,
-            simulated: 0,
         })
     }
 
@@ -244,18 +224,12 @@ impl<'a> Simulation<'a> {
         number: Option<u64>,
         state: &mut CableState,
     ) -> Result<PassOutcome, Error> {
-        let Task {
-            scene,
-            stages,
-            progress,
-            ..
-        } = self.task;
+        let Task { scene, stages, .. } = self.task;
         let count = scene.traffic.passes;
         let stage = number.filter(|pass| stages.contains(pass));
         let outcome = if stage.is_some() || number == Some(count) {
-            let (outcome, friction) = self
-                .solver
-                .pass_and_look(vehicle, state, 0.5 * scene.duct.length)?;
+            let middle = 0.5 * scene.duct.length;
+            let (outcome, friction) = self.solver.pass_and_look(vehicle, state, middle)?;
             if number == Some(count) {
                 self.slip = friction.as_ref().map(|friction| friction.slip_lengths);
             }
@@ -272,25 +246,20 @@ impl<'a> Simulation<'a> {
         };
         balance::of_state(&self.cable, state, number.unwrap_or(0))?;
         self.statistics += outcome.statistics;
-        self.simulated += 1;
         self.reached = self.reached.max(number.unwrap_or(0).min(count));
-        progress.report(self.share())?;
+        let (pass, count) = (self.reached as f64, count as f64);
+        let share = if self.jumps {
+            pass.ln_1p() / count.ln_1p()
+        } else {
+            pass / count
+        };
+        self.task.progress.report(share)?;
         Ok(outcome)
     }
 
     /// The work so far.
     pub fn statistics(&self) -> Statistics {
         self.statistics
-    }
-
-    /// The share of the work done.
-    fn share(&self) -> f64 {
-        let (pass, count) = (self.reached as f64, self.task.scene.traffic.passes as f64);
-        match self.foreseen {
-            Some(all) => (self.simulated as f64 / all as f64).min(1.0),
-            None if self.jumps => pass.ln_1p() / count.ln_1p(),
-            None => pass / count,
-        }
     }
 
     pub fn passes(mut self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
@@ -308,8 +277,8 @@ impl<'a> Simulation<'a> {
             simulated,
             schedule: Vec::new(),
             beyond: None,
-            doubtful: Vec::new(),
             peaks: Vec::new(),
+            days: None,
         }
     }
 }

@@ -12,7 +12,7 @@ use ground_field::DuctMotion;
 use crate::Error;
 use crate::ground::{length_scale, peak};
 use crate::scene::{Scene, SolverMethod};
-use crate::tuning::meshes::{MOVED, SLIPS, TYPICAL};
+use crate::tuning::meshes::{MAX_NODE_UPDATES, MOVED, SLIPS, TYPICAL};
 
 /// Nodes per length scale on level 0.
 const COARSEST: f64 = 3.0;
@@ -31,8 +31,9 @@ const NAMED: usize = 2;
 pub struct Levels {
     length: f64,
     depth: f64,
-    /// Over which the duct's motion changes \[m\].
-    length_scale: f64,
+    /// Length over which the duct's motion changes under the vehicle that moves it most sharply
+    /// \[m\].
+    pub length_scale: f64,
     /// How far vehicles drive in one pass \[m\].
     road: f64,
     /// Spacing and vehicle step on level 0 \[m\].
@@ -41,10 +42,10 @@ pub struct Levels {
     /// Whether the vehicle's step follows the spacing; a law without memory depends on it.
     steps_follow: bool,
     /// The level to begin with, and the finest one to try.
-    first: usize,
-    finest: usize,
+    pub first: usize,
+    pub finest: usize,
     /// Whether the scene says how fine to be.
-    named: bool,
+    pub named: bool,
     /// Whether the spacing follows from the duct's depth and length.
     spacing_follows: bool,
 }
@@ -61,21 +62,16 @@ impl Levels {
             solver.node_spacing.is_some() || solver.vehicle_step.is_some() || by_time_step || !steps_follow;
         let length_scale = resolved(scene, motions);
         let coarsest = (length_scale / COARSEST).min(length / FEWEST);
-        let refinement = f64::from(1 << NAMED);
-        let (spacing, step) = if named {
-            let spacing = solver.node_spacing.unwrap_or_else(|| {
-                (coarsest / refinement)
-                    .max(solver.vehicle_step.unwrap_or(0.0))
-                    .min(length / FEWEST)
-            });
-            let step = solver.vehicle_step.unwrap_or(spacing / STEPS_PER_SPACING);
-            (
-                refinement * spacing,
-                if steps_follow { refinement * step } else { step },
-            )
-        } else {
-            (coarsest, coarsest / STEPS_PER_SPACING)
-        };
+        let (mut spacing, mut step) = (coarsest, coarsest / STEPS_PER_SPACING);
+        if named {
+            // Level 0 is so much coarser than the mesh that is named.
+            let refinement = f64::from(1 << NAMED);
+            let least = (coarsest / refinement).max(solver.vehicle_step.unwrap_or(0.0));
+            let named = solver.node_spacing.unwrap_or(least.min(length / FEWEST));
+            step = solver.vehicle_step.unwrap_or(named / STEPS_PER_SPACING);
+            spacing = refinement * named;
+            step *= if steps_follow { refinement } else { 1.0 };
+        }
         let wanted = TYPICAL
             .iter()
             .position(|&error| error <= solver.tolerance)
@@ -95,25 +91,14 @@ impl Levels {
         }
     }
 
-    /// The level to begin with.
-    pub fn first(&self) -> usize {
-        self.first
+    /// At most `count` levels below `first` that the duct is long enough for, from coarse to fine.
+    pub fn below(&self, first: usize, count: usize) -> impl Iterator<Item = usize> {
+        (first.saturating_sub(count)..first).filter(|&level| self.mesh(level).is_ok())
     }
 
-    /// Length over which the duct's motion changes under the vehicle that moves it most sharply
-    /// \[m\].
-    pub fn length_scale(&self) -> f64 {
-        self.length_scale
-    }
-
-    /// The finest level to try.
-    pub fn finest(&self) -> usize {
-        self.finest
-    }
-
-    /// Whether the scene says how fine to be.
-    pub fn named(&self) -> bool {
-        self.named
+    /// Passes on `level` that are not too costly.
+    pub fn affordable_passes(&self, level: usize) -> u64 {
+        (MAX_NODE_UPDATES as f64 / self.node_updates(level, 1)) as u64
     }
 
     /// Node spacing and vehicle step on `level` \[m\].

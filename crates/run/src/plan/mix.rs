@@ -3,7 +3,7 @@
 use cable_dem::{Order, Traffic};
 
 use crate::Error;
-use crate::tuning::periods::{EXACT, LEAST, LONGER, NEAR, OTHERS, SHORT};
+use crate::tuning::periods::{EXACT, LEAST, LONGER, NEAR, SHORT};
 
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
@@ -19,14 +19,16 @@ pub struct Mix {
 }
 
 impl Mix {
-    /// These numbers for vehicles whose `shares` sum to 1.
+    /// These numbers for vehicles whose `shares` sum to 1; none of those without a share.
     pub fn new(counts: Vec<usize>, shares: &[f64]) -> Self {
         let length: usize = counts.iter().sum();
-        let of = |(&count, share): (&usize, &f64)| count as f64 / length as f64 - share;
-        let off: Vec<f64> = counts.iter().zip(shares).map(of).collect();
+        let off = |(&count, share): (&usize, &f64)| count as f64 / length as f64 - share;
+        let all = || counts.iter().zip(shares);
         Self {
-            is_exact: off.iter().all(|off| off.abs() <= SAME),
-            off: off.iter().zip(shares).map(|(off, share)| off / share).collect(),
+            is_exact: all().all(|pair| off(pair).abs() <= SAME),
+            off: all()
+                .map(|pair| if *pair.1 > 0.0 { off(pair) / pair.1 } else { 0.0 })
+                .collect(),
             counts,
         }
     }
@@ -55,7 +57,7 @@ impl Mix {
     /// one, and the share of the way to it at which they lie: all of it where that is not known.
     pub fn opposite(&self, shares: &[f64], most: usize) -> (Self, f64) {
         let along = |mix: &Self| -> f64 { self.off.iter().zip(&mix.off).map(|(a, b)| a * b).sum() };
-        let longest = most.min((2 * self.len()).max(OTHERS));
+        let longest = most.min(2 * self.len());
         let all =
             (1..=longest).flat_map(|length| [Self::nearest(shares, length), Self::rounded(shares, length)]);
         let all: Vec<Self> = all.filter(|mix| mix.len() <= longest).collect();
@@ -75,12 +77,11 @@ impl Mix {
     /// The nearest mix of `length` vehicles, or of a few more: those with the largest remainders
     /// are rounded up, and every vehicle comes.
     fn nearest(shares: &[f64], length: usize) -> Self {
-        let mut mix = Self::rounded(shares, length);
-        if mix.counts.contains(&0) {
-            let counts = mix.counts.iter().map(|&count| count.max(1)).collect();
-            mix = Self::new(counts, shares);
+        let mut counts = Self::rounded(shares, length).counts;
+        for (count, share) in counts.iter_mut().zip(shares) {
+            *count = (*count).max(usize::from(*share > 0.0));
         }
-        mix
+        Self::new(counts, shares)
     }
 
     /// The same without the vehicles that are too seldom.
@@ -107,9 +108,7 @@ impl Mix {
 
     /// Its vehicles, as evenly as possible.
     pub fn interleaved(&self) -> Result<Vec<usize>, Error> {
-        let present: Vec<usize> = (0..self.counts.len())
-            .filter(|&vehicle| self.counts[vehicle] > 0)
-            .collect();
+        let present: Vec<usize> = (0..self.counts.len()).filter(|&k| self.counts[k] > 0).collect();
         let counts: Vec<f64> = present
             .iter()
             .map(|&vehicle| self.counts[vehicle] as f64)

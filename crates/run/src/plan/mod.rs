@@ -5,10 +5,12 @@
 //! the passes will cost. The run measures what the estimates promise, and refines where they
 //! promise too much.
 
+mod cost;
 mod mesh;
 mod method;
 mod mix;
 pub mod occurrence;
+mod pass_method;
 mod period;
 mod report;
 mod representatives;
@@ -22,7 +24,8 @@ use crate::SavedState;
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
 pub use mesh::Levels;
-pub use method::{CableMethod, MOST_PASSES, MethodChoice, PassMethod};
+pub use method::{MOST_PASSES, MethodChoice};
+pub use pass_method::{CableMethod, PassMethod};
 pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
 
@@ -65,18 +68,15 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
     let levels = Levels::new(scene, &ground.motions, approach);
     let period = Period::new(scene, &ground.motions)?;
     // Refuses an impossible mesh before any pass.
-    levels.mesh(levels.first())?;
+    levels.mesh(levels.first)?;
     let choice = method::choose(scene, &levels, &period)?;
-    let mut warnings = warnings::warnings(scene);
-    warnings.extend(warnings::absent(scene)?);
-    warnings.extend(warnings::inertia(scene, choice.inertia));
     Ok(Plan {
+        warnings: warnings::warnings(scene, choice.inertia)?,
         scene,
         ground,
         period,
         choice,
         levels,
-        warnings,
         start: None,
     })
 }

@@ -25,6 +25,9 @@ const LONGEST: usize = 2000;
 pub struct Period {
     /// Its vehicles, by their place in the scene.
     pub vehicles: Vec<usize>,
+    /// Where they only stand in for the traffic, its own vehicles of the first passes, unless these
+    /// come at random.
+    pub first: Vec<usize>,
     /// Where they only stand in for the traffic, others to compare them with, each with the share
     /// of the difference that is wrong.
     pub others: Vec<(Vec<usize>, f64)>,
@@ -46,23 +49,22 @@ impl Period {
                 ..Self::default()
             });
         }
-        let coming = coming(scene)?;
-        let shares = shares(scene, &coming);
-        let StandIn { mix, others, weights } = match representatives::advances(scene, motions) {
-            Some(advances) if shares.len() > KINDS => {
-                let advances: Vec<f64> = coming.iter().map(|&vehicle| advances[vehicle]).collect();
-                StandIn::of_many_kinds(&shares, &advances)
+        let shares = shares(scene)?;
+        let kinds = shares.iter().filter(|share| **share > 0.0).count();
+        let (mix, others, weights) = match representatives::advances(scene, motions) {
+            Some(advances) if kinds > KINDS => {
+                let of = |length| Mix::new(representatives::counts(&shares, &advances, length), &shares);
+                let mix = of(STAND_INS);
+                let weights = mix.counts.iter().map(|&count| count as f64).collect();
+                (mix, vec![(of(STAND_INS / 2), 1.0)], weights)
             }
-            _ => StandIn::near(scene, &shares),
+            _ => near(scene, shares.clone()),
         };
-        let named = |mix: &Mix| -> Result<Vec<usize>, Error> {
-            Ok(mix.interleaved()?.into_iter().map(|kind| coming[kind]).collect())
-        };
-        let vehicles = named(&mix)?;
-        let others = others.iter().map(|(mix, share)| Ok((named(mix)?, *share)));
+        let vehicles = mix.interleaved()?;
+        let others = others.iter().map(|(mix, share)| Ok((mix.interleaved()?, *share)));
         let mut others = others.collect::<Result<Vec<_>, Error>>()?;
-        let kinds = (0..coming.len()).filter(|&kind| is_drawn(scene, &mix) && mix.counts[kind] > 0);
-        let drawn: Vec<(usize, f64)> = kinds.map(|kind| (coming[kind], weights[kind])).collect();
+        let mut drawn: Vec<(usize, f64)> = weights.into_iter().enumerate().collect();
+        drawn.retain(|(vehicle, _)| is_drawn(scene, &mix) && mix.counts[*vehicle] > 0);
         let reordered = scene.order() != Order::Interleaved;
         let at_random = matches!(scene.order(), Order::Random { .. });
         if reordered && drawn.is_empty() && (vehicles.len() > FEW || !at_random) {
@@ -70,9 +72,11 @@ impl Period {
             fastrand::Rng::with_seed(0).shuffle(&mut shuffled);
             others.push((shuffled, 1.0));
         }
-        let is_absent = |vehicle: &usize| !vehicles.contains(vehicle);
+        let first = if at_random { 0 } else { vehicles.len() };
+        let is_absent = |vehicle: &usize| shares[*vehicle] > 0.0 && mix.counts[*vehicle] == 0;
         Ok(Self {
-            absent: coming.into_iter().filter(is_absent).collect(),
+            first: traffic(scene, scene.order())?.take(first).collect(),
+            absent: (0..shares.len()).filter(is_absent).collect(),
             vehicles,
             others,
             reordered,
@@ -88,10 +92,8 @@ impl Period {
             Order::Sequence(sequence) if scene.warming().is_some() && sequence.len() > most => Ok(None),
             Order::Sequence(sequence) => Ok(Some(sequence)),
             Order::Interleaved => {
-                let coming = coming(scene)?;
-                let mix = Mix::best(&shares(scene, &coming), most);
-                let named = |vehicles: Vec<usize>| vehicles.into_iter().map(|kind| coming[kind]).collect();
-                mix.is_exact.then(|| mix.interleaved().map(named)).transpose()
+                let mix = Mix::best(&shares(scene)?, most);
+                mix.is_exact.then(|| mix.interleaved()).transpose()
             }
             Order::Random { .. } => Ok(None),
         }
@@ -134,62 +136,30 @@ impl Period {
     }
 }
 
-/// A mix that stands in for the traffic.
-struct StandIn {
-    mix: Mix,
-    /// Others to compare it with, each with the share of the difference that is wrong.
-    others: Vec<(Mix, f64)>,
-    /// Of every kind of vehicle, how often it is drawn.
-    weights: Vec<f64>,
-}
-
-impl StandIn {
-    /// Some kinds in place of many, which advance the cable by `advances`; half as many show what
-    /// that changes.
-    fn of_many_kinds(shares: &[f64], advances: &[f64]) -> Self {
-        let of = |length| Mix::new(representatives::counts(shares, advances, length), shares);
-        let mix = of(STAND_INS);
-        Self {
-            others: vec![(of(STAND_INS / 2), 1.0)],
-            weights: mix.counts.iter().map(|&count| count as f64).collect(),
-            mix,
-        }
+/// The mix that is taken for these shares, without the vehicles that are too seldom for it; others
+/// to compare it with, each with the share of the difference that is wrong; and the shares.
+fn near(scene: &Scene, shares: Vec<f64>) -> (Mix, Vec<(Mix, f64)>, Vec<f64>) {
+    let most = longest(scene);
+    let mut others = Vec::new();
+    // On a day of heat every vehicle comes: its largest forces do not depend on how many days it
+    // does.
+    let daily = scene.warming().is_some();
+    let is_held = |share: f64| daily || 2.0 * share * most as f64 >= 1.0;
+    let held = shares
+        .iter()
+        .map(|&share| if is_held(share) { share } else { 0.0 });
+    let held = normal(held.collect());
+    let mix = Mix::best(&held, most);
+    if !mix.is_exact && !is_drawn(scene, &mix) {
+        others.push(mix.opposite(&held, most));
     }
-
-    /// The mix that is taken for these shares, without the vehicles that are too seldom for it.
-    fn near(scene: &Scene, shares: &[f64]) -> Self {
-        let most = longest(scene);
-        let mut others = Vec::new();
-        // On a day of heat every vehicle comes: its largest forces do not depend on how many days
-        // it does.
-        let daily = scene.warming().is_some();
-        let of_held = |share: &f64| daily || 2.0 * share * most as f64 >= 1.0;
-        let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();
-        let mut mix = Mix::best(&normal(&held), most);
-        if !mix.is_exact && !is_drawn(scene, &mix) {
-            let (mut other, share) = mix.opposite(&normal(&held), most);
-            other.counts = spread(&other.counts, shares, of_held);
-            others.push((other, share));
-        }
-        mix.counts = spread(&mix.counts, shares, of_held);
-        let seldom: f64 = shares.iter().filter(|share| !of_held(share)).sum();
-        if seldom > 0.0 {
-            let count = |share: &f64| ((share * most as f64) as usize).max(1);
-            let counts = shares.iter().map(count).collect();
-            others.push((Mix::new(counts, shares), (seldom * most as f64).min(1.0)));
-        }
-        Self {
-            mix,
-            others,
-            weights: shares.to_vec(),
-        }
+    let seldom: f64 = shares.iter().filter(|share| !is_held(**share)).sum();
+    if seldom > 0.0 {
+        let count = |&share: &f64| ((share * most as f64) as usize).max(usize::from(share > 0.0));
+        let counts = shares.iter().map(count).collect();
+        others.push((Mix::new(counts, &shares), (seldom * most as f64).min(1.0)));
     }
-}
-
-/// Whether draws show what a random order of this mix changes.
-fn is_drawn(scene: &Scene, mix: &Mix) -> bool {
-    let at_random = matches!(scene.order(), Order::Random { .. });
-    at_random && scene.warming().is_none() && mix.len() > FEW
+    (mix, others, shares)
 }
 
 /// Most vehicles in a period: with heat they begin anew every day.
@@ -223,28 +193,23 @@ pub fn coming(scene: &Scene) -> Result<Vec<usize>, Error> {
     Ok((0..kinds).filter(|&vehicle| comes[vehicle]).collect())
 }
 
-/// Their shares, which sum to 1.
-fn shares(scene: &Scene, coming: &[usize]) -> Vec<f64> {
-    let shares = scene.shares();
-    let coming: Vec<f64> = coming.iter().map(|&vehicle| shares[vehicle]).collect();
-    normal(&coming)
+/// The shares of the vehicles that come, which sum to 1; of the others none.
+fn shares(scene: &Scene) -> Result<Vec<f64>, Error> {
+    let (all, mut shares) = (scene.shares(), vec![0.0; scene.vehicles.len()]);
+    for vehicle in coming(scene)? {
+        shares[vehicle] = all[vehicle];
+    }
+    Ok(normal(shares))
 }
 
 /// The same shares, whose sum is 1.
-fn normal(weights: &[f64]) -> Vec<f64> {
+fn normal(weights: Vec<f64>) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
-    weights.iter().map(|weight| weight / total).collect()
+    weights.into_iter().map(|weight| weight / total).collect()
 }
 
-/// The `counts` of those vehicles that are `held`, and none of the others.
-fn spread(counts: &[usize], shares: &[f64], held: impl Fn(&f64) -> bool) -> Vec<usize> {
-    let mut counts = counts.iter().copied();
-    let of = |share: &f64| {
-        if held(share) {
-            counts.next().unwrap_or(0)
-        } else {
-            0
-        }
-    };
-    shares.iter().map(of).collect()
+/// Whether draws show what a random order of this mix changes.
+fn is_drawn(scene: &Scene, mix: &Mix) -> bool {
+    let at_random = matches!(scene.order(), Order::Random { .. });
+    at_random && scene.warming().is_none() && mix.len() > FEW
 }

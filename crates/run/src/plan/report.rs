@@ -5,8 +5,10 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use super::Plan;
-use super::method::{CableMethod, PassMethod};
+use super::method::NO_REST;
 use super::occurrence::Occurrence;
+use super::pass_method::{CableMethod, PassMethod};
+use crate::scene::SolverMethod;
 use crate::shown::spacing;
 
 /// Meshes that a plan shows.
@@ -87,10 +89,13 @@ impl Plan<'_> {
 
     /// Why the method was chosen, and how many passes it is expected to simulate.
     fn foreseen(&self) -> String {
-        let reason = self.choice.reason.clone();
+        let (reason, estimates) = (&self.choice.reason, &self.choice.estimates);
         match self.choice.method {
-            PassMethod::Jumps(_) => format!("{}; {reason}", self.choice.estimates.simulated_in_words()),
-            PassMethod::EveryPass(_) => reason,
+            PassMethod::Jumps(_) => format!(
+                "about {:.0} of {} passes are simulated, with jumps between them; {reason}",
+                estimates.typical, estimates.passes
+            ),
+            PassMethod::EveryPass(_) => reason.clone(),
         }
     }
 
@@ -103,10 +108,8 @@ impl Plan<'_> {
             levels,
             ..
         } = self;
-        let first = levels.first();
-        let mesh_error = levels.expected_error(first);
-        let method_error = choice.estimates.error(scene, choice.method).unwrap_or(0.0);
-        let spacing = levels.spacing(first);
+        let first = levels.first;
+        let (node_spacing_m, vehicle_step_m) = levels.spacing(first);
         let chosen = Candidate {
             part: Part::Ground,
             name: ground.name.into(),
@@ -116,14 +119,15 @@ impl Plan<'_> {
             reason: ground.reason.into(),
         };
         let candidates = [chosen].into_iter().chain(self.methods()).chain(self.meshes());
+        let mesh_error = levels.expected_error(first);
         PlanReport {
             title: scene.title.clone(),
             ground: ground.name.into(),
             cable: choice.method.name().into(),
-            node_spacing_m: spacing.0,
-            vehicle_step_m: spacing.1,
+            node_spacing_m,
+            vehicle_step_m,
             reasons: self.reasons(&self.foreseen()),
-            estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
+            estimated_error: mesh_error.map(|error| error + choice.inertia + ground.accuracy),
             estimated_seconds: choice.estimates.seconds(choice.method),
             occurrence: Occurrence::new(scene, &ground.motions),
             candidates: candidates.collect(),
@@ -132,24 +136,44 @@ impl Plan<'_> {
     }
 
     fn methods(&self) -> Vec<Candidate> {
-        let estimates = &self.choice.estimates;
+        let (scene, estimates) = (self.scene, &self.choice.estimates);
+        let (passes, most) = (estimates.passes, estimates.most);
+        let has_rest = scene.friction.law().has_memory();
         let all = [
-            PassMethod::Jumps(self.choice.method.cable_method()),
-            PassMethod::EveryPass(CableMethod::QuasiStatic),
-            PassMethod::EveryPass(CableMethod::Explicit),
+            (
+                PassMethod::Jumps(self.choice.method.cable_method()),
+                format!("jumps might leave {most:.0} of {passes} passes to be simulated"),
+            ),
+            (
+                PassMethod::EveryPass(CableMethod::QuasiStatic),
+                format!("all {passes} passes would be simulated"),
+            ),
+            (
+                PassMethod::EveryPass(CableMethod::Explicit),
+                "only where the scene names it".into(),
+            ),
         ];
-        let candidate = |method: PassMethod| {
+        let candidate = |(method, against): (PassMethod, String)| {
             let chosen = method == self.choice.method;
+            let without_inertia = has_rest.then_some(estimates.inertia);
+            let inertia = if method.has_inertia() {
+                Some(0.0)
+            } else {
+                without_inertia
+            };
             Candidate {
                 part: Part::Cable,
                 name: method.name().into(),
                 chosen,
-                estimated_error: estimates.error(self.scene, method),
+                estimated_error: inertia,
                 estimated_seconds: Some(estimates.seconds(method)),
-                reason: if chosen {
-                    self.foreseen()
-                } else {
-                    estimates.against(self.scene, method)
+                reason: match () {
+                    () if chosen => self.foreseen(),
+                    () if inertia.is_none() => NO_REST.into(),
+                    () if scene.solver.method != SolverMethod::Auto => {
+                        "the scene names another method".into()
+                    }
+                    () => against,
                 },
             }
         };
@@ -161,17 +185,17 @@ impl Plan<'_> {
         let candidate = |level: usize| Candidate {
             part: Part::Mesh,
             name: format!("{} m", spacing(levels.spacing(level).0)),
-            chosen: level == levels.first(),
+            chosen: level == levels.first,
             estimated_error: levels.expected_error(level),
             estimated_seconds: None,
-            reason: match level.cmp(&levels.first()) {
+            reason: match level.cmp(&levels.first) {
                 Ordering::Less => "too coarse; computed to measure the error of the next".into(),
-                Ordering::Equal if levels.named() => "the scene asks for it".into(),
+                Ordering::Equal if levels.named => "the scene asks for it".into(),
                 Ordering::Equal => "the coarsest that should keep the tolerance".into(),
                 Ordering::Greater => "only if the one before proves too coarse".into(),
             },
         };
-        (0..=levels.finest())
+        (0..=levels.finest)
             .filter(|&level| levels.mesh(level).is_ok())
             .take(LISTED)
             .map(candidate)

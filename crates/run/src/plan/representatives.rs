@@ -35,7 +35,7 @@ pub fn advances(scene: &Scene, motions: &[DuctMotion]) -> Option<Vec<f64>> {
 
 /// How many of each kind are among `length` stand-ins for kinds with these shares, which sum to 1.
 pub fn counts(shares: &[f64], advances: &[f64], length: usize) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..shares.len()).collect();
+    let mut order: Vec<usize> = (0..shares.len()).filter(|&kind| shares[kind] > 0.0).collect();
     order.sort_by(|&a, &b| advances[a].total_cmp(&advances[b]));
     let mut counts = vec![0; shares.len()];
     let mut carried = 0.0;

@@ -14,13 +14,15 @@ const SOIL_DENSITY: f64 = 1800.0;
 /// Mach number of a vehicle in the ground above which the ground's own inertia is no longer small.
 const FAST: f64 = 0.3;
 
-/// What the user should know before trusting any answer.
-pub fn warnings(scene: &Scene) -> Vec<String> {
+/// What the user should know before trusting any answer, which leaves out so much `inertia`.
+pub fn warnings(scene: &Scene, inertia: f64) -> Result<Vec<String>, Error> {
     let mut warnings = unusual(scene);
     warnings.extend(fast(scene));
     warnings.extend(warm(scene));
     warnings.extend(bends(scene));
-    warnings
+    warnings.extend(absent(scene)?);
+    warnings.extend(left_out(scene, inertia));
+    Ok(warnings)
 }
 
 /// What forces of heat leave out, and what a day's traffic is taken to be.
@@ -59,7 +61,7 @@ fn bends(scene: &Scene) -> Option<String> {
 }
 
 /// Vehicles that do not come within the passes of the scene.
-pub fn absent(scene: &Scene) -> Result<Option<String>, Error> {
+fn absent(scene: &Scene) -> Result<Option<String>, Error> {
     let coming = coming(scene)?;
     let absent = (0..scene.vehicles.len()).filter(|vehicle| !coming.contains(vehicle));
     let names: Vec<String> = absent
@@ -70,7 +72,7 @@ pub fn absent(scene: &Scene) -> Result<Option<String>, Error> {
 }
 
 /// Inertia that is left out, where that may cost more than the tolerance.
-pub fn inertia(scene: &Scene, inertia: f64) -> Option<String> {
+fn left_out(scene: &Scene, inertia: f64) -> Option<String> {
     let remedy = if scene.warming().is_none() {
         ErrorSource::Inertia.remedy()
     } else {

@@ -5,17 +5,18 @@ use cable_dem::Mesh;
 
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::plan::{MOST_PASSES, Period, Plan};
+use crate::plan::{MOST_PASSES, Plan};
 use crate::shown::{exact_percent, percent};
-use crate::{Error, ErrorSource, Scene};
+use crate::{Error, ErrorSource};
 
 /// Refuses an answer that is none, and warns of one that is not as good as asked.
 pub fn judge(
     error: &ErrorParts,
-    Plan { scene, period, .. }: &Plan<'_>,
+    plan: &Plan<'_>,
     mesh: &Mesh,
     warnings: &mut Vec<String>,
 ) -> Result<(), Error> {
+    let scene = plan.scene;
     let tolerance = scene.solver.tolerance;
     let total = error.total();
     error_estimate::judge(error, tolerance)?;
@@ -29,7 +30,7 @@ pub fn judge(
             "{}, above the tolerance of {}{}",
             exceeds.join(" and "),
             exact_percent(tolerance),
-            remedy(error, scene, period, mesh)
+            remedy(error, plan, mesh)
         ));
     }
     if !scene.friction.law().has_memory() {
@@ -41,43 +42,36 @@ pub fn judge(
     Ok(())
 }
 
-/// What makes the largest part of an error smaller, in traffic with this `period`.
-fn remedy(error: &ErrorParts, scene: &Scene, period: &Period, mesh: &Mesh) -> String {
-    let of = Shares::worse;
-    let others = [
-        error.ground,
-        error.road,
-        error.temperature,
-        Shares::both(error.inertia),
-    ];
-    let others = others.map(of).into_iter().fold(0.0, f64::max);
-    if of(error.mesh) >= others.max(of(error.passes)) {
-        let spacing = 0.5 * mesh.spacing();
-        return format!(
-            ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and about four times as long"
-        );
+/// What makes the largest part of an error smaller.
+fn remedy(error: &ErrorParts, Plan { scene, period, .. }: &Plan<'_>, mesh: &Mesh) -> String {
+    let of_passes = match () {
+        () if scene.traffic.passes <= MOST_PASSES => "solver.method = \"quasi-static\" simulates every pass",
+        () if !period.drawn.is_empty() => "most of it is the scatter of random orders around their mean",
+        () => {
+            "most of it comes from vehicles that stand in for the traffic; shares in whole numbers, of at most 2000 vehicles in all, need \
+             none"
+        }
+    };
+    match error.largest(|_| true, Shares::worse) {
+        ErrorSource::Mesh => {
+            let spacing = 0.5 * mesh.spacing();
+            format!(
+                ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and about four times as long"
+            )
+        }
+        ErrorSource::Inertia if scene.warming().is_none() => format!(": {}", ErrorSource::Inertia.remedy()),
+        ErrorSource::Passes if scene.traffic.passes <= MOST_PASSES || period.stands_in() => {
+            format!(": {of_passes}")
+        }
+        _ => ", and no finer mesh makes it much smaller".to_owned(),
     }
-    if error.inertia > 0.0 && error.inertia >= others && scene.warming().is_none() {
-        return format!(": {}", ErrorSource::Inertia.remedy());
-    }
-    if of(error.passes) >= others && scene.traffic.passes <= MOST_PASSES {
-        return ": solver.method = \"quasi-static\" simulates every pass".to_owned();
-    }
-    if of(error.passes) >= others && !period.drawn.is_empty() {
-        return ": most of it is the scatter of random orders around their mean".to_owned();
-    }
-    if of(error.passes) >= others && period.stands_in() {
-        return ": most of it comes from vehicles that stand in for the traffic; shares in whole numbers, of at most 2000 vehicles in all, need none"
-            .to_owned();
-    }
-    ", and no finer mesh makes it much smaller".to_owned()
 }
 
 /// Why this mesh.
 pub fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
     let Plan { scene, levels, .. } = plan;
-    let (depth, scale) = (scene.duct.depth, levels.length_scale());
-    let why = if levels.named() {
+    let (depth, scale) = (scene.duct.depth, levels.length_scale);
+    let why = if levels.named {
         "as the scene asks".to_owned()
     } else {
         format!("for the requested {}", exact_percent(scene.solver.tolerance))

@@ -2,153 +2,168 @@
 //! judge, refine.
 
 use cable_dem::{CableError, Mesh, Statistics};
+use cycle_jump::Record;
 
-use super::budget::{allowed, max_node_updates};
-use crate::answer::differences::Shares;
+use super::judge::mesh_reason;
+use crate::answer::differences::{Scale, Shares};
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::plan::Plan;
-use crate::tuning::meshes::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, VERIFIED};
-use crate::{Error, Progress};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread};
+use crate::ground::road;
+use crate::passes::{FixedMesh, Passes, RunOptions};
+use crate::plan::{Levels, Plan};
+use crate::tuning::meshes::{LEAST_SHARE, MAX_NODE_UPDATES, REFINEMENT_COST, SHARP};
+use crate::{Error, ErrorSource, Progress, Scene};
 
-/// What is simulated on one mesh after the other.
+/// What the error is beside the difference to a mesh twice as fine, at second order.
+const VERIFIED: f64 = 4.0 / 3.0;
+
+/// Below this tolerance a finer mesh may cost twice as much.
+const USUAL: f64 = 0.01;
+
+/// What is simulated on one mesh after the other: every pass, passes with jumps, or days.
 pub trait OnMeshes {
-    /// What it gives on one mesh.
-    type Outcome;
-
-    /// Simulates on `level`, given the outcome on the level below if that is known. An outcome that
-    /// may be the `answer` holds all that an answer shows.
+    /// Simulates the passes of `scene`, which is that of the plan or one like it, on `level`; the
+    /// passes on the level below may guide it. Passes that may be the `answer` hold all that an
+    /// answer shows.
     fn simulate(
         &self,
+        scene: &Scene,
         level: usize,
-        below: Option<&Self::Outcome>,
+        below: Option<&Passes>,
         progress: Progress<'_>,
         answer: bool,
-    ) -> Result<Self::Outcome, Error>;
+    ) -> Result<Passes, Error>;
 
-    /// The outcome on `level` if it is known already, and its work counted.
-    fn known(&self, level: usize) -> Option<Self::Outcome>;
+    /// How many levels below the first show its error.
+    fn levels_below(&self) -> usize;
 
-    /// How many levels below `first` show the error of the first.
-    fn levels_below(&self, first: usize) -> usize;
+    /// Difference of passes on two meshes.
+    fn difference(&self, one: &Passes, other: &Passes) -> Shares;
 
-    /// Difference of outcomes on two meshes.
-    fn difference(&self, one: &Self::Outcome, other: &Self::Outcome) -> Shares;
-
-    /// Error on `level`, the last of these `outcomes` on two or more meshes from coarse to fine.
-    fn mesh_error(&self, level: usize, outcomes: &[Self::Outcome]) -> Shares;
-
-    /// Whether nothing slips in it.
-    fn is_still(&self, outcome: &Self::Outcome) -> bool;
-
-    /// What it has cost.
-    fn work(outcome: &Self::Outcome) -> Statistics;
+    /// Error on `level`, the last of these two or more meshes from coarse to fine.
+    fn mesh_error(&self, level: usize, meshes: &[Passes]) -> Shares;
 }
 
-/// An outcome on the mesh that was good enough, and what all meshes have cost.
-pub struct Refined<O> {
+/// What a run has come to, whatever was simulated: passes on the mesh that was good enough.
+pub struct Solved {
     pub level: usize,
     pub mesh: Mesh,
-    pub outcome: O,
+    pub passes: Passes,
+    pub error: ErrorParts,
+    /// Work on all meshes together.
     pub statistics: Statistics,
+    /// What was found on the way.
+    pub reasons: Vec<String>,
+    pub warnings: Vec<String>,
+    pub random: Option<RandomSpread>,
+    /// One more pass of each vehicle that comes too seldom for the period.
+    pub seldom: Vec<(usize, Record)>,
+    /// What it has shown of its mesh.
+    pub shown: Option<FixedMesh>,
+    /// Of a cable that is heated every day.
+    pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
+}
+
+impl Solved {
+    /// Passes on the mesh of `level`, and nothing beside them as yet.
+    pub fn new(level: usize, mesh: Mesh, passes: Passes, error: ErrorParts, reason: String) -> Self {
+        Self {
+            level,
+            mesh,
+            statistics: passes.statistics,
+            passes,
+            error,
+            reasons: vec![reason],
+            warnings: Vec::new(),
+            random: None,
+            seldom: Vec::new(),
+            shown: None,
+            heat: None,
+        }
+    }
 }
 
 /// The loop over the meshes of a plan.
-pub struct MeshLoop<'a> {
+pub struct MeshLoop<'a, S> {
     pub plan: &'a Plan<'a>,
-    /// Whether a finer run is to measure the error of the mesh.
-    pub verify: bool,
-    /// The part of the progress that is its own.
-    pub progress: Progress<'a>,
+    pub options: &'a RunOptions<'a>,
+    pub simulation: &'a S,
     /// The error of the first mesh, if another run has shown it: then there is no other mesh.
     pub known_error: Option<Shares>,
 }
 
-impl MeshLoop<'_> {
-    /// Refines from `first` on until the tolerance leaves room for the error of the mesh, or finer
-    /// meshes cost too much. The other parts of `error` are known but for that of the road.
-    pub fn refine<S: OnMeshes>(
+impl<S: OnMeshes> MeshLoop<'_, S> {
+    /// Refines from the level `first` on until the tolerance leaves room for the error of the mesh,
+    /// or finer meshes cost too much. The other parts of `error` are known but for that of the
+    /// road.
+    pub fn refine(
         &self,
-        simulation: &S,
-        first: usize,
-        error: &mut ErrorParts,
-    ) -> Result<Refined<S::Outcome>, Error> {
-        let mut parts = self.progress.refining();
-        let mut statistics = Statistics::default();
-        let progress = parts();
-        let mut outcomes = if self.known_error.is_some() {
-            Vec::new()
-        } else {
-            self.coarser(simulation, first, progress, &mut statistics)?
-        };
-        let begin = share_below(first, first);
-        let finest = simulation.simulate(first, outcomes.last(), progress.part(begin, 1.0), true)?;
-        statistics += S::work(&finest);
-        outcomes.push(finest);
-        let mut level = first;
-        if let Some(known) = self.known_error {
-            error.mesh = known;
-        } else {
-            loop {
-                if outcomes.len() > 1 {
-                    error.mesh = simulation.mesh_error(level, &outcomes);
-                }
-                if self.is_good_enough(simulation, level, &outcomes, error)
-                    || !self.may_refine::<S>(level, &outcomes, error)
-                {
-                    break;
-                }
-                let finer = match simulation.simulate(level + 1, outcomes.last(), parts(), true) {
-                    // Jumps that fail on this mesh leave the answer of the coarser one.
-                    Err(Error::Jumps(_)) if self.error_is_known(&outcomes) => break,
-                    finer => finer?,
-                };
-                statistics += S::work(&finer);
-                outcomes.push(finer);
-                level += 1;
-            }
-        }
-        let alone = outcomes.len() == 1 && self.known_error.is_none();
-        let outcome = outcomes.pop().expect("the first level was computed");
-        if self.is_to_measure(alone, error) {
-            let finer = simulation.simulate(level + 1, Some(&outcome), parts(), true)?;
-            statistics += S::work(&finer);
-            error.mesh = simulation.difference(&outcome, &finer).times(VERIFIED);
-            error.measured = true;
-        }
-        Ok(Refined {
-            level,
-            mesh: self.plan.levels.mesh(level)?,
-            outcome,
-            statistics,
-        })
-    }
-
-    /// The outcomes on the levels below `first` that the duct is long enough for, and that are fine
-    /// enough for its motion.
-    fn coarser<S: OnMeshes>(
-        &self,
-        simulation: &S,
         first: usize,
         progress: Progress<'_>,
-        statistics: &mut Statistics,
-    ) -> Result<Vec<S::Outcome>, Error> {
-        let mut outcomes: Vec<S::Outcome> = Vec::new();
-        let lowest = first.saturating_sub(simulation.levels_below(first));
-        for level in (lowest..first).filter(|&level| self.plan.levels.mesh(level).is_ok()) {
-            if let Some(known) = simulation.known(level) {
-                outcomes.push(known);
-                continue;
-            }
-            let part = progress.part(share_below(level, first), share_below(level + 1, first));
-            match simulation.simulate(level, outcomes.last(), part, false) {
-                Err(Error::Cable(CableError::CoarseMesh { .. })) => {}
-                outcome => {
-                    outcomes.push(outcome?);
-                    *statistics += outcomes.last().map_or(Statistics::default(), S::work);
-                }
-            }
+        mut error: ErrorParts,
+    ) -> Result<Solved, Error> {
+        let plan = self.plan;
+        let mut parts = progress.refining();
+        let mut statistics = Statistics::default();
+        let mut simulate = |level, below: Option<&Passes>, progress, answer| {
+            let passes = self
+                .simulation
+                .simulate(plan.scene, level, below, progress, answer)?;
+            statistics += passes.statistics;
+            Ok(passes)
+        };
+        let mut meshes = Vec::new();
+        let begin = parts();
+        let below = if self.known_error.is_some() {
+            0
+        } else {
+            self.simulation.levels_below()
+        };
+        for level in plan.levels.below(first, below).chain([first]) {
+            // Each level costs a quarter of the next.
+            let share = |level: usize| (REFINEMENT_COST as f64).powi(level as i32 - first as i32 - 1);
+            let part = begin.part(share(level), share(level + 1));
+            let passes = simulate(level, meshes.last(), part, level == first);
+            meshes.extend(unless_coarse(passes, level < first)?);
         }
-        Ok(outcomes)
+        let mut level = first;
+        loop {
+            error[ErrorSource::Mesh] = match self.known_error {
+                Some(known) => known,
+                None if meshes.len() > 1 => self.simulation.mesh_error(level, &meshes),
+                None => error[ErrorSource::Mesh],
+            };
+            if self.is_good_enough(level, &meshes, &error) || !self.may_refine(level, &meshes, &error) {
+                break;
+            }
+            match simulate(level + 1, meshes.last(), parts(), true) {
+                // Jumps that fail on this mesh leave the answer of the coarser one.
+                Err(Error::Jumps(_)) if self.error_is_known(&meshes) => break,
+                finer => meshes.push(finer?),
+            }
+            level += 1;
+        }
+        let alone = meshes.len() == 1 && self.known_error.is_none();
+        let passes = meshes.pop().ok_or(Error::NoPass)?;
+        if self.is_to_measure(alone, &error) {
+            let finer = simulate(level + 1, Some(&passes), parts(), true)?;
+            error[ErrorSource::Mesh] = self.simulation.difference(&passes, &finer).times(VERIFIED);
+            error.measured = true;
+        }
+        if !road::is_followed_enough(plan.scene, &plan.ground.motions)? {
+            // What an approach that the scene names leaves out.
+            let mut far = plan.scene.clone();
+            far.solver.approach = None;
+            let simulation = self.simulation;
+            let farther = simulation.simulate(&far, level, Some(&passes), Progress::default(), false)?;
+            error[ErrorSource::Road] = simulation.difference(&passes, &farther);
+            statistics += farther.statistics;
+        }
+        let mesh = plan.levels.mesh(level)?;
+        Ok(Solved {
+            statistics,
+            ..Solved::new(level, mesh, passes, error, mesh_reason(plan, &mesh))
+        })
     }
 
     /// Whether a finer run is to measure the error of the mesh. One mesh alone does not show it;
@@ -156,51 +171,73 @@ impl MeshLoop<'_> {
     fn is_to_measure(&self, alone: bool, error: &ErrorParts) -> bool {
         let Plan { scene, levels, .. } = self.plan;
         let refused = error_estimate::is_doubtful(error.total().force, scene.solver.tolerance);
-        self.verify || alone || levels.named() && refused
+        self.options.verify || alone || levels.named && refused
     }
 
-    /// Whether the `outcomes` on all meshes up to `level` leave an `error` of the last that the
+    /// Whether the passes on all `meshes` up to `level` leave an `error` of the last that the
     /// tolerance allows.
-    fn is_good_enough<S: OnMeshes>(
-        &self,
-        simulation: &S,
-        level: usize,
-        outcomes: &[S::Outcome],
-        error: &ErrorParts,
-    ) -> bool {
+    fn is_good_enough(&self, level: usize, meshes: &[Passes], error: &ErrorParts) -> bool {
         // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct
         // bends.
-        let still = outcomes
+        let scale = Scale::new(self.plan.scene, &self.plan.ground.motions);
+        let still = meshes
             .last()
-            .is_some_and(|outcome| simulation.is_still(outcome));
-        let others = error.passes + error.temperature + Shares::both(error.inertia);
+            .is_some_and(|passes| scale.is_still(&passes.records));
+        let others = [ErrorSource::Passes, ErrorSource::Days, ErrorSource::Inertia].map(|of| error[of]);
+        let others = others[0] + others[1] + others[2];
         let of_mesh = error.total().less(others);
         let allowed = allowed(self.plan.scene.solver.tolerance, others);
-        self.error_is_known(outcomes) && (!still || level >= SHARP) && of_mesh.is_within(allowed)
+        self.error_is_known(meshes) && (!still || level >= SHARP) && of_mesh.is_within(allowed)
     }
 
     /// Whether there is a mesh after `level` that is not too costly.
-    fn may_refine<S: OnMeshes>(&self, level: usize, outcomes: &[S::Outcome], error: &ErrorParts) -> bool {
+    fn may_refine(&self, level: usize, meshes: &[Passes], error: &ErrorParts) -> bool {
         let tolerance = self.plan.scene.solver.tolerance;
-        let last = outcomes.last().map_or(0, |outcome| S::work(outcome).node_updates);
         // A run whose error is above 10 % is refused: spend more before that.
-        let most = if error_estimate::is_doubtful(error.total().force, tolerance) {
+        let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
+        let most = if is_hard {
             MAX_NODE_UPDATES
         } else {
-            max_node_updates(tolerance)
+            MAX_NODE_UPDATES / 2
         };
-        REFINEMENT_COST.saturating_mul(last) <= most && level < self.plan.levels.finest()
+        let last = meshes.last().map_or(0, |passes| passes.statistics.node_updates);
+        self.known_error.is_none()
+            && REFINEMENT_COST.saturating_mul(last) <= most
+            && level < self.plan.levels.finest
     }
 
-    /// Whether `outcomes` show their error: on one mesh alone they do not.
-    fn error_is_known<O>(&self, outcomes: &[O]) -> bool {
-        outcomes.len() > 1 || self.plan.levels.named()
+    /// Whether `meshes` show their error: one alone does not.
+    fn error_is_known(&self, meshes: &[Passes]) -> bool {
+        meshes.len() > 1 || self.plan.levels.named
     }
 }
 
-/// The work on all levels below `coarser` as a share of that on all up to `level`, each of which
-/// costs four times the one before.
-fn share_below(coarser: usize, level: usize) -> f64 {
-    let all_below = |level: usize| (REFINEMENT_COST as f64).powi(level as i32) - 1.0;
-    all_below(coarser) / all_below(level + 1)
+/// What `others`, which no finer mesh takes away, leave of the `tolerance`.
+fn allowed(tolerance: f64, others: Shares) -> Shares {
+    let least = LEAST_SHARE * tolerance.max(others.worse());
+    Shares::both(tolerance).less(others).max(Shares::both(least))
+}
+
+/// What was simulated on the coarsest of `below` levels below `first` that is not too coarse, or on
+/// `first`; and that level.
+pub fn on_coarse_level(
+    levels: &Levels,
+    first: usize,
+    below: usize,
+    mut simulate: impl FnMut(usize) -> Result<Passes, Error>,
+) -> Result<(usize, Passes), Error> {
+    for level in levels.below(first, below) {
+        if let Some(passes) = unless_coarse(simulate(level), true)? {
+            return Ok((level, passes));
+        }
+    }
+    Ok((first, simulate(first)?))
+}
+
+/// `None` where a mesh that `may_fail` is too coarse for the duct's motion.
+fn unless_coarse(passes: Result<Passes, Error>, may_fail: bool) -> Result<Option<Passes>, Error> {
+    match passes {
+        Err(Error::Cable(CableError::CoarseMesh { .. })) if may_fail => Ok(None),
+        passes => passes.map(Some),
+    }
 }

@@ -4,12 +4,13 @@ mod assemble;
 
 use std::sync::Arc;
 
-use crate::error_source::ErrorSource;
+use crate::answer::error_estimate::{self, ErrorParts};
 use crate::ground::{Ground, road};
-use crate::passes::{FixedMesh, RunOptions};
+use crate::passes::{FixedMesh, RunOptions, seldom_passes};
 use crate::plan::{PassMethod, Plan, plan, plan_over};
-use crate::{Error, Run, Scene, days, finite, passes};
-use assemble::RunBuilder;
+use crate::refine::{Solved, judge};
+use crate::{Error, Run, Scene, days, finite, jumps};
+use assemble::{assemble, without_friction};
 
 /// Computes all passes of `scene`.
 ///
@@ -44,9 +45,7 @@ pub fn run_shown(
 ) -> Result<(Run, Option<FixedMesh>), Error> {
     let mut plan = plan_over(scene, ground)?;
     plan.start = options.start;
-    let (run, shown) = answer(&plan, options)?;
-    finite::check(&run)?;
-    Ok((run, shown))
+    carry_out(&plan, options)
 }
 
 /// Checks that `scene` can be computed, without computing its passes.
@@ -64,46 +63,75 @@ pub fn check(scene: &Scene) -> Result<(), Error> {
 ///
 /// [`Error`] when the computation fails.
 pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
-    let (run, _) = answer(plan, options)?;
-    finite::check(&run)?;
-    Ok(run)
+    carry_out(plan, options).map(|(run, _)| run)
 }
 
 /// Whether there may be an answer where every pass is simulated.
 fn may_help(error: &Error) -> bool {
     match error {
         Error::Jumps(_) => true,
-        Error::Inaccurate { cause, .. } => matches!(cause, ErrorSource::Passes | ErrorSource::Days),
+        Error::Inaccurate { cause, .. } => cause.is_skipping(),
         _ => false,
     }
 }
 
-fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<FixedMesh>), Error> {
+/// A friction law that loses more than this share of the stored force in one pass gives no answer.
+const LARGEST_LEAK: f64 = 0.9;
+
+/// Warns of a friction law that loses some of the stored force, and refuses one that loses too much.
+fn leaks(solved: &mut Solved) -> Result<(), Error> {
+    for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
+        if leak.loss_per_pass > LARGEST_LEAK {
+            return Err(Error::Unfit {
+                key: "friction.law",
+                found: "sigmoid",
+                reason: leak.to_string().into(),
+            });
+        }
+        solved.warnings.push(leak.to_string());
+    }
+    Ok(())
+}
+
+fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<FixedMesh>), Error> {
+    let Plan { scene, choice, .. } = plan;
     if let Some(start) = plan.start {
-        start.check(plan.scene)?;
+        start.check(scene)?;
     }
-    let mut answer = RunBuilder::new(plan);
-    if plan.scene.friction_limit() == 0.0 {
-        return Ok((answer.without_friction(options.stages)?, None));
-    }
-    let solve = |method, answer: &mut RunBuilder<'_>| {
-        let warnings = &mut answer.warnings;
-        if let Some(heat) = plan.scene.warming() {
-            return days::solve(plan, heat, method, options, warnings);
+    let error = ErrorParts::new(plan.ground.accuracy, choice.inertia);
+    // What no mesh makes smaller.
+    error_estimate::judge(&error, scene.solver.tolerance)?;
+    let solve = |method| {
+        let mut solved = match scene.warming() {
+            Some(heat) => days::solve(plan, heat, method, options, error),
+            None => jumps::solve(plan, method, options, error),
+        }?;
+        leaks(&mut solved)?;
+        judge(&solved.error, plan, &solved.mesh, &mut solved.warnings)?;
+        if matches!(method, PassMethod::Jumps(_)) {
+            let task = plan.task(scene, solved.mesh);
+            solved.seldom = seldom_passes(&task, &plan.period.absent, &solved.passes.state)?;
         }
-        passes::solve(plan, method, options, warnings)
+        Ok(solved)
     };
-    let solved = match solve(plan.choice.method, &mut answer) {
-        Err(error)
-            if may_help(&error)
-                && plan.choice.may_simulate
-                && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
-        {
-            answer.gives_up_jumps(&error);
-            let every_pass = PassMethod::EveryPass(plan.choice.method.cable_method());
-            solve(every_pass, &mut answer)?
+    let every_pass = PassMethod::EveryPass(choice.method.cable_method());
+    let (mut method, mut reason) = (choice.method, choice.reason.clone());
+    let solved = if scene.friction_limit() == 0.0 {
+        method = every_pass;
+        without_friction(plan, options.stages)
+    } else {
+        match solve(method) {
+            Err(error) if may_help(&error) && choice.may_simulate && method != every_pass => {
+                method = every_pass;
+                reason = format!(
+                    "{reason}; jumps gave no answer here ({error}): every pass was simulated after all"
+                );
+                solve(method)
+            }
+            solved => solved,
         }
-        solved => solved?,
-    };
-    Ok((answer.by_simulation(&solved)?, solved.shown))
+    }?;
+    let run = assemble(plan, method, &reason, &solved)?;
+    finite::check(&run)?;
+    Ok((run, solved.shown))
 }

@@ -7,12 +7,15 @@
 
 use cable_dem::{CableState, Order, Statistics};
 
-use super::simulation::{Passes, Simulation};
-use super::task::Task;
 use crate::Error;
 use crate::answer::{Quantiles, RandomSpread, larger};
 use crate::cable::traffic;
-use crate::tuning::jumps::{FORGOTTEN, PASSES, RUNS};
+use crate::passes::{Passes, Simulation, Task};
+
+/// Random runs, their passes, and how many of these forget the order before.
+const RUNS: u64 = 8;
+const PASSES: usize = 90;
+const FORGOTTEN: usize = 30;
 
 /// The spread of the forces around the last ones of the `answer`, from runs that begin in `state`,
 /// and what it cost.

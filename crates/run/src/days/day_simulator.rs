@@ -1,0 +1,241 @@
+//! All days of a scene with heat on one mesh, and what two such runs differ in.
+
+use cable_dem::{CableState, EndForces};
+use cycle_jump::days::{DailyHeat, Day, DaysRequest, Extremes, evolve_days};
+use cycle_jump::{Guide, Jumps, Next, Record};
+
+use super::locked_law::locked_law;
+use crate::answer::differences::{Scale, Shares, largest_force};
+use crate::answer::listed;
+use crate::cable::traffic;
+use crate::passes::{Passes, Simulation, Task, listed_passes};
+use crate::plan::{Period, Plan};
+use crate::refine::OnMeshes;
+use crate::scene::{Heat, Scene};
+use crate::tuning::days::{COARSEST, FEW, JUMPS_SHARE, MOST, RESOLVED, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
+use crate::{Error, Progress};
+
+/// Days simulated after the first one, before any is jumped over.
+const FIRST_DAYS: u64 = 3;
+/// Days simulated after which no more are jumped over, and after which the run gives up.
+const MOST_DAYS: (u64, u64) = (150, 1000);
+
+const SECONDS_A_DAY: f64 = 86_400.0;
+
+/// Simulates the days of a plan.
+#[derive(Clone, Copy)]
+pub struct DaySimulator<'a> {
+    pub plan: &'a Plan<'a>,
+    /// The plan's, or one to compare it with.
+    pub period: &'a Period,
+    pub heat: &'a Heat,
+    pub every_pass: bool,
+    /// Place in the period of the traffic with which days begin.
+    pub begin: usize,
+    /// Simulated periods a day.
+    pub periods_a_day: u64,
+    /// Whether days are jumped over with a quarter of the error and a first jump half as long,
+    /// which shows the error of the others.
+    pub finer: bool,
+}
+
+impl DaySimulator<'_> {
+    /// Force that a kelvin makes in a cable which cannot move \[N/K\].
+    pub fn per_kelvin(&self) -> f64 {
+        self.plan.scene.cable.axial_stiffness * self.heat.expansion
+    }
+
+    /// A day of the plan.
+    pub fn day(&self) -> Result<Day, Error> {
+        let passes = a_day(self.plan.scene);
+        let per_kelvin = self.per_kelvin();
+        let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
+        let heat = if let Some(points) = &self.heat.profile {
+            let point = |(seconds, kelvin): &(f64, f64)| (seconds / SECONDS_A_DAY, force(*kelvin));
+            DailyHeat::Profile(points.iter().map(point).collect())
+        } else {
+            let (lowest, highest) = (force(0.0), force(self.heat.daily_swing.unwrap_or(0.0)));
+            DailyHeat::Cosine { lowest, highest }
+        };
+        let few = passes <= FEW.max(self.period.len() as u64) || self.every_pass;
+        let periods = if few { passes } else { self.periods_a_day };
+        Ok(Day::new(passes, self.sequence_of_a_day(), heat, periods)?)
+    }
+
+    /// Vehicles after which the traffic of a day repeats.
+    fn sequence_of_a_day(&self) -> usize {
+        // What only measures drives the vehicles of the sequence too.
+        if self.every_pass {
+            1
+        } else {
+            self.period.len().min(a_day(self.plan.scene) as usize)
+        }
+    }
+
+    /// Where the next day goes on in the sequence of the traffic, if days do not begin with the
+    /// same vehicle as every day here does.
+    pub fn broken_sequence(&self) -> Option<usize> {
+        let passes = a_day(self.plan.scene);
+        let left = (passes % self.period.len() as u64) as usize;
+        let several = self.plan.scene.traffic.passes > passes;
+        (several && !self.every_pass && !self.period.reordered && left > 0).then_some(left)
+    }
+
+    /// The warning of that.
+    pub fn warning(&self) -> Option<String> {
+        let (passes, period) = (a_day(self.plan.scene), self.period.len() as u64);
+        self.broken_sequence().map(|_| {
+            format!(
+                "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
+                 began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {} has none of that",
+                (passes / period * period).max(period)
+            )
+        })
+    }
+
+    /// Forces and movements that are too small to count.
+    fn scale(&self) -> Scale {
+        Scale::new(self.plan.scene, &self.plan.ground.motions)
+    }
+
+    /// The jumps of cycle-jump.
+    fn jumps(&self) -> Result<Jumps, Error> {
+        let (scale, levels) = (self.scale(), &self.plan.levels);
+        let tolerance = (JUMPS_SHARE * self.plan.scene.solver.tolerance).min(MOST);
+        let (finer, first_jump) = if self.finer { (0.25, 0.25) } else { (1.0, 0.5) };
+        let least = (scale.force, scale.movement);
+        let jumps =
+            Jumps::new(finer * tolerance, levels.length_scale, least)?.with_start(FIRST_DAYS, first_jump)?;
+        Ok(jumps.with_most_passes(MOST_DAYS.0, MOST_DAYS.1))
+    }
+
+    /// Largest difference on any listed day.
+    pub fn difference_of_days(&self, one: &Passes, other: &Passes) -> Shares {
+        let scale = self.scale();
+        let of_day = |((_, a), (_, b)): (&(u64, Extremes), &(u64, Extremes))| {
+            let places = a.displacement.as_flattened();
+            let moved = places
+                .iter()
+                .fold(scale.movement, |most, place| most.max(place.abs()));
+            let (force, movement) = a.difference(b, (scale.force, moved));
+            Shares { force, movement }
+        };
+        let days = one.days.iter().zip(&other.days);
+        let days = days.flat_map(|(one, other)| one.days.iter().zip(&other.days));
+        days.map(of_day).collect()
+    }
+}
+
+impl OnMeshes for DaySimulator<'_> {
+    /// All days of `scene`, that of the plan or one like it, on `level`; over days as `other` has
+    /// jumped, as far as errors allow it.
+    fn simulate(
+        &self,
+        scene: &Scene,
+        level: usize,
+        other: Option<&Passes>,
+        progress: Progress<'_>,
+        _: bool,
+    ) -> Result<Passes, Error> {
+        let period = self.period;
+        let mesh = self.plan.levels.mesh(level)?;
+        let task = Task {
+            progress,
+            ..self.plan.task(scene, mesh)
+        };
+        let mut simulation = Simulation::new(&task)?;
+        let day = self.day()?;
+        let (law, of_law) = locked_law(&task, period, self.sequence_of_a_day())?;
+        let count = scene.traffic.passes;
+        let (cable, start) = (task.cable()?, task.begin()?);
+        let schedule = other.and_then(|other| other.days.as_ref());
+        let request = DaysRequest {
+            passes: count,
+            wanted: &listed_passes(scene, period),
+            wanted_days: &listed(count.div_ceil(day.passes())),
+            every_day: self.every_pass,
+            start: start.as_ref(),
+            guide: schedule.map_or(Guide::Free, |days| Guide::Follow(&days.schedule)),
+        };
+        let vehicles = &period.vehicles;
+        // Where every pass is simulated the vehicles come in their own order.
+        let mut order = traffic(scene, scene.order())?;
+        let pass = |next: Next, state: &mut CableState| {
+            let own = if self.every_pass { order.next() } else { None };
+            let of_day = next
+                .number
+                .map_or(next.phase as u64, |number| (number - 1) % day.passes());
+            let place = (of_day + self.begin as u64) % vehicles.len() as u64;
+            simulation.pass(own.unwrap_or(vehicles[place as usize]), next.number, state)
+        };
+        let days = evolve_days(&cable, &mesh, (&day, law), &self.jumps()?, &request, pass)?;
+        let mut passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
+        passes.peaks.clone_from(&days.peaks);
+        passes.statistics += of_law;
+        passes.statistics.sweeps += days.sweeps as usize;
+        passes.statistics.node_updates += days.sweeps as usize * mesh.nodes();
+        passes.schedule.clone_from(&days.schedule);
+        passes.days = Some(days);
+        Ok(passes)
+    }
+
+    fn levels_below(&self) -> usize {
+        1
+    }
+
+    /// Largest difference on any listed day or pass: of a force after a pass or on a day as a share
+    /// of the largest that day, of one during a simulated pass as a share of the largest in any
+    /// pass, of a movement as a share of the day's range or, where that is larger, of the movement
+    /// since laying.
+    fn difference(&self, one: &Passes, other: &Passes) -> Shares {
+        let of_all = one
+            .days
+            .as_ref()
+            .map_or(0.0, |days| days.extremes.largest_force());
+        let largest = of_all.max(self.scale().force);
+        let mut worst = self.difference_of_days(one, other);
+        let apart = |a: EndForces, b: EndForces| {
+            let apart = [a.upstream - b.upstream, a.downstream - b.downstream];
+            apart[0].abs().max(apart[1].abs())
+        };
+        let records = || one.records.iter().zip(&other.records);
+        // Passes between simulated ones have the peaks of others.
+        let simulated = || records().filter(|(a, b)| !a.interpolated && !b.interpolated);
+        let largest_peak = simulated()
+            .map(|(a, _)| largest_force(&a.outcome))
+            .fold(largest, f64::max);
+        for (a, b) in records() {
+            worst.force = worst.force.max(apart(a.outcome.force, b.outcome.force) / largest);
+        }
+        for (Record { outcome: a, .. }, Record { outcome: b, .. }) in simulated() {
+            let during = apart(a.peak, b.peak).max(apart(a.lowest, b.lowest));
+            worst.force = worst.force.max(during / largest_peak);
+        }
+        worst
+    }
+
+    fn mesh_error(&self, level: usize, meshes: &[Passes]) -> Shares {
+        let [.., coarse, fine] = meshes else {
+            return Shares::default();
+        };
+        // Place of the mesh among those with typical errors.
+        let (spacing, _) = self.plan.levels.spacing(level);
+        let nodes = 1.001 * self.plan.levels.length_scale / spacing;
+        let fineness = ((nodes / COARSEST).log2() as usize).min(TYPICAL.len() - 1);
+        let weight = if fineness < RESOLVED {
+            WEIGHT_UNRESOLVED
+        } else {
+            WEIGHT
+        };
+        let typical = Shares::both(TYPICAL[fineness]);
+        self.difference(fine, coarse).times(weight).max(typical)
+    }
+}
+
+/// Whole passes of a day.
+pub fn a_day(scene: &Scene) -> u64 {
+    scene
+        .traffic
+        .per_day
+        .map_or(1, |per_day| per_day.round().max(1.0) as u64)
+}

@@ -1,0 +1,170 @@
+//! Traffic and daily heat: how many simulated periods a day, on which mesh, and what both leave
+//! wrong.
+//!
+//! Every pass finds the cable at the temperature of its hour, so that the cable never comes to rest
+//! as it does without heat: days are jumped over, not passes ([`cycle_jump::days`]). The number of
+//! simulated periods a day is doubled on a coarse mesh until twice as many change little; then
+//! meshes are refined as for every run.
+
+use cable_dem::Statistics;
+
+use super::day_simulator::DaySimulator;
+use crate::answer::differences::Shares;
+use crate::answer::error_estimate::ErrorParts;
+use crate::passes::{Passes, RunOptions};
+use crate::plan::{PassMethod, Period, Plan};
+use crate::refine::{MeshLoop, OnMeshes, Solved, on_coarse_level};
+use crate::scene::Heat;
+use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, SHARE, TYPICAL};
+use crate::tuning::meshes::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST};
+use crate::{Error, ErrorSource, Progress};
+
+/// Carries `plan`, whose scene has `heat`, out, where `error` has what no mesh makes smaller.
+pub fn solve(
+    plan: &Plan<'_>,
+    heat: &Heat,
+    method: PassMethod,
+    options: &RunOptions<'_>,
+    mut error: ErrorParts,
+) -> Result<Solved, Error> {
+    let mut statistics = Statistics::default();
+    let mut days = DaySimulator {
+        plan,
+        period: &plan.period,
+        heat,
+        every_pass: matches!(method, PassMethod::EveryPass(_)),
+        begin: 0,
+        periods_a_day: FIRST_PERIODS,
+        finer: false,
+    };
+    let first = first_level(plan);
+    let progress = options.progress.part(0.0, FINDING);
+    error[ErrorSource::Days] = find_periods(&mut days, first, progress, &mut statistics)?;
+    let meshes = MeshLoop {
+        plan,
+        options,
+        simulation: &days,
+        known_error: None,
+    };
+    let mut solved = meshes.refine(first, options.progress.part(FINDING, 1.0), error)?;
+    let of_days = error_of_days(&days, solved.level, &solved.passes, &mut statistics)?;
+    solved.error[ErrorSource::Days] = error[ErrorSource::Days] + of_days;
+    solved.statistics += statistics;
+    solved.warnings.extend(days.warning());
+    let known = solved.passes.days.as_ref().ok_or(Error::NoPass)?;
+    solved.reasons.push(days.reason(known)?);
+    solved.heat = Some(days.record(&solved.passes, known)?);
+    Ok(solved)
+}
+
+/// The level to begin with: the first whose typical error leaves room for the other parts.
+fn first_level(plan: &Plan<'_>) -> usize {
+    if plan.levels.named {
+        return plan.levels.first;
+    }
+    let allowed = (1.0 - SHARE) * plan.scene.solver.tolerance;
+    let fine = TYPICAL.iter().position(|&error| error <= allowed);
+    fine.unwrap_or(TYPICAL.len()).max(1)
+}
+
+/// The days on a level that is coarse relative to `level`, if there is one, and that level.
+fn coarse(days: &DaySimulator<'_>, level: usize) -> Result<(usize, Passes), Error> {
+    let Plan { scene, levels, .. } = days.plan;
+    let simulate = |level| days.simulate(scene, level, None, Progress::default(), false);
+    on_coarse_level(levels, level, COARSER, simulate)
+}
+
+/// Gives `days` as many simulated periods as are enough for `level`, found on a coarser one; and
+/// the error that they leave.
+fn find_periods(
+    days: &mut DaySimulator<'_>,
+    level: usize,
+    progress: Progress<'_>,
+    statistics: &mut Statistics,
+) -> Result<Shares, Error> {
+    let scene = days.plan.scene;
+    let allowed = Shares::both(SHARE * scene.solver.tolerance);
+    if days.day()?.is_simulated() {
+        return Ok(Shares::default());
+    }
+    let (level, mut fewer) = coarse(days, level)?;
+    *statistics += fewer.statistics;
+    let mut parts = progress.halving();
+    loop {
+        days.periods_a_day *= 2;
+        let more = days.simulate(scene, level, Some(&fewer), parts(), false)?;
+        *statistics += more.statistics;
+        let error = days.difference(&more, &fewer).times(CAUTION);
+        let next = REFINEMENT_COST.saturating_mul(more.statistics.node_updates);
+        if error.is_within(allowed) || 4 * next > MAX_NODE_UPDATES {
+            return Ok(error);
+        }
+        let twice = DaySimulator {
+            periods_a_day: 2 * days.periods_a_day,
+            ..*days
+        };
+        if twice.day()?.is_simulated() {
+            days.periods_a_day = twice.periods_a_day;
+            return Ok(Shares::default());
+        }
+        fewer = more;
+    }
+}
+
+/// What jumps over days leave wrong in those of `finest`, another beginning of the sequence, and a
+/// period that stands in for the traffic: what they change in days on a mesh that is coarse
+/// relative to `level`.
+fn error_of_days(
+    days: &DaySimulator<'_>,
+    level: usize,
+    finest: &Passes,
+    statistics: &mut Statistics,
+) -> Result<Shares, Error> {
+    let others = if days.every_pass {
+        &[][..]
+    } else {
+        &days.period.others
+    };
+    let periods: Vec<(Period, f64)> = others
+        .iter()
+        .map(|(vehicles, share)| {
+            let vehicles = vehicles.clone();
+            let period = Period {
+                vehicles,
+                ..days.period.clone()
+            };
+            (period, *share)
+        })
+        .collect();
+    let others = periods
+        .iter()
+        .map(|(period, share)| (DaySimulator { period, ..*days }, *share));
+    let mut others: Vec<(DaySimulator<'_>, f64)> = others.collect();
+    // Where the sequence goes on the next day; nor does the traffic keep the hours at which the
+    // seldom vehicles of stand-ins come.
+    let half = (!others.is_empty()).then(|| days.period.len() / 2);
+    let begun_later = days.broken_sequence().or(half);
+    others.extend(begun_later.map(|begin| (DaySimulator { begin, ..*days }, 1.0)));
+    let are_jumped = finest.schedule.iter().any(|length| *length > 0);
+    if !are_jumped && others.is_empty() {
+        return Ok(Shares::default());
+    }
+    let scene = days.plan.scene;
+    let (level, own) = coarse(days, level)?;
+    *statistics += own.statistics;
+    let mut simulate = |days: &DaySimulator<'_>, like: Option<&Passes>| {
+        let simulated = days.simulate(scene, level, like, Progress::default(), false)?;
+        *statistics += simulated.statistics;
+        Ok::<_, Error>(simulated)
+    };
+    let mut error = Shares::default();
+    if are_jumped {
+        let finer = DaySimulator { finer: true, ..*days };
+        error = days.difference(&simulate(&finer, None)?, &own);
+    }
+    for (other, share) in &others {
+        let other = simulate(other, Some(&own))?;
+        error = error + days.difference_of_days(&own, &other).times(*share);
+    }
+    Ok(error)
+}

@@ -1,0 +1,66 @@
+//! What days of heat show a reader.
+
+use cycle_jump::days::Days;
+
+use super::day_simulator::{DaySimulator, a_day};
+use crate::Error;
+use crate::answer::{DayExtremes, DayPoint, HeatRecord};
+use crate::passes::{Passes, force_profile};
+use crate::scene::DAYS_PER_YEAR;
+use crate::shown::words_if;
+
+impl DaySimulator<'_> {
+    /// How many days were simulated, and how.
+    pub fn reason(&self, days: &Days) -> Result<String, Error> {
+        let day = self.day()?;
+        let (simulated, count) = (days.simulated_days, days_of(self));
+        let real = if day.is_simulated() {
+            "all passes".to_owned()
+        } else {
+            format!("{} periods of the traffic", self.periods_a_day)
+        };
+        let lasting = days.periodic_from.map_or_else(String::new, |day| {
+            format!("; from day {day} on every day is like the one before")
+        });
+        let others = words_if(simulated < count, ", the others follow from them");
+        Ok(format!(
+            "days: {simulated} of {count} were simulated with {real} each{others}{lasting}"
+        ))
+    }
+
+    /// The extremes of the listed days and of all.
+    pub fn record(&self, passes: &Passes, days: &Days) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
+        let passes_per_day = a_day(self.plan.scene);
+        let of_day = |(day, extremes): &(u64, _)| DayExtremes::new(*day, extremes);
+        let per_kelvin = self.per_kelvin();
+        let cycle = days.last_day.iter().map(|row| {
+            let outcome = &row.outcome;
+            DayPoint {
+                hour: 24.0 * (row.passes as f64 - 0.5) / passes_per_day as f64,
+                warming_k: row.thermal_force / per_kelvin,
+                upstream_force_n: outcome.force.upstream,
+                downstream_force_n: outcome.force.downstream,
+                upstream_displacement_m: outcome.upstream_displacement,
+                downstream_displacement_m: outcome.downstream_displacement,
+            }
+        });
+        let drift = days.periodic_from.map(|_| days.drift);
+        let record = HeatRecord {
+            cycle: cycle.collect(),
+            passes_per_day,
+            all_days: DayExtremes::new(days_of(self), &days.extremes),
+            periodic_from_day: days.periodic_from,
+            drift_per_day_m: drift,
+            drift_per_year_m: drift.map(|drift| DAYS_PER_YEAR * drift),
+            hot_profile: force_profile(&passes.cable, &days.hot)?,
+            cold_profile: force_profile(&passes.cable, &days.cold)?,
+        };
+        Ok((days.days.iter().map(of_day).collect(), record))
+    }
+}
+
+/// Days of the plan's traffic.
+fn days_of(simulator: &DaySimulator<'_>) -> u64 {
+    let scene = simulator.plan.scene;
+    scene.traffic.passes.div_ceil(a_day(scene))
+}

@@ -1,0 +1,265 @@
+//! Jumps that are good enough: how large they may be, and what they leave wrong.
+//!
+//! Two runs that differ in the error of a single jump and in the length of the first one differ by
+//! about the error of either. Each is compared with one whose jumps are half as large.
+
+use cable_dem::Statistics;
+use cycle_jump::{Guide, Record};
+
+use super::draws::Draws;
+use crate::answer::differences::{Scale, Shares, difference, extremes_difference};
+use crate::passes::{JumpSize, Jumping, KnownJumps, Passes, Task};
+use crate::plan::{Period, Plan};
+use crate::refine::on_coarse_level;
+use crate::tuning::jumps::{
+    FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, SHARE, SHORT,
+};
+use crate::tuning::meshes::{MAX_NODE_UPDATES, REFINEMENT_COST};
+use crate::{Error, Progress};
+
+const FINEST: usize = 8;
+/// Draws of a random order at least, at most, and as long as they take no more nodes than this.
+const FEWEST_DRAWS: usize = 4;
+const MOST_DRAWS: usize = 24;
+
+/// Jumps that are good enough, where they were found.
+pub struct Found {
+    /// The level they were found on, and its passes.
+    pub level: usize,
+    pub passes: Passes,
+    pub known: KnownJumps,
+    /// What a random order changes.
+    pub draws: Option<Draws>,
+}
+
+/// Finds jumps for `plan` that take at most their share of its tolerance, or the best that are
+/// affordable. Returned with them: the work of all runs.
+pub fn find<'a>(
+    plan: &'a Plan<'a>,
+    scale: Scale,
+    progress: Progress<'a>,
+) -> Result<(Found, Statistics), Error> {
+    let mut search = Search {
+        plan,
+        scale,
+        allowed: Shares::both(SHARE * plan.scene.solver.tolerance),
+        // How many runs it takes is not known: each is half of what is left.
+        parts: Box::new(progress.halving()),
+        statistics: Statistics::default(),
+    };
+    let mut found = search.jumps()?;
+    found.known.error = found.known.error + search.mix_error(&found)?;
+    if !plan.period.drawn.is_empty() {
+        let draws = search.draws(&found)?;
+        found.known.error = found.known.error + draws.error;
+        found.draws = Some(draws);
+    }
+    Ok((found, search.statistics))
+}
+
+/// The largest jumps over the passes of `plan` that are tried.
+fn largest(plan: &Plan<'_>) -> JumpSize {
+    let periods = (FIRST_PASSES / plan.period.len()) as u64;
+    JumpSize {
+        tolerance: (FIRST.0 * plan.scene.solver.tolerance).min(LARGEST),
+        first_periods: periods.clamp(FEWEST_FIRST_PERIODS, MOST_FIRST_PERIODS),
+        first_jump: FIRST.1,
+    }
+}
+
+impl JumpSize {
+    /// With half the error of a jump and a first jump half as long.
+    fn finer(self) -> Self {
+        Self {
+            tolerance: 0.5 * self.tolerance,
+            first_jump: 0.5 * self.first_jump,
+            ..self
+        }
+    }
+}
+
+/// The first passes of a random order, which are those of a draw that no mix foretells: two
+/// periods, or half of the traffic if that is less.
+fn first_drawn(plan: &Plan<'_>) -> u64 {
+    let first = (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2);
+    if plan.period.drawn.is_empty() { 0 } else { first }
+}
+
+/// Runs with jumps of one plan, each compared with others.
+struct Search<'a> {
+    plan: &'a Plan<'a>,
+    scale: Scale,
+    /// Error that jumps may leave.
+    allowed: Shares,
+    parts: Box<dyn FnMut() -> Progress<'a> + 'a>,
+    /// Work of all runs.
+    statistics: Statistics,
+}
+
+impl Search<'_> {
+    /// The passes by jumps of this `size` over `period`.
+    fn simulate(&mut self, level: usize, size: JumpSize, period: &Period) -> Result<Passes, Error> {
+        let plan = self.plan;
+        let jumping = Jumping {
+            period,
+            size,
+            most_passes: plan.levels.affordable_passes(level),
+            guide: Guide::Free,
+            beyond: false,
+        };
+        let task = Task {
+            progress: (self.parts)(),
+            ..plan.task(plan.scene, plan.levels.mesh(level)?)
+        };
+        let passes = task.carry_out(Some(&jumping))?;
+        self.statistics += passes.statistics;
+        Ok(passes)
+    }
+
+    /// The largest jumps whose error is allowed.
+    fn jumps(&mut self) -> Result<Found, Error> {
+        let Plan {
+            scene,
+            period,
+            levels,
+            ..
+        } = self.plan;
+        let mut size = largest(self.plan);
+        // A short duct costs little, and the few nodes of a coarser mesh behave differently.
+        let below = usize::from(scene.duct.length > SHORT * scene.duct.depth);
+        let first = levels.first;
+        let (level, mut passes) =
+            on_coarse_level(levels, first, below, |level| self.simulate(level, size, period))?;
+        let cost = 2 * REFINEMENT_COST.pow((first - level) as u32);
+        let mut error = None;
+        for _ in 0..FINEST {
+            let finer = match self.simulate(level, size.finer(), period) {
+                Err(Error::Jumps(_)) if error.is_some() => break,
+                finer => finer?,
+            };
+            let off = difference(&finer.records, &passes.records, self.scale);
+            (size, passes, error) = (size.finer(), finer, Some(off));
+            if off.is_within(self.allowed) || cost * passes.statistics.node_updates > MAX_NODE_UPDATES {
+                break;
+            }
+        }
+        let mut error = error.unwrap_or_default();
+        if error == Shares::default() && passes.schedule.iter().any(|&length| length > 0) {
+            // Both runs took the same jumps: one that takes others shows their error.
+            let others = JumpSize {
+                first_periods: 2 * size.first_periods,
+                ..size.finer()
+            };
+            let others = self.simulate(level, others, period)?;
+            error = difference(&passes.records, &others.records, self.scale);
+        }
+        Ok(Found {
+            level,
+            passes,
+            known: KnownJumps { size, error },
+            draws: None,
+        })
+    }
+
+    /// The passes of `vehicles` in place of the period of the plan, by jumps as good as those that
+    /// were found.
+    fn in_place(&mut self, found: &Found, vehicles: Vec<usize>) -> Result<Passes, Error> {
+        let size = found.known.size;
+        let first = size.first_periods * self.plan.period.len() as u64;
+        let size = JumpSize {
+            first_periods: first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS),
+            ..size
+        };
+        let period = Period {
+            vehicles,
+            ..self.plan.period.clone()
+        };
+        self.simulate(found.level, size, &period)
+    }
+
+    /// What random orders of the period leave in the mean, from as many draws as the tolerance
+    /// needs or as are affordable.
+    fn draws(&mut self, found: &Found) -> Result<Draws, Error> {
+        let mut all = Vec::new();
+        let mut work = 0;
+        loop {
+            let passes = self.in_place(found, self.plan.period.draw(all.len() as u64))?;
+            work += passes.statistics.node_updates;
+            all.push(passes.records);
+            if all.len() >= FEWEST_DRAWS {
+                let draws = Draws::new(&found.passes.records, &all, first_drawn(self.plan), self.scale);
+                let is_enough = work > MAX_NODE_UPDATES / 4 || all.len() >= MOST_DRAWS;
+                if is_enough || draws.error.is_within(self.allowed) {
+                    return Ok(draws);
+                }
+            }
+        }
+    }
+
+    /// What a period that stands in for the traffic changes: its share of what each other one does,
+    /// forces and movements on the passes that both show, and the largest of all.
+    fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
+        let Plan { period, .. } = self.plan;
+        let first = first_drawn(self.plan);
+        let later = |passes: &Passes| -> Vec<Record> {
+            let later = passes.records.iter().filter(|record| record.pass > first);
+            later.cloned().collect()
+        };
+        let all = |passes: &Passes| -> Vec<Record> { [&later(passes)[..], &passes.peaks].concat() };
+        let mut error = Shares::default();
+        for (vehicles, share) in &period.others {
+            let other = self.in_place(found, vehicles.clone())?;
+            let rows = difference(&later(&found.passes), &later(&other), self.scale);
+            let extremes = extremes_difference(&all(&found.passes), &all(&other), self.scale);
+            // The largest of all passes are not between those of two mixes; of absent vehicles
+            // single passes show them.
+            let is_absent = vehicles.iter().any(|vehicle| period.absent.contains(vehicle));
+            let weight = if is_absent { *share } else { 1.0 };
+            error = error + rows.times(*share).max(extremes.times(weight));
+        }
+        Ok(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Scene, run};
+
+    /// A short duct between springs, whose cable lies still after ten passes: the first jump goes
+    /// to the end, whatever error is asked for.
+    const SETTLED: &str = "
+[duct]
+length = 12.6
+depth = 1.13
+[[ground.layers]]
+young_modulus = 1.5e8
+poisson_ratio = 0.42
+[cable]
+weight = 168
+axial_stiffness = 1.35e7
+[friction]
+dynamic_coefficient = 0.305
+shape_factor = 1.28e6
+[ends]
+upstream = { spring = 1e5 }
+downstream = { spring = 5.35e6 }
+[[vehicles]]
+speed = 7
+load = 1.6e5
+[traffic]
+passes = 120
+";
+
+    #[test]
+    fn two_runs_that_take_the_same_jumps_do_not_make_them_exact() {
+        let jumped = run(&Scene::from_toml("scene", SETTLED).unwrap()).unwrap();
+        let stated = jumped.error_estimate.parts.passes;
+        assert!(jumped.cost.simulated_passes < 20 && stated > 0.0, "{stated}");
+        let every = SETTLED.to_owned() + "[solver]\nmethod = \"quasi-static\"";
+        let every = run(&Scene::from_toml("scene", &every).unwrap()).unwrap();
+        for (jumped, every) in jumped.passes.iter().zip(&every.passes) {
+            let (force, exact) = (jumped.downstream_peak_n, every.downstream_peak_n);
+            assert!((force - exact).abs() <= 0.01 * exact, "{force} {exact}");
+        }
+    }
+}
