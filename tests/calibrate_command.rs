@@ -464,3 +464,22 @@ fn whatever_is_measured_is_fitted() {
         .collect();
     assert_eq!(units, ["N", "m"]);
 }
+
+/// A thousandth of what the model moves: no friction explains that, and the answer says so.
+#[test]
+fn a_model_that_misses_its_readings_by_far_has_status_1() {
+    let data = file("missed.csv", "pass,movement_m\n0,0\n10,1e-7\n20,2e-7\n");
+    let free = [
+        "calibrate",
+        UPPER,
+        "--set",
+        "ends.downstream=free",
+        "--fit",
+        "dynamic_coefficient",
+    ];
+    let output = creepage(&[&free[..], &["--json", "--data", data.to_str().unwrap()]].concat());
+    assert_eq!(output.status.code(), Some(1));
+    let answer: Value = serde_json::from_slice(&output.stdout).expect("a document all the same");
+    assert_eq!(answer["lack_of_fit"]["suspicious"], Value::Bool(true));
+    assert_eq!(answer["parameters"][0]["identifiable"], Value::Bool(false));
+}

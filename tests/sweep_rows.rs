@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use creepage::sweep::{Answer, AnswerColumn, AnswerValues, Axis, Samples, Sweep, SweepError, SweepOptions};
-use creepage::{Progress, SceneFile};
+use creepage::{CableEnd, Limited, Limits, Progress, SceneFile};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 const FRICTION: &str = "friction.dynamic_coefficient";
@@ -68,6 +68,36 @@ fn a_row_is_the_run_of_its_scene_to_the_last_bit() {
         );
         assert_eq!(of("error_estimate"), alone.error_estimate, "{row}");
     }
+}
+
+/// The verdict of a row is that of its run.
+#[test]
+fn rows_are_judged_by_limits() {
+    let base = file(&["traffic.passes=20", "traffic.per_day=4", "solver.tolerance=0.05"]);
+    let columns = table(&[(FRICTION, &["0.1", "0.3", "0.5"])]);
+    let sweep = Sweep::of_table(base, columns, Samples::default()).unwrap();
+    let runs: Vec<_> = (0..3)
+        .map(|row| creepage::run(&sweep.scene(row).unwrap()).unwrap())
+        .collect();
+    let largest = |run| creepage::Run::largest(run, CableEnd::Downstream, Limited::Force);
+    let limits = Limits::both(Some(0.5 * (largest(&runs[0]) + largest(&runs[1]))), None);
+    let found = answers(&sweep.with_limits(limits.clone()));
+    let exceeded = &found
+        .iter()
+        .find(|column| column.name == "limit_exceeded")
+        .unwrap()
+        .values;
+    let verdicts = runs.iter().map(|run| limits.verdicts(run)[1]);
+    let expected: Vec<_> = verdicts
+        .clone()
+        .map(|verdict| Some(verdict.is_exceeded()))
+        .collect();
+    assert_eq!(*exceeded, AnswerValues::Flags(expected.clone()));
+    assert!(expected.contains(&Some(true)) && expected.contains(&Some(false)));
+    let years: Vec<_> = verdicts
+        .map(|verdict| verdict.reached_after.and_then(|reached| reached.years))
+        .collect();
+    assert_eq!(numbers(&found, "limit_reached_after_years"), years);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use arrow_array::types::{
     Decimal128Type, Decimal256Type, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type,
     UInt8Type, UInt16Type, UInt32Type, UInt64Type,
 };
-use arrow_array::{Array, ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray};
+use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray};
 use arrow_schema::{DataType, Field, Schema};
 use creepage::sweep::AnswerValues;
 use pyo3::prelude::*;
@@ -141,6 +141,7 @@ impl Table {
                 AnswerValues::Counts(values) => {
                     Arc::new(values.into_iter().map(count).collect::<Int64Array>())
                 }
+                AnswerValues::Flags(values) => Arc::new(BooleanArray::from(values)),
                 AnswerValues::Texts(values) => Arc::new(StringArray::from(values)),
             };
             (Field::new(name, array.data_type().clone(), true), array)

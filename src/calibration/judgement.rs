@@ -26,6 +26,9 @@ const CHANCE_OF_ERRORS: f64 = 0.03;
 const OUTLIER: f64 = 4.5;
 /// Makes the median of |r| under Gaussian noise a standard deviation.
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
+/// R² of a model whose residuals are three times the spread of the readings: it does not follow them
+/// at all, however few they are.
+pub const MISSED: f64 = -8.0;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
 /// Fewest readings that are judged beside the parameters.
@@ -81,7 +84,10 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         p_sigma: (!fit.noise_estimated).then(|| probability_of_scatter(&sequences, used)),
         suspicious: false,
     };
-    let failed = failed_tests(&lack_of_fit, &errors, &fit.estimates[0].name);
+    let mut failed = failed_tests(&lack_of_fit, &errors, &fit.estimates[0].name);
+    if fit.r_squared.is_some_and(|explained| explained < MISSED) {
+        failed.push("they are many times the spread of the readings".into());
+    }
     let is_robust = problem.options.loss != Loss::Squares;
     let draw = !outliers.is_empty() && !is_robust;
     lack_of_fit.suspicious = !failed.is_empty() || !mistakes.is_empty() || draw;

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::Failure;
+use super::limits::LimitArguments;
 use super::progress::watched;
 use super::readings::TableArguments;
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
@@ -26,7 +27,7 @@ Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.xlsx
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
-  creepage sweep my-duct.toml --rows ducts.csv --out answers.xlsx
+  creepage sweep my-duct.toml --rows ducts.csv --limit-force 2kN --limit-movement 10mm --out answers.xlsx
   creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
 )]
 pub struct Arguments {
@@ -52,6 +53,8 @@ pub struct Arguments {
     /// value of the scene, may be a distribution as in --vary
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     rows: Option<PathBuf>,
+    #[command(flatten)]
+    limits: LimitArguments,
     #[command(flatten)]
     table: TableArguments,
     /// Table to write, FILE.csv or FILE.xlsx
@@ -89,7 +92,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(rows) => Sweep::of_rows(file, rows, &arguments.table.0.table, samples)?,
         None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
     };
-    warn_of_slips(&sweep.file_at(0)?);
+    let first = sweep.file_at(0)?;
+    warn_of_slips(&first);
+    let sweep = if arguments.limits.are_given() {
+        // Clamps are those of the first point that is a scene at all.
+        let scene = (0..sweep.count()).find_map(|index| sweep.scene(index).ok());
+        let limits = arguments
+            .limits
+            .limits(&scene.map_or_else(|| first.scene(), Ok)?)?;
+        sweep.with_limits(limits)
+    } else {
+        sweep
+    };
     let tables = sweep.files();
     let read = [Some(&*arguments.scene.file.scene), rows].into_iter().flatten();
     let mut files = arguments
@@ -133,7 +147,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let svg = sweep.map(&summary.rows, arguments.map_of)?.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
-    let units = Units::typed(&sweep.file_at(0)?, None, None);
+    let units = arguments.limits.units(&first);
     arguments
         .json
         .print(&summary, || print(&summary, &sweep, arguments, &units))

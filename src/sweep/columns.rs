@@ -30,6 +30,9 @@ const HEAT_ANSWER: [&str; 5] = [
     "upstream_min_n",
     "drift_per_day_m",
 ];
+/// Those of limits, where there are some.
+const LIMITS: [&str; 2] = [EXCEEDED, "limit_reached_after_years"];
+const EXCEEDED: &str = "limit_exceeded";
 /// Columns of counts.
 const PASSES: &str = "passes_to_95_percent";
 const SAMPLE: &str = "sample";
@@ -59,6 +62,8 @@ pub enum AnswerValues {
     Numbers(Vec<Option<f64>>),
     /// Counts.
     Counts(Vec<Option<u64>>),
+    /// Yes or no.
+    Flags(Vec<Option<bool>>),
     /// Texts.
     Texts(Vec<Option<String>>),
 }
@@ -69,6 +74,7 @@ impl AnswerColumn {
         match &mut self.values {
             AnswerValues::Numbers(values) => values.push(cell.as_f64()),
             AnswerValues::Counts(values) => values.push(cell.as_u64()),
+            AnswerValues::Flags(values) => values.push(cell.as_bool()),
             AnswerValues::Texts(values) => values.push(cell.as_str().map(str::to_owned)),
         }
     }
@@ -113,9 +119,13 @@ impl Sweep {
         let sets_heat = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
         let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets_heat);
         let heat = HEAT_ANSWER.into_iter().filter(|_| is_heated);
-        let answer = sample.into_iter().chain(ANSWER).chain(heat).map(|name| {
-            let is_count = [PASSES, SAMPLE].contains(&name);
-            column(name, if is_count { counts() } else { numbers() }, None)
+        let is_limited = self.limits.all().next().is_some();
+        let limits = LIMITS.into_iter().filter(|_| is_limited);
+        let answer = sample.into_iter().chain(ANSWER).chain(heat).chain(limits);
+        let answer = answer.map(|name| match name {
+            PASSES | SAMPLE => column(name, counts(), None),
+            EXCEEDED => column(name, AnswerValues::Flags(Vec::new()), None),
+            _ => column(name, numbers(), None),
         });
         let status = STATUS.map(|name| column(name, texts(), None));
         varied.chain(answer).chain(status).collect()
@@ -144,19 +154,26 @@ impl Sweep {
     }
 }
 
+/// Whether a column holds a field of an answer.
+fn is_answer(name: &str) -> bool {
+    let all = [&ANSWER[..], &HEAT_ANSWER, &LIMITS];
+    all.iter().any(|names| names.contains(&name))
+}
+
 /// The row of number `index` whose cells stand in a file; `None` for a record that is none.
 pub fn row_of(index: usize, record: &csv::StringRecord, columns: &[AnswerColumn]) -> Option<Row> {
     let end = columns.len() - STATUS.len();
     let outcome = match record.get(end)? {
         "ok" => {
-            let number = |text: &str| match text.parse::<u64>() {
-                Ok(count) => Value::from(count),
-                Err(_) => text.parse::<f64>().map_or(Value::Null, Value::from),
+            let value = |text: &str| match (text.parse::<u64>(), text.parse::<bool>()) {
+                (Ok(count), _) => Value::from(count),
+                (_, Ok(flag)) => Value::from(flag),
+                _ => text.parse::<f64>().map_or(Value::Null, Value::from),
             };
             let fields = columns[..end].iter().zip(record);
             let fields: Map<String, Value> = fields
-                .filter(|(column, _)| ANSWER.contains(&&*column.name) || HEAT_ANSWER.contains(&&*column.name))
-                .map(|(column, text)| (column.name.clone(), number(text)))
+                .filter(|(column, _)| is_answer(&column.name))
+                .map(|(column, text)| (column.name.clone(), value(text)))
                 .collect();
             Ok(serde_json::from_value(Value::from(fields)).ok()?)
         }

@@ -92,7 +92,8 @@ impl Sweep {
         let compute = || -> Result<Answer, Error> {
             let run = run(&self.scene(index)?)?;
             finite::check(&run)?;
-            Answer::of(&run).ok_or(Error::NoPass)
+            let answer = Answer::of(&run).ok_or(Error::NoPass)?;
+            Ok(answer.judged(&run, &self.limits))
         };
         let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
             Ok(Err(Error::Stopped)) => return Err(SweepError::Stopped),

@@ -9,7 +9,7 @@ use super::distribution::{ID, drawn};
 use super::error::SweepError;
 use super::samples::{Samples, hash};
 use crate::scene::{SceneError, TypedValue, Wrong, WrongKind, did_you_mean, nearest_key};
-use crate::{Scene, SceneFile};
+use crate::{Limits, Scene, SceneFile};
 
 /// Most points of a sweep.
 const MOST_POINTS: usize = 100_000_000;
@@ -31,6 +31,8 @@ pub struct Sweep {
     by_row: bool,
     /// Keys that are drawn, here or in other parts of their table.
     pub(super) drawn_keys: BTreeSet<String>,
+    /// What every point is judged by.
+    pub(super) limits: Limits,
 }
 
 impl Sweep {
@@ -77,6 +79,13 @@ impl Sweep {
         Self::of(file, axes.collect(), samples, true, drawn.into_iter().collect())
     }
 
+    /// The same with limits, which every point is judged by.
+    #[must_use]
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
     fn of(
         file: SceneFile,
         mut axes: Vec<Axis>,
@@ -116,6 +125,7 @@ impl Sweep {
             groups,
             by_row,
             drawn_keys,
+            limits: Limits::default(),
         };
         sweep.check_keys()?;
         sweep.check_values()?;
@@ -298,9 +308,10 @@ impl Sweep {
             axes,
             samples,
             by_row,
+            limits,
             ..
         } = self;
-        let text = format!("{version}\0{scene:?}\0{axes:?}\0{samples:?}\0{by_row}\0{files:?}");
+        let text = format!("{version}\0{scene:?}\0{axes:?}\0{samples:?}\0{by_row}\0{files:?}\0{limits:?}");
         hash(text.as_bytes())
     }
 }

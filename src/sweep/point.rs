@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Run;
+use crate::{Limits, Run, Verdict};
 
 /// What one point of a sweep answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -24,6 +24,12 @@ pub struct Answer {
     pub downstream_displacement_m: f64,
     /// Estimated relative error of the forces.
     pub error_estimate: f64,
+    /// Whether any limit is exceeded, if there are limits.
+    #[serde(default)]
+    pub limit_exceeded: Option<bool>,
+    /// When the first of them is \[years\], if the vehicles a day are known.
+    #[serde(default)]
+    pub limit_reached_after_years: Option<f64>,
     /// What heat adds, over all days.
     #[serde(flatten, default)]
     pub heat: Option<HeatAnswer>,
@@ -67,6 +73,8 @@ impl Answer {
             upstream_displacement_m: last.upstream_displacement_m,
             downstream_displacement_m: last.downstream_displacement_m,
             error_estimate: run.error_estimate.relative,
+            limit_exceeded: None,
+            limit_reached_after_years: None,
             heat: run.heat.as_ref().map(|heat| HeatAnswer {
                 downstream_max_n: heat.all_days.downstream_max_n,
                 downstream_min_n: heat.all_days.downstream_min_n,
@@ -75,5 +83,14 @@ impl Answer {
                 drift_per_day_m: heat.drift_per_day_m,
             }),
         })
+    }
+
+    /// The same with what `run` makes of the limits.
+    pub(super) fn judged(mut self, run: &Run, limits: &Limits) -> Self {
+        let verdicts = limits.verdicts(run);
+        let reached = verdicts.iter().filter_map(|verdict| verdict.reached_after?.years);
+        self.limit_exceeded = (!verdicts.is_empty()).then(|| verdicts.iter().any(Verdict::is_exceeded));
+        self.limit_reached_after_years = reached.min_by(f64::total_cmp);
+        self
     }
 }

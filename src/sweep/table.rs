@@ -94,6 +94,7 @@ pub fn texts(cells: &[Value]) -> impl Iterator<Item = String> {
         Value::String(text) => harmless(text),
         Value::Number(number) if number.is_f64() => number.as_f64().unwrap_or_default().to_string(),
         Value::Number(count) => count.to_string(),
+        Value::Bool(flag) => flag.to_string(),
         _ => String::new(),
     })
 }
@@ -125,6 +126,7 @@ fn write_book(
         for cells in rows {
             let cells = cells.into_iter().zip(columns).map(|(cell, column)| match cell {
                 Value::String(text) => Cell::Text(text),
+                Value::Bool(flag) => Cell::Text(if flag { "yes" } else { "no" }.to_owned()),
                 cell => cell.as_f64().map_or(Cell::Absent, |si| {
                     Cell::Number(column.unit.map_or(si, |unit| unit.of_si(si)))
                 }),
