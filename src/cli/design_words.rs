@@ -195,8 +195,8 @@ pub fn why_none(design: &Design, units: &Units) -> String {
     };
     let fails: Vec<String> = design.limits.all().filter_map(fails).collect();
     format!(
-        "{}: at the nearest, which is on standard output, {}; try springs at both ends or a clamp (--at), a larger limit, or less friction or \
-         load on the duct",
+        "{}: at the nearest, which is on standard output, {}; try springs at both ends or a clamp (--at), a larger limit, or less load on the \
+         duct",
         none(design),
         fails.join(" and ")
     )
