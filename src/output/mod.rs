@@ -19,6 +19,8 @@ mod temporary;
 
 pub use error::OutputError;
 pub(crate) use files::Files;
-pub(crate) use target::{Draft, Output};
+pub(crate) use target::Draft;
+#[cfg(feature = "cli")]
+pub(crate) use target::Output;
 #[cfg(all(feature = "cli", unix))]
 pub(crate) use temporary::remove_all;
