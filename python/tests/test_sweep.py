@@ -102,7 +102,7 @@ def test_any_other_rows_give_a_table_that_all_take_over():
     "columns, part",
     [
         ({"duct.depht": ["1 m"]}, "did you mean `duct.depth`"),
-        ({"id": ["a"]}, "no column that is named as a key"),
+        ({"id": ["a"]}, "no varied key"),
         ({"duct.depth": ["normal(1, 0.1)"]}, "no samples"),
     ],
 )
