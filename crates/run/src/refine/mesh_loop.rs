@@ -103,7 +103,8 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         mut error: ErrorParts,
     ) -> Result<Solved, Error> {
         let plan = self.plan;
-        let mut parts = progress.refining();
+        // Mostly the first mesh is good enough.
+        let mut parts = progress.parts(0.8);
         let mut statistics = Statistics::default();
         let mut simulate = |level, below: Option<&Passes>, progress, answer| {
             let passes = self
@@ -186,7 +187,10 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let others = [ErrorSource::Passes, ErrorSource::Days, ErrorSource::Inertia].map(|of| error[of]);
         let others = others[0] + others[1] + others[2];
         let of_mesh = error.total().less(others);
-        let allowed = allowed(self.plan.scene.solver.tolerance, others);
+        // What these, which no finer mesh takes away, leave of the tolerance.
+        let tolerance = self.plan.scene.solver.tolerance;
+        let least = Shares::both(LEAST_SHARE * tolerance.max(others.worse()));
+        let allowed = Shares::both(tolerance).less(others).max(least);
         self.error_is_known(meshes) && (!still || level >= SHARP) && of_mesh.is_within(allowed)
     }
 
@@ -210,12 +214,6 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
     fn error_is_known(&self, meshes: &[Passes]) -> bool {
         meshes.len() > 1 || self.plan.levels.named
     }
-}
-
-/// What `others`, which no finer mesh takes away, leave of the `tolerance`.
-fn allowed(tolerance: f64, others: Shares) -> Shares {
-    let least = LEAST_SHARE * tolerance.max(others.worse());
-    Shares::both(tolerance).less(others).max(Shares::both(least))
 }
 
 /// What was simulated on the coarsest of `below` levels below `first` that is not too coarse, or on
