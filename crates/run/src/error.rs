@@ -154,14 +154,12 @@ impl Error {
     #[must_use]
     pub fn located(self, file: &SceneFile) -> Self {
         let location = match &self {
-            Self::Unfit { key, .. } => file.locate(key),
-            Self::TooManyNodes { .. } => file.locate("duct.length"),
             // No mesh but one that the scene names is so coarse.
             Self::Cable(CableError::CoarseMesh { .. }) => file
                 .locate("solver.node_spacing")
                 .or_else(|| file.locate("solver.vehicle_step")),
-            Self::Scene(SceneError::Wrong(wrong)) if wrong.location.is_none() => file.locate(&wrong.key),
-            _ => None,
+            _ if self.location().is_some() => None,
+            _ => self.key().and_then(|key| file.locate(key)),
         };
         match location {
             Some(location) => Self::Located {

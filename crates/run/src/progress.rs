@@ -52,19 +52,9 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Parts of it one after the other, each half of what is left: where nobody knows how many
-    /// there will be.
-    pub fn halving(self) -> impl FnMut() -> Self {
-        self.taking(0.5)
-    }
-
-    /// Parts of it for the passes on one mesh after the other: mostly the first is good enough.
-    pub fn refining(self) -> impl FnMut() -> Self {
-        self.taking(0.8)
-    }
-
-    /// Parts of it one after the other, each this `share` of what is left.
-    fn taking(mut self, share: f64) -> impl FnMut() -> Self {
+    /// Parts of it one after the other, each this `share` of what is left: where nobody knows how
+    /// many there will be.
+    pub(crate) fn parts(mut self, share: f64) -> impl FnMut() -> Self {
         move || {
             let now = self.part(0.0, share);
             self = self.part(share, 1.0);

@@ -89,7 +89,7 @@ fn find_periods(
     }
     let (level, mut fewer) = coarse(days, level)?;
     *statistics += fewer.statistics;
-    let mut parts = progress.halving();
+    let mut parts = progress.parts(0.5);
     loop {
         days.periods_a_day *= 2;
         let more = days.simulate(scene, level, Some(&fewer), parts(), false)?;

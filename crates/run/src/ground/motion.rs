@@ -68,9 +68,19 @@ pub fn length_scale(motions: &[DuctMotion], depth: f64) -> f64 {
     if least > SMOOTHER * depth { least } else { depth }
 }
 
+/// The motions with the measured peak, if the scene has one.
 fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Error> {
-    let scaled = |motion: DuctMotion, wanted: f64, peak: f64, key: &'static str| {
-        let factor = wanted / peak;
+    let Some(scaling) = scene.ground.scaling() else {
+        return Ok(motions);
+    };
+    let first = motions[0].peak_vertical();
+    let scaled = |motion: DuctMotion| {
+        let (factor, key) = match scaling {
+            PeakScaling::Longitudinal(wanted) => {
+                (wanted / motion.peak_longitudinal(), "ground.longitudinal_peak")
+            }
+            PeakScaling::Vertical(wanted) => (wanted / first, "ground.vertical_peak"),
+        };
         if factor.is_finite() {
             return Ok(motion.scaled(factor)?);
         }
@@ -80,20 +90,7 @@ fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Err
             reason: "the vehicle does not move the duct, so there is nothing to scale".into(),
         })
     };
-    let first = motions[0].peak_vertical();
-    let each = motions.into_iter();
-    match scene.ground.scaling() {
-        None => Ok(each.collect()),
-        Some(PeakScaling::Longitudinal(wanted)) => each
-            .map(|motion| {
-                let peak = motion.peak_longitudinal();
-                scaled(motion, wanted, peak, "ground.longitudinal_peak")
-            })
-            .collect(),
-        Some(PeakScaling::Vertical(wanted)) => each
-            .map(|motion| scaled(motion, wanted, first, "ground.vertical_peak"))
-            .collect(),
-    }
+    motions.into_iter().map(scaled).collect()
 }
 
 /// Largest |ΔD_l| of any vehicle, as a share of the peak of its `exact` D_l.

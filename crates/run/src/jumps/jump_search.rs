@@ -44,7 +44,7 @@ pub fn find<'a>(
         scale,
         allowed: Shares::both(SHARE * plan.scene.solver.tolerance),
         // How many runs it takes is not known: each is half of what is left.
-        parts: Box::new(progress.halving()),
+        parts: Box::new(progress.parts(0.5)),
         statistics: Statistics::default(),
     };
     let mut found = search.jumps()?;
@@ -78,11 +78,11 @@ impl JumpSize {
     }
 }
 
-/// The first passes of a random order, which are those of a draw that no mix foretells: two
-/// periods, or half of the traffic if that is less.
-fn first_drawn(plan: &Plan<'_>) -> u64 {
-    let first = (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2);
-    if plan.period.drawn.is_empty() { 0 } else { first }
+/// The first passes, by which periods that stand in for the traffic are not compared: those of a
+/// random order are a draw that no mix foretells, and means over periods of other lengths hold
+/// other passes. They are two periods, or half of the traffic if that is less.
+fn first_passes(plan: &Plan<'_>) -> u64 {
+    (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2)
 }
 
 /// Runs with jumps of one plan, each compared with others.
@@ -187,7 +187,7 @@ impl Search<'_> {
             work += passes.statistics.node_updates;
             all.push(passes.records);
             if all.len() >= FEWEST_DRAWS {
-                let draws = Draws::new(&found.passes.records, &all, first_drawn(self.plan), self.scale);
+                let draws = Draws::new(&found.passes.records, &all, first_passes(self.plan), self.scale);
                 let is_enough = work > MAX_NODE_UPDATES / 4 || all.len() >= MOST_DRAWS;
                 if is_enough || draws.error.is_within(self.allowed) {
                     return Ok(draws);
@@ -200,7 +200,7 @@ impl Search<'_> {
     /// forces and movements on the passes that both show, and the largest of all.
     fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
         let Plan { period, .. } = self.plan;
-        let first = first_drawn(self.plan);
+        let first = first_passes(self.plan);
         let later = |passes: &Passes| -> Vec<Record> {
             let later = passes.records.iter().filter(|record| record.pass > first);
             later.cloned().collect()

@@ -56,13 +56,13 @@ impl Estimates {
             (Some(_), Some(per_day)) => DAYS.min(passes / per_day) * per_day.min(length * PERIODS_A_DAY),
             _ => (length * (first + per_e * periods.ln())).min(passes),
         };
-        let whole_cable = levels.whole_cable_updates(first, 1);
+        let whole_cable = levels.whole_cable_updates(first);
         Ok(Self {
             inertia,
             typical: simulated(TYPICAL_PERIODS),
             most: simulated(MOST_PERIODS),
             passes,
-            quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
+            quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first),
             explicit: EXPLICIT_SECONDS * explicit_steps(scene, levels)? * whole_cable,
         })
     }

@@ -98,7 +98,7 @@ impl Levels {
 
     /// Passes on `level` that are not too costly.
     pub fn affordable_passes(&self, level: usize) -> u64 {
-        (MAX_NODE_UPDATES as f64 / self.node_updates(level, 1)) as u64
+        (MAX_NODE_UPDATES as f64 / self.node_updates(level)) as u64
     }
 
     /// Node spacing and vehicle step on `level` \[m\].
@@ -138,20 +138,16 @@ impl Levels {
         (!self.named).then(|| Self::typical_error(level))
     }
 
-    /// About how many nodes are solved for in `passes` passes on `level`, without inertia.
-    pub fn node_updates(&self, level: usize, passes: u64) -> f64 {
+    /// About how many nodes are solved for in a pass on `level`, without inertia.
+    pub fn node_updates(&self, level: usize) -> f64 {
         let moved = (MOVED * self.length_scale).min(self.length);
-        self.updates(level, passes, moved)
+        self.whole_cable_updates(level) * moved / self.length
     }
 
-    /// Nodes of the whole cable times steps of the vehicle in `passes` passes on `level`.
-    pub fn whole_cable_updates(&self, level: usize, passes: u64) -> f64 {
-        self.updates(level, passes, self.length)
-    }
-
-    fn updates(&self, level: usize, passes: u64, moved: f64) -> f64 {
+    /// Nodes of the whole cable times steps of the vehicle in a pass on `level`.
+    pub fn whole_cable_updates(&self, level: usize) -> f64 {
         let (spacing, step) = self.spacing(level);
-        passes as f64 * self.road / step * moved / spacing
+        self.road / step * self.length / spacing
     }
 }
 

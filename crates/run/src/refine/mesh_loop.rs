@@ -103,22 +103,17 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         mut error: ErrorParts,
     ) -> Result<Solved, Error> {
         let plan = self.plan;
-        let mut parts = progress.refining();
+        // Mostly the first mesh is good enough.
+        let mut parts = progress.parts(0.8);
         let mut statistics = Statistics::default();
         let mut simulate = |level, below: Option<&Passes>, progress, answer| {
-            let passes = self
-                .simulation
-                .simulate(plan.scene, level, below, progress, answer)?;
+            let simulation = self.simulation;
+            let passes = simulation.simulate(plan.scene, level, below, progress, answer)?;
             statistics += passes.statistics;
             Ok(passes)
         };
-        let mut meshes = Vec::new();
-        let begin = parts();
-        let below = if self.known_error.is_some() {
-            0
-        } else {
-            self.simulation.levels_below()
-        };
+        let (mut level, begin, mut meshes) = (first, parts(), Vec::new());
+        let below = self.known_error.map_or(self.simulation.levels_below(), |_| 0);
         for level in plan.levels.below(first, below).chain([first]) {
             // Each level costs a quarter of the next.
             let share = |level: usize| (REFINEMENT_COST as f64).powi(level as i32 - first as i32 - 1);
@@ -126,7 +121,6 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
             let passes = simulate(level, meshes.last(), part, level == first);
             meshes.extend(unless_coarse(passes, level < first)?);
         }
-        let mut level = first;
         loop {
             error[ErrorSource::Mesh] = match self.known_error {
                 Some(known) => known,
@@ -151,12 +145,8 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
             error.measured = true;
         }
         if !road::is_followed_enough(plan.scene, &plan.ground.motions)? {
-            // What an approach that the scene names leaves out.
-            let mut far = plan.scene.clone();
-            far.solver.approach = None;
-            let simulation = self.simulation;
-            let farther = simulation.simulate(&far, level, Some(&passes), Progress::default(), false)?;
-            error[ErrorSource::Road] = simulation.difference(&passes, &farther);
+            let farther = self.followed_farther(level, &passes)?;
+            error[ErrorSource::Road] = self.simulation.difference(&passes, &farther);
             statistics += farther.statistics;
         }
         let mesh = plan.levels.mesh(level)?;
@@ -164,6 +154,15 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
             statistics,
             ..Solved::new(level, mesh, passes, error, mesh_reason(plan, &mesh))
         })
+    }
+
+    /// The same `passes` on `level` without the approach that the scene names, which shows what that
+    /// leaves out.
+    fn followed_farther(&self, level: usize, passes: &Passes) -> Result<Passes, Error> {
+        let mut far = self.plan.scene.clone();
+        far.solver.approach = None;
+        self.simulation
+            .simulate(&far, level, Some(passes), Progress::default(), false)
     }
 
     /// Whether a finer run is to measure the error of the mesh. One mesh alone does not show it;
@@ -186,7 +185,10 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let others = [ErrorSource::Passes, ErrorSource::Days, ErrorSource::Inertia].map(|of| error[of]);
         let others = others[0] + others[1] + others[2];
         let of_mesh = error.total().less(others);
-        let allowed = allowed(self.plan.scene.solver.tolerance, others);
+        // What these, which no finer mesh takes away, leave of the tolerance.
+        let tolerance = self.plan.scene.solver.tolerance;
+        let least = Shares::both(LEAST_SHARE * tolerance.max(others.worse()));
+        let allowed = Shares::both(tolerance).less(others).max(least);
         self.error_is_known(meshes) && (!still || level >= SHARP) && of_mesh.is_within(allowed)
     }
 
@@ -210,12 +212,6 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
     fn error_is_known(&self, meshes: &[Passes]) -> bool {
         meshes.len() > 1 || self.plan.levels.named
     }
-}
-
-/// What `others`, which no finer mesh takes away, leave of the `tolerance`.
-fn allowed(tolerance: f64, others: Shares) -> Shares {
-    let least = LEAST_SHARE * tolerance.max(others.worse());
-    Shares::both(tolerance).less(others).max(Shares::both(least))
 }
 
 /// What was simulated on the coarsest of `below` levels below `first` that is not too coarse, or on
