@@ -1,8 +1,9 @@
 //! Would an error of a load cell explain the readings better?
 //!
-//! The score test looks from the optimum; where an error of the cell has led the fit far away, only a fit with the error shows what it
-//! explains. These fits run on the coarsest mesh, corrected by what the final one says more at the optimum, where most runs are known. What
-//! they find is looked at on the final mesh.
+//! The score test looks from the optimum; where an error of the cell has led the fit far away, only
+//! a fit with the error shows what it explains. These fits run on the coarsest mesh, corrected by
+//! what the final one says more at the optimum, where most runs are known. What they find is looked
+//! at on the final mesh.
 
 use calibrate::{Fit, probability_of_gain};
 
@@ -36,58 +37,33 @@ pub fn alternatives<'a>(
     cells: &'a [Cell],
     rows: &[usize],
 ) -> Result<[Option<Alternative<'a>>; 2], Error> {
-    let values = found.fit.values();
-    let coarse = problem.predict(0, 1.0, &values)?;
+    let coarse = problem.predict(0, 1.0, &found.fit.values())?;
+    let pairs = found.fit.fitted.iter().zip(coarse);
     let fits = Fits {
         problem,
         found,
-        correction: found
-            .fit
-            .fitted
-            .iter()
-            .zip(coarse)
-            .map(|(fine, coarse)| fine - coarse)
-            .collect(),
+        correction: pairs.map(|(fine, coarse)| fine - coarse).collect(),
         rows,
     };
     let Some(plain) = fits.fit(0, None)? else {
         return Ok([None, None]);
     };
-    // The final fit is one without the error as well; scatter between meshes must not count for the error.
-    let last = fits.square(&found.fit);
-    let before = fits.square(&plain).min(last);
-    let known = (!found.fit.noise_estimated).then_some(1.0);
-    // Where an interval is open, what fits as well may lie so far away that the correction does not hold there.
-    let is_open = found.fit.estimates.iter().any(|estimate| !estimate.identifiable);
-    let freedom = found.fit.degrees_of_freedom - 1.0 - (found.fit.residuals.len() - rows.len()) as f64;
+    // The final fit is one without the error as well; scatter between meshes must not count for the
+    // error.
+    let before = fits.square(&plain).min(fits.square(&found.fit));
     let mut best = [None, None];
-    for (place, quantity) in [Quantity::Drift, Quantity::ZeroOffset].into_iter().enumerate() {
+    for (best, quantity) in best.iter_mut().zip([Quantity::Drift, Quantity::ZeroOffset]) {
         let name = |cell: &Cell| cell.name(quantity, problem.series.len());
-        let open: Vec<&Cell> = cells
-            .iter()
-            .filter(|cell| {
-                problem
-                    .terms
-                    .iter()
-                    .all(|term| term.parameter.name() != name(cell))
-            })
-            .collect();
+        let is_fitted = |cell: &Cell| {
+            let mut terms = problem.terms.iter();
+            terms.any(|term| term.parameter.name() == name(cell))
+        };
+        let open: Vec<&Cell> = cells.iter().filter(|cell| !is_fitted(cell)).collect();
         for cell in &open {
             let error = term(cell, quantity, &name(cell), problem.options)?;
-            let Some(mut fit) = fits.fit(0, Some(error.clone()))? else {
+            let Some((fit, chance)) = fits.with(before, error)? else {
                 continue;
             };
-            let probability =
-                |before, fit: &Fit| probability_of_gain(before, fits.square(fit), freedom, known);
-            let Some(mut chance) = probability(before, &fit) else {
-                continue;
-            };
-            if (chance < WORTH_ASKING || is_open)
-                && let Some(finer) = fits.fit(found.level, Some(error))?
-                && let Some(finer_chance) = probability(last, &finer)
-            {
-                (fit, chance) = (finer, finer_chance);
-            }
             let one = Alternative {
                 cell,
                 quantity,
@@ -96,9 +72,9 @@ pub fn alternatives<'a>(
                 // Of several cells the most striking one is so by chance, too.
                 probability: (chance * open.len() as f64).min(1.0),
             };
-            let old: &Option<Alternative<'_>> = &best[place];
+            let old: &Option<Alternative<'_>> = best;
             if old.as_ref().is_none_or(|old| one.probability < old.probability) {
-                best[place] = Some(one);
+                *best = Some(one);
             }
         }
     }
@@ -113,8 +89,38 @@ struct Fits<'a> {
 }
 
 impl Fits<'_> {
-    /// A fit on a level of meshes, the coarsest or the final one, with a term more or without; nothing where
-    /// it does not converge.
+    /// The fit with an error of a cell, and the probability that noise alone gains so much by it,
+    /// where without it the squares on the coarsest mesh were `before`; nothing where it does not
+    /// converge or cannot be told.
+    fn with(&self, before: f64, error: Term) -> Result<Option<(Fit, f64)>, Error> {
+        let last = &self.found.fit;
+        let Some(fit) = self.fit(0, Some(error.clone()))? else {
+            return Ok(None);
+        };
+        let Some(chance) = self.probability(before, &fit) else {
+            return Ok(None);
+        };
+        // Where an interval is open, what fits as well may lie so far away that the correction does
+        // not hold there.
+        let is_open = last.estimates.iter().any(|estimate| !estimate.identifiable);
+        if (chance < WORTH_ASKING || is_open)
+            && let Some(finer) = self.fit(self.found.level, Some(error))?
+            && let Some(finer_chance) = self.probability(self.square(last), &finer)
+        {
+            return Ok(Some((finer, finer_chance)));
+        }
+        Ok(Some((fit, chance)))
+    }
+
+    fn probability(&self, before: f64, fit: &Fit) -> Option<f64> {
+        let last = &self.found.fit;
+        let known = (!last.noise_estimated).then_some(1.0);
+        let freedom = last.degrees_of_freedom - 1.0 - (last.residuals.len() - self.rows.len()) as f64;
+        probability_of_gain(before, self.square(fit), freedom, known)
+    }
+
+    /// A fit on a level of meshes, the coarsest or the final one, with a term more or without;
+    /// nothing where it does not converge.
     fn fit(&self, level: u32, more: Option<Term>) -> Result<Option<Fit>, Error> {
         let terms: Vec<Term> = self.problem.terms.iter().cloned().chain(more).collect();
         let problem = Problem {

@@ -33,21 +33,7 @@ pub fn search<'a>(
     let curve = runs.run_all(&grid)?;
     let begins = |i: &usize| curve[*i].within_limits && (*i == 0 || !curve[*i - 1].within_limits);
     match (0..curve.len()).filter(begins).count() {
-        0 => {
-            let excess = |i: &usize| curve[*i].excess(limits);
-            let best = (0..curve.len()).min_by(|a, b| excess(a).total_cmp(&excess(b)));
-            let best = best.unwrap_or(0);
-            let around = [
-                &curve[best.saturating_sub(1)],
-                &curve[(best + 1).min(curve.len() - 1)],
-            ];
-            halve(&runs, around.map(Clone::clone), |point| {
-                let worst = all
-                    .iter()
-                    .max_by(|a, b| point.share(**a).total_cmp(&point.share(**b)));
-                worst.is_none_or(|limit| around[1].share(*limit) > around[0].share(*limit))
-            })?;
-        }
+        0 => approach(&runs, &curve, &all)?,
         1 => {}
         ranges => return Err(DesignError::NotMonotone(ranges)),
     }
@@ -81,6 +67,23 @@ pub fn search<'a>(
         exceeded,
     };
     Ok((runs, 0, found))
+}
+
+/// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
+/// worst limit of softer springs is as far exceeded as that of stiffer ones.
+fn approach(runs: &Runs<'_>, curve: &[TradeOff], all: &[Limit]) -> Result<(), Error> {
+    let worst = |point: &TradeOff| {
+        let by_share = |a: &&Limit, b: &&Limit| point.share(**a).total_cmp(&point.share(**b));
+        all.iter().max_by(by_share).copied()
+    };
+    let excess = |i: &usize| worst(&curve[*i]).map_or(0.0, |limit| curve[*i].share(limit));
+    let best = (0..curve.len()).min_by(|a, b| excess(a).total_cmp(&excess(b)));
+    let best = best.unwrap_or(0);
+    let around = [best.saturating_sub(1), (best + 1).min(curve.len() - 1)].map(|at| &curve[at]);
+    halve(runs, around.map(Clone::clone), |point| {
+        worst(point).is_none_or(|limit| around[1].share(limit) > around[0].share(limit))
+    })?;
+    Ok(())
 }
 
 /// What to take of the stiffnesses that keep the limits. An end that may be fixed is fixed, and a
