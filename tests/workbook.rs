@@ -210,7 +210,7 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
     }
     let (verdict, _) = book.answer("limits");
     assert!(
-        verdict.to_string().contains("above 0.2 lbf, first at pass 1"),
+        verdict.to_string().contains("limit 0.2 lbf, first at pass 1"),
         "{verdict}"
     );
 
