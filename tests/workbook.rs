@@ -144,7 +144,7 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
         "--set",
         "title==1+1",
         "--limit-force",
-        "0.2 lbf",
+        "downstream=0.2 lbf",
     ];
     let document = printed(&[&arguments[..], &["--json", "--xlsx", file.to_str().unwrap()]].concat());
     let document: Value = serde_json::from_str(&document).expect("JSON");
