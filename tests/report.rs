@@ -675,7 +675,7 @@ fn a_life_in_parts_is_drawn_on_one_axis() {
     let force = texts(figure(&all, "Force against passes"), "text");
     // The passes of this part alone would end at 30.
     assert!(
-        force.contains(&"40") && force.contains(&"from here on this scene"),
+        force.contains(&"40") && page.contains("before the vertical line"),
         "{force:?}"
     );
     // What the first part left, after some of its passes and the last.

@@ -367,6 +367,12 @@ fn new_clamps_and_new_ends_bear_nothing_at_first() {
         clamped.restraints[0].force_n
     );
     assert!((force(&clamped) / force(&plain) - 1.0).abs() < 1e-3);
+    // One that slips has not slipped yet, wherever the cable had moved before.
+    let holds = r#"restraints=[{position="2 m", stiffness="1 kN/m", holds="1 kN"}]"#;
+    let held = go_on(&first, &[&one_more[..], &[holds]].concat()).expect("a clamp that slips");
+    assert_eq!(held.restraints[0].slipped_m, Some(0.0));
+    let later = go_on(&held, &[&one_more[..], &[holds]].concat()).expect("the same clamp");
+    assert_eq!(later.restraints[0].slipped_m, Some(0.0));
     // Nor does one that was moved, whatever it bore where it was.
     let held = run(&[
         &common[..],

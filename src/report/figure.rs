@@ -203,7 +203,7 @@ impl<'r> Passes<'r> {
                 .iter()
                 .map(move |past| (place(past), value(past, end)))
         });
-        chart.refer(Reference::vertical(self.place(0), "from here on this scene"))
+        chart.refer(Reference::vertical(self.place(0), ""))
     }
 
     /// A value after each pass.

@@ -19,14 +19,20 @@ pub fn force(html: &mut Html, report: &Report) {
     let measured = report.agreement.as_ref();
     let measured = measured.map_or(String::new(), |agreement| measured_in(agreement, &report.shown));
     let when = words_if(report.run.heat.is_some(), ", on the first day");
-    let caption =
-        format!("Force after each pass{when}, compression positive. A free end carries none.{measured}");
+    let earlier = words_if(
+        !report.history.is_empty(),
+        " What earlier runs left stands before the vertical line.",
+    );
+    let caption = format!(
+        "Force after each pass{when}, compression positive. A free end carries none.{earlier}{measured}"
+    );
     figure(html, [over_passes(report)], &caption);
     let caption = "Force along the cable after the first pass, the last, and up to two round numbers between them, compression positive.";
     if !report.run.stages.is_empty() {
         figure(html, [along(report)], caption);
     }
-    let caption = format!("Displacement of the cable’s ends{when}, positive toward growing x, downstream.");
+    let caption =
+        format!("Displacement of the cable’s ends{when}, positive toward growing x, downstream.{earlier}");
     figure(html, [movement(report)], &caption);
     passes(html, report);
     html.raw("</div>");

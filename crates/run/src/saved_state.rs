@@ -62,14 +62,16 @@ struct SavedEnd {
     position_m: f64,
 }
 
-/// A clamp, and how far it has slipped; one that was put on later, how far the cable had moved
-/// there.
+/// A clamp, and where the cable bears nothing on it: as far from where it was laid as it has
+/// slipped, and as the cable had moved there when the clamp was put on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[allow(clippy::struct_field_names, reason = "units stand in the names")]
 struct SavedClamp {
     position_m: f64,
     stiffness_n_per_m: f64,
     slipped_m: f64,
+    #[serde(default)]
+    put_on_m: f64,
 }
 
 /// What `passes` of one run have left, behind those of the runs `before` it.
@@ -164,6 +166,7 @@ impl SavedState {
                     position_m: clamp.position,
                     stiffness_n_per_m: clamp.stiffness,
                     slipped_m,
+                    put_on_m: before.map_or(0.0, |before| before.put_on(clamp)),
                 })
                 .collect(),
             cable: state.clone(),
@@ -236,6 +239,12 @@ impl SavedState {
     fn slipped(&self, clamp: &Restraint) -> f64 {
         let known = self.clamps.iter().find(|saved| saved.is(clamp));
         known.map_or_else(|| self.displacement(clamp.position), |saved| saved.slipped_m)
+    }
+
+    /// How far the cable had moved there when this clamp was put on, now or before \[m\].
+    pub(crate) fn put_on(&self, clamp: &Restraint) -> f64 {
+        let known = self.clamps.iter().find(|saved| saved.is(clamp));
+        known.map_or_else(|| self.displacement(clamp.position), |saved| saved.put_on_m)
     }
 
     /// The cable of `scene`, held where this state has it.

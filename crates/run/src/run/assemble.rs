@@ -19,7 +19,7 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
     let Plan { scene, ground, .. } = plan;
     let found = &solved.passes;
     let shown = shown(plan, found);
-    let restraints = restraints(scene, found, &shown)?;
+    let restraints = restraints(plan, found, &shown)?;
     let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
     let passes: Vec<PassRecord> = passes.collect();
     balance::of_records(scene, &passes, &restraints)?;
@@ -162,7 +162,7 @@ fn peak([least, most]: &[f64; 2]) -> f64 {
     larger(*most, *least)
 }
 
-fn restraints(scene: &Scene, passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
+fn restraints(plan: &Plan<'_>, passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
     let forces = state
         .restraint_forces(cable)?
@@ -171,8 +171,11 @@ fn restraints(scene: &Scene, passes: &Passes, records: &[Record]) -> Result<Vec<
     let restraints = cable.restraints().iter().zip(forces).enumerate();
     Ok(restraints
         .map(|(i, (restraint, (force_n, slip)))| RestraintRecord {
-            // Those that never slip may have been put on later, where the cable had moved.
-            slipped_m: scene.restraints[i].holds.map(|_| slip),
+            // One may have been put on later, where the cable had moved.
+            slipped_m: plan.scene.restraints[i].holds.map(|_| {
+                let put_on = plan.start.map_or(0.0, |start| start.put_on(restraint));
+                slip - put_on
+            }),
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,
