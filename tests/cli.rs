@@ -381,6 +381,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     let checked = output(&run(&[&both[..], &["--check"]].concat()));
     assert_eq!(checked.status.code(), Some(3));
     assert_eq!(String::from_utf8(checked.stdout).expect("UTF-8"), said);
+    assert_fails(&run(&["--check"]), 2, &["--check", "--limit-force"]);
     let kept = output(&run(&["--limit-movement", "1 m", "--check"]));
     assert_eq!(kept.status.code(), Some(0));
     for (bad, part) in [

@@ -2,7 +2,9 @@
 
 use creepage::calibration::Unknown;
 use creepage::scene::SceneFile;
-use creepage::{CalibrateOptions, Reading, Readings, Run, Scene};
+use creepage::{
+    CableEnd, CalibrateOptions, ClampLimits, EndLimits, Limited, Limits, Place, Reading, Readings, Run, Scene,
+};
 
 /// The upper cable of the paper's experiment in a duct of 60 m.
 const SCENE: &str = r#"
@@ -460,5 +462,81 @@ fn the_friction_of_a_section_is_fitted() {
     assert!(
         error.is_bad_input() && error.to_string().contains("route"),
         "{error}"
+    );
+}
+
+/// What was reached once is not undone by passes that drive it back.
+#[test]
+fn a_clamp_that_slips_to_and_fro_has_moved_as_far_as_it_did() {
+    let truck = |name: &str, direction: &str| {
+        format!(r#"{{ name = "{name}", load = "196133 N", speed = "40 km/h", direction = "{direction}" }}"#)
+    };
+    let vehicles = format!(
+        "vehicles=[{}, {}]",
+        truck("there", "forward"),
+        truck("back", "reverse")
+    );
+    let names = [vec!["\"there\""; 15], vec!["\"back\""; 15]].concat().join(", ");
+    let sequence = format!("traffic.sequence=[{names}]");
+    let clamp = r#"restraints=[{position="30 m", stiffness="5 MN/m", holds="100 N"}]"#;
+    let of = |passes: &str| {
+        let run = run(&[
+            &vehicles,
+            &sequence,
+            clamp,
+            "ends.downstream=free",
+            MESH[0],
+            MESH[1],
+            passes,
+        ]);
+        let limits = Limits {
+            clamps: vec![ClampLimits {
+                position_m: 30.0,
+                limits: EndLimits {
+                    force_n: Some(100.0),
+                    movement_m: None,
+                },
+            }],
+            ..Limits::default()
+        };
+        // It bears what it holds and no more: a limit of that is kept.
+        let kept = limits.verdicts(&run).iter().all(|verdict| !verdict.is_exceeded());
+        assert!(
+            kept && run.restraints[0]
+                .during_passes_n
+                .iter()
+                .any(|force| force.abs() > 99.0)
+        );
+        run.largest(Place::Clamp(30.0), Limited::Movement)
+    };
+    let (there, back) = (of("traffic.passes=15"), of("traffic.passes=30"));
+    assert!(there > 1e-4 && back >= there, "{there} {back}");
+}
+
+/// A spring that was put on when the cable had moved bears nothing at first: its end moves with the force from there on.
+#[test]
+fn the_end_on_a_later_spring_moves_by_its_force_over_its_stiffness() {
+    let free = run(&[MESH[0], MESH[1], "traffic.passes=20", "ends.downstream=free"]);
+    let spring = [
+        MESH[0],
+        MESH[1],
+        "traffic.passes=2",
+        r#"ends.downstream={spring="3 MN/m"}"#,
+    ];
+    let sprung = go_on(&free, &spring).expect("a second part");
+    let forces = sprung.passes.iter().flat_map(|pass| {
+        [
+            pass.downstream_force_n,
+            pass.downstream_peak_n,
+            pass.downstream_least_n,
+        ]
+        .map(f64::abs)
+    });
+    let stretch = forces.fold(0.0, f64::max) / 3e6;
+    let before = free.passes.last().expect("a pass").downstream_displacement_m;
+    let moved = sprung.largest(CableEnd::Downstream, Limited::Movement);
+    assert!(
+        (moved - before).abs() <= 1.01 * stretch,
+        "{moved} from {before} by {stretch}"
     );
 }

@@ -4,7 +4,9 @@
 
 use std::ops::ControlFlow;
 
-use creepage::sweep::{Answer, AnswerColumn, AnswerValues, Axis, Samples, Sweep, SweepError, SweepOptions};
+use creepage::sweep::{
+    Answer, AnswerColumn, AnswerValues, Axis, PointLimits, Samples, Sweep, SweepError, SweepOptions,
+};
 use creepage::{CableEnd, Limited, Limits, Progress, SceneFile};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
@@ -81,7 +83,8 @@ fn rows_are_judged_by_limits() {
         .collect();
     let largest = |run| creepage::Run::largest(run, CableEnd::Downstream, Limited::Force);
     let limits = Limits::both(Some(0.5 * (largest(&runs[0]) + largest(&runs[1]))), None);
-    let found = answers(&sweep.with_limits(limits.clone()));
+    let own = limits.clone();
+    let found = answers(&sweep.with_limits(PointLimits::new("half way", move |_| Ok(own.clone()))));
     let exceeded = &found
         .iter()
         .find(|column| column.name == "limit_exceeded")
@@ -98,6 +101,46 @@ fn rows_are_judged_by_limits() {
         .map(|verdict| verdict.reached_after.and_then(|reached| reached.years))
         .collect();
     assert_eq!(numbers(&found, "limit_reached_after_years"), years);
+}
+
+/// Limits of clamps are those of every point; one that a point does not have is its error.
+#[cfg(feature = "cli")]
+#[test]
+fn clamps_are_judged_where_they_are() {
+    let table = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("clamps.csv");
+    let _ = std::fs::remove_file(&table);
+    let sweep = |limit: &str| {
+        let clamp = "restraints=[{ position = 10, stiffness = 1e6 }]";
+        std::process::Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args([
+                "sweep",
+                UPPER,
+                "--set",
+                clamp,
+                "--set",
+                "traffic.passes=3",
+                "--set",
+                "solver.tolerance=0.1",
+            ])
+            .args([
+                "--vary",
+                "restraints.0.position=10m,20m",
+                "--limit-force",
+                limit,
+                "--out",
+            ])
+            .arg(&table)
+            .output()
+            .unwrap();
+        let text = std::fs::read_to_string(&table).unwrap();
+        let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let names = lines.next().unwrap();
+        let flag = names.iter().position(|name| *name == "limit_exceeded").unwrap();
+        lines.map(|cells| cells[flag].to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(sweep("clamp=1N"), ["true", "true"]);
+    assert_eq!(sweep("10 m=1N"), ["true", ""]);
 }
 
 #[test]

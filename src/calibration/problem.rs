@@ -174,6 +174,15 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
     if all.any(|unknown| unknown.quantity == Quantity::ShapeFactor && coulomb(unknown)) {
         return unfit("friction.law", "coulomb", "it has no shape factor to be fitted");
     }
+    let mut indices = unknowns.iter().filter_map(|unknown| unknown.series);
+    if indices.any(|index| index >= series.len()) {
+        let found = "a series of a higher index than there are";
+        return unfit(
+            "unknowns",
+            found,
+            "series are counted from 0, and in names from 1",
+        );
+    }
     let has_section = |unknown: &Unknown| {
         let Quantity::SectionCoefficient(section) = unknown.quantity else {
             return true;
@@ -185,11 +194,6 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
     if !unknowns.iter().all(has_section) {
         let found = "no section of this number";
         return unfit("route", found, "sections of [[route]] are counted from 0");
-    }
-    let mut indices = unknowns.iter().filter_map(|unknown| unknown.series);
-    if indices.any(|index| index >= series.len()) {
-        let found = "a series of a higher index than there are";
-        return unfit("unknowns", found, "series are counted from 0");
     }
     if let [only] = series {
         // What has a prior needs no reading.

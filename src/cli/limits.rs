@@ -6,7 +6,7 @@ use crate::scene::{Dimension, QuantityError, Unit, did_you_mean, nearest};
 use crate::shown::exact;
 use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units, Verdict};
 
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct LimitArguments {
     /// Largest force allowed on both ends, 2kN, on one end, downstream=2kN, on the clamp at a position, "20 m=2kN", or on every clamp,
     /// clamp=2kN; may be repeated
@@ -25,6 +25,18 @@ pub struct CheckArgument {
 }
 
 impl CheckArgument {
+    /// Refuses to check what has no limits.
+    pub fn needs(&self, limits: &LimitArguments) -> Result<(), Failure> {
+        if !self.check || limits.are_given() {
+            return Ok(());
+        }
+        Err(Failure::Usage {
+            argument: "--check",
+            found: "no limit".into(),
+            allowed: "--check with limits, such as --limit-force 2kN".into(),
+        })
+    }
+
     /// Fails if limits are exceeded and that is to be a failure.
     pub fn judge(&self, verdicts: &[Verdict]) -> Result<(), Failure> {
         let exceeded = self.check && verdicts.iter().any(Verdict::is_exceeded);
@@ -145,6 +157,23 @@ impl LimitArguments {
     pub fn limits(&self, scene: &Scene) -> Result<Limits, Failure> {
         self.warn_of_slips();
         self.limits_beside(scene, &[])
+    }
+
+    /// The limits of every point of a sweep. A limit of all clamps is none where there is no clamp.
+    #[cfg(feature = "sweep")]
+    pub fn of_points(&self) -> crate::sweep::PointLimits {
+        let own = self.clone();
+        crate::sweep::PointLimits::new(format!("{self:?}"), move |scene| {
+            let mut limits = own.clone();
+            if scene.restraints.is_empty() {
+                for given in [&mut limits.limit_force, &mut limits.limit_movement] {
+                    given.retain(|limit| limit.of != Named::Clamps);
+                }
+            }
+            limits
+                .limits_beside(scene, &[])
+                .map_err(|failure| failure.to_string())
+        })
     }
 
     /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.

@@ -74,6 +74,7 @@ impl Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
+    arguments.check.needs(&arguments.limits)?;
     let readings = arguments
         .data
         .as_deref()

@@ -86,6 +86,7 @@ impl Judgement {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
+    arguments.check.needs(&arguments.limits)?;
     let table = input.table();
     let read = [
         Some(&*arguments.scene.file.scene),

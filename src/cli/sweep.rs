@@ -95,12 +95,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let first = sweep.file_at(0)?;
     warn_of_slips(&first);
     let sweep = if arguments.limits.are_given() {
-        // Clamps are those of the first point that is a scene at all.
-        let scene = (0..sweep.count()).find_map(|index| sweep.scene(index).ok());
-        let limits = arguments
-            .limits
-            .limits(&scene.map_or_else(|| first.scene(), Ok)?)?;
-        sweep.with_limits(limits)
+        arguments.limits.warn_of_slips();
+        sweep.with_limits(arguments.limits.of_points())
     } else {
         sweep
     };

@@ -28,7 +28,7 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.paragraph(&answer(report, last));
     html.raw("</div>");
     html.verdicts(report.verdicts.iter().map(|verdict| {
-        let kept = !verdict.is_exceeded();
+        let kept = !verdict.is_exceeded() && verdict.levels_off_above.is_none();
         let shown = |value| report.shown.limited(verdict.quantity, value);
         (kept, verdict.shown_with(&report.shown.units, shown))
     }));

@@ -120,8 +120,7 @@ impl Sweep {
         let sets_heat = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
         let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets_heat);
         let heat = HEAT_ANSWER.into_iter().filter(|_| is_heated);
-        let is_limited = self.limits.all().next().is_some();
-        let limits = LIMITS.into_iter().filter(|_| is_limited);
+        let limits = LIMITS.into_iter().filter(|_| self.limits.is_some());
         let answer = sample.into_iter().chain(ANSWER).chain(heat).chain(limits);
         let answer = answer.map(|name| match name {
             PASSES | SAMPLE => column(name, counts(), None),

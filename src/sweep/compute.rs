@@ -90,10 +90,14 @@ impl Sweep {
     fn row(&self, index: usize, run: impl FnMut(&Scene) -> Result<Run, Error>) -> Result<Row, SweepError> {
         let mut run = run;
         let compute = || -> Result<Answer, Error> {
-            let run = run(&self.scene(index)?)?;
+            let scene = self.scene(index)?;
+            let run = run(&scene)?;
             finite::check(&run)?;
             let answer = Answer::of(&run).ok_or(Error::NoPass)?;
-            Ok(answer.judged(&run, &self.limits))
+            match &self.limits {
+                Some(limits) => answer.judged(&run, &scene, limits),
+                None => Ok(answer),
+            }
         };
         let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
             Ok(Err(Error::Stopped)) => return Err(SweepError::Stopped),

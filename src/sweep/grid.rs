@@ -7,9 +7,10 @@ use std::path::PathBuf;
 use super::axis::Axis;
 use super::distribution::{ID, drawn};
 use super::error::SweepError;
+use super::point::PointLimits;
 use super::samples::{Samples, hash};
 use crate::scene::{SceneError, TypedValue, Wrong, WrongKind, did_you_mean, nearest_key};
-use crate::{Limits, Scene, SceneFile};
+use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
 const MOST_POINTS: usize = 100_000_000;
@@ -32,7 +33,7 @@ pub struct Sweep {
     /// Keys that are drawn, here or in other parts of their table.
     pub(super) drawn_keys: BTreeSet<String>,
     /// What every point is judged by.
-    pub(super) limits: Limits,
+    pub(super) limits: Option<PointLimits>,
 }
 
 impl Sweep {
@@ -81,8 +82,8 @@ impl Sweep {
 
     /// The same with limits, which every point is judged by.
     #[must_use]
-    pub fn with_limits(mut self, limits: Limits) -> Self {
-        self.limits = limits;
+    pub fn with_limits(mut self, limits: PointLimits) -> Self {
+        self.limits = Some(limits);
         self
     }
 
@@ -125,7 +126,7 @@ impl Sweep {
             groups,
             by_row,
             drawn_keys,
-            limits: Limits::default(),
+            limits: None,
         };
         sweep.check_keys()?;
         sweep.check_values()?;

@@ -56,7 +56,7 @@ pub use error::SweepError;
 pub use grid::{SAMPLE_TOLERANCE, Sweep};
 #[cfg(feature = "plot")]
 pub use map::MapValue;
-pub use point::{Answer, HeatAnswer, Row};
+pub use point::{Answer, HeatAnswer, PointLimits, Row};
 pub use run::{Evaluate, SweepOptions, SweepSummary};
 pub use samples::Samples;
 #[cfg(feature = "cli")]

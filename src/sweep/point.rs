@@ -1,8 +1,10 @@
 //! The answer of one point.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use crate::{Limits, Run, Verdict};
+use crate::{Error, Limits, Run, Scene, Verdict};
 
 /// What one point of a sweep answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -50,6 +52,36 @@ pub struct HeatAnswer {
     pub drift_per_day_m: Option<f64>,
 }
 
+/// The limits of every point, which may name clamps that not every point has.
+#[derive(Clone)]
+pub struct PointLimits {
+    /// What distinguishes them from others.
+    name: String,
+    of: Arc<Resolve>,
+}
+
+/// The limits of a scene, or why it has none.
+type Resolve = dyn Fn(&Scene) -> Result<Limits, String> + Send + Sync;
+
+impl PointLimits {
+    /// Limits by a `name`, under which a sweep is resumed, and what they are in a scene.
+    pub fn new(
+        name: impl Into<String>,
+        of: impl Fn(&Scene) -> Result<Limits, String> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            of: Arc::new(of),
+        }
+    }
+}
+
+impl std::fmt::Debug for PointLimits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
 /// A point that is done.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -85,12 +117,17 @@ impl Answer {
         })
     }
 
-    /// The same with what `run` makes of the limits.
-    pub(super) fn judged(mut self, run: &Run, limits: &Limits) -> Self {
-        let verdicts = limits.verdicts(run);
+    /// The same with what the `run` of `scene` makes of the limits.
+    pub(super) fn judged(mut self, run: &Run, scene: &Scene, limits: &PointLimits) -> Result<Self, Error> {
+        let unfit = |reason: String| Error::Unfit {
+            key: "restraints",
+            found: "a limit of a clamp",
+            reason: reason.into(),
+        };
+        let verdicts = (limits.of)(scene).map_err(unfit)?.verdicts(run);
         let reached = verdicts.iter().filter_map(|verdict| verdict.reached_after?.years);
-        self.limit_exceeded = (!verdicts.is_empty()).then(|| verdicts.iter().any(Verdict::is_exceeded));
+        self.limit_exceeded = Some(verdicts.iter().any(Verdict::is_exceeded));
         self.limit_reached_after_years = reached.min_by(f64::total_cmp);
-        self
+        Ok(self)
     }
 }

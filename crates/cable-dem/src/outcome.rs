@@ -26,6 +26,8 @@ pub struct PassOutcome {
     pub restraints: Vec<f64>,
     /// Least and largest force on each of them during the pass and after it \[N\].
     pub restraint_ranges: Vec<[f64; 2]>,
+    /// How far each of them has slipped after the pass \[m\].
+    pub restraint_slips: Vec<f64>,
     /// Work that slip has turned into heat \[J\].
     pub dissipated: f64,
     /// What the pass cost.
@@ -78,6 +80,7 @@ impl PassOutcome {
             upstream_displacement: sum(|o| o.upstream_displacement),
             downstream_displacement: sum(|o| o.downstream_displacement),
             restraints: of_clamps(|o| &o.restraints),
+            restraint_slips: of_clamps(|o| &o.restraint_slips),
             restraint_ranges: of_clamps(|o| o.restraint_ranges.as_flattened())
                 .chunks_exact(2)
                 .map(|range| [range[0], range[1]])
@@ -161,6 +164,7 @@ impl Recorder {
             downstream_displacement: state.displacement()[state.displacement().len() - 1],
             restraints,
             restraint_ranges: self.clamps,
+            restraint_slips: state.clamp_slips(cable),
             dissipated: self.dissipated,
             statistics: self.statistics,
         })

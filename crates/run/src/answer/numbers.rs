@@ -18,7 +18,7 @@ finite::numbers! {
     Stage: force_profile friction;
     FrictionProfile: vehicle_position_m positions_m friction_n_per_m slip_lengths;
     ExtremePass: after restraints_n restraint_peaks_n;
-    RestraintRecord: position_m stiffness_n_per_m force_n after_passes_n during_passes_n slipped_m;
+    RestraintRecord: position_m stiffness_n_per_m force_n after_passes_n during_passes_n slipped_after_passes_m slipped_m;
     SlipRecord: forward_m backward_m;
     Saturation: force_n downstream_force_n upstream_force_n;
     ForceRange: downstream_min_n downstream_max_n upstream_min_n upstream_max_n;

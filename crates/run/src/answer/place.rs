@@ -162,7 +162,7 @@ impl Run {
     /// What there is at `place` in all listed passes, on all days, and in the passes beside them.
     pub(super) fn values(&self, place: Place, quantity: Limited) -> impl Iterator<Item = Value> {
         let value = move |pass, clamp: &dyn Fn(usize) -> [f64; 2], end: &dyn Fn(CableEnd) -> [f64; 2]| {
-            let on_clamps = || self.on_clamps(place, quantity, clamp);
+            let on_clamps = || self.on_clamps(place, quantity, pass, clamp);
             let [at_rest, largest] = place.end().map_or_else(on_clamps, end);
             Value {
                 pass,
@@ -176,19 +176,23 @@ impl Run {
             let known = |[at_rest, largest]: [f64; 2]| [at_rest, if has_peaks { largest } else { at_rest }];
             let clamp = |clamp: usize| {
                 let clamp = &self.restraints[clamp];
-                known([clamp.after_passes_n[index], clamp.during_passes_n[index]])
+                let after = clamp.after_passes_n[index];
+                known([after, clamp.during_passes_n.get(index).copied().unwrap_or(after)])
             };
-            let end = |end| known(record.values(end, quantity, self.scatter(end, record)));
+            let end = |end| known(self.on_end(record, end, quantity, self.scatter(end, record)));
             value(record.pass, &clamp, &end)
         });
         let last = self.passes.last().map_or(u64::MAX, |record| record.pass);
         let extremes = self.extremes.iter().map(move |extreme| {
-            let end = |end| extreme.after.values(end, quantity, 0.0);
-            value(
-                extreme.after.pass.min(last),
-                &|clamp| [extreme.restraints_n[clamp], extreme.restraint_peaks_n[clamp]],
-                &end,
-            )
+            let end = |end| self.on_end(&extreme.after, end, quantity, 0.0);
+            let clamp = |clamp: usize| {
+                let after = extreme.restraints_n[clamp];
+                [
+                    after,
+                    extreme.restraint_peaks_n.get(clamp).copied().unwrap_or(after),
+                ]
+            };
+            value(extreme.after.pass.min(last), &clamp, &end)
         });
         let days = self.heat.iter().flat_map(move |heat| {
             let days = self.days.iter().chain([&heat.all_days]);
@@ -206,32 +210,51 @@ impl Run {
     }
 
     /// The largest in size of the clamps at `place`, on which there are these forces at rest and
-    /// during a pass.
-    fn on_clamps(&self, place: Place, quantity: Limited, forces: &dyn Fn(usize) -> [f64; 2]) -> [f64; 2] {
+    /// during `pass`.
+    fn on_clamps(
+        &self,
+        place: Place,
+        quantity: Limited,
+        pass: u64,
+        forces: &dyn Fn(usize) -> [f64; 2],
+    ) -> [f64; 2] {
+        let row = self.passes.partition_point(|record| record.pass <= pass);
         let values = self.clamps_at(place).map(|index| {
             let clamp = &self.restraints[index];
+            let slips = &clamp.slipped_after_passes_m;
+            let slipped = slips.get(row.saturating_sub(1)).copied().or(clamp.slipped_m);
             forces(index).map(|force| match quantity {
                 Limited::Force => force.abs(),
-                Limited::Movement => {
-                    force.abs() / clamp.stiffness_n_per_m + clamp.slipped_m.unwrap_or(0.0).abs()
-                }
+                Limited::Movement => force.abs() / clamp.stiffness_n_per_m + slipped.unwrap_or(0.0).abs(),
             })
         });
         values.fold([0.0; 2], |[a, b], [c, d]| [c.max(a), d.max(b)])
     }
+
+    /// What there is at an end after the pass of `record`, and during it if that is larger; single
+    /// passes may show `scatter` more force than this one. During a pass an end on a spring moves
+    /// with its force; how far a free one moves to and fro then, some micrometres, is left out.
+    fn on_end(&self, record: &PassRecord, end: CableEnd, quantity: Limited, scatter: f64) -> [f64; 2] {
+        let wider = |force: f64| force + scatter.copysign(force);
+        let movement = record.movement(end);
+        let spring = end.of([self.upstream_spring_n_per_m, self.downstream_spring_n_per_m]);
+        match (quantity, spring) {
+            (Limited::Force, _) => [record.force_after(end), record.largest_force(end)].map(wider),
+            (Limited::Movement, None) => [movement; 2],
+            (Limited::Movement, Some(spring)) => {
+                let peak = end.of([record.upstream_peak_n, record.downstream_peak_n]);
+                let least = end.of([record.upstream_least_n, record.downstream_least_n]);
+                let after = end.of([record.upstream_displacement_m, record.downstream_displacement_m]);
+                let outward = end.of([-1.0, 1.0]);
+                let during = [peak, least]
+                    .map(|force| (after + outward * (force - record.force_after(end)) / spring).abs());
+                [movement, during.into_iter().fold(movement, f64::max)]
+            }
+        }
+    }
 }
 
 impl PassRecord {
-    /// What there is at an end after the pass, and during it if that is larger; single passes may
-    /// show `scatter` more force than this one.
-    fn values(&self, end: CableEnd, quantity: Limited, scatter: f64) -> [f64; 2] {
-        let wider = |force: f64| force + scatter.copysign(force);
-        match quantity {
-            Limited::Force => [self.force_after(end), self.largest_force(end)].map(wider),
-            Limited::Movement => [self.movement(end), self.largest_movement(end)],
-        }
-    }
-
     /// The force on an end that is largest in size after the pass and during it \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
         let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
@@ -242,16 +265,6 @@ impl PassRecord {
     /// Force on an end after the pass \[N\].
     pub fn force_after(&self, end: CableEnd) -> f64 {
         end.of([self.upstream_force_n, self.downstream_force_n])
-    }
-
-    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]:
-    /// a spring moves in proportion to its force. How far a free end moves to and fro during a
-    /// pass, some micrometres, is left out.
-    pub fn largest_movement(&self, end: CableEnd) -> f64 {
-        match self.force_after(end).abs() {
-            after if after > 0.0 => self.movement(end) * self.largest_force(end).abs() / after,
-            _ => self.movement(end),
-        }
     }
 
     /// How far an end is displaced after the pass, whichever way \[m\].

@@ -46,6 +46,12 @@ pub struct Run {
     /// What heat does over all days.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat: Option<HeatRecord>,
+    /// Stiffness of the spring at the upstream end \[N/m\], if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upstream_spring_n_per_m: Option<f64>,
+    /// Stiffness of the spring at the downstream end \[N/m\], if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub downstream_spring_n_per_m: Option<f64>,
     /// Force along the cable after the last pass.
     pub force_profile: ForceProfile,
     /// What each clamp carries.
@@ -194,6 +200,9 @@ pub struct RestraintRecord {
     /// The largest in size during each of them and after it \[N\], with its sign.
     #[serde(default)]
     pub during_passes_n: Vec<f64>,
+    /// How far it has slipped after each of them \[m\]; left out if it never slips.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub slipped_after_passes_m: Vec<f64>,
     /// How far it has slipped \[m\], positive toward growing x; none if it never slips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slipped_m: Option<f64>,

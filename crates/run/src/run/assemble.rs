@@ -1,5 +1,6 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
+use cable_dem::Restraint;
 use cycle_jump::{Record, peaks};
 
 use crate::Error;
@@ -12,7 +13,7 @@ use crate::passes::{Passes, force_profile, listed_passes};
 use crate::plan::{PassMethod, Plan};
 use crate::refine::Solved;
 use crate::saved_state::{PastPass, SavedState};
-use crate::scene::Scene;
+use crate::scene::{End, Scene};
 
 /// The answer from passes that were simulated by `method`, for a `reason`.
 pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solved) -> Result<Run, Error> {
@@ -30,6 +31,10 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
     };
     let first = &ground.motions[0];
     let past = past(scene, &passes);
+    let spring = |end: End| match end {
+        End::Spring(stiffness) => Some(stiffness),
+        End::Free | End::Fixed => None,
+    };
     let mut run = Run {
         title: scene.title.clone(),
         duct_motion: DuctMotionSummary {
@@ -50,6 +55,8 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
         extremes: extremes(plan, solved),
         days: days.unwrap_or_default(),
         heat,
+        upstream_spring_n_per_m: spring(scene.ends.upstream),
+        downstream_spring_n_per_m: spring(scene.ends.downstream),
         force_profile: force_profile(&found.cable, &found.state)?,
         restraints,
         slip_lengths: found.slip,
@@ -164,6 +171,8 @@ fn peak([least, most]: &[f64; 2]) -> f64 {
 
 fn restraints(plan: &Plan<'_>, passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
+    // One may have been put on later, where the cable had moved.
+    let put_on = |clamp: &Restraint| plan.start.map_or(0.0, |start| start.put_on(clamp));
     let forces = state
         .restraint_forces(cable)?
         .into_iter()
@@ -171,11 +180,12 @@ fn restraints(plan: &Plan<'_>, passes: &Passes, records: &[Record]) -> Result<Ve
     let restraints = cable.restraints().iter().zip(forces).enumerate();
     Ok(restraints
         .map(|(i, (restraint, (force_n, slip)))| RestraintRecord {
-            // One may have been put on later, where the cable had moved.
-            slipped_m: plan.scene.restraints[i].holds.map(|_| {
-                let put_on = plan.start.map_or(0.0, |start| start.put_on(restraint));
-                slip - put_on
-            }),
+            slipped_m: plan.scene.restraints[i].holds.map(|_| slip - put_on(restraint)),
+            slipped_after_passes_m: records
+                .iter()
+                .filter(|_| plan.scene.restraints[i].holds.is_some())
+                .map(|record| record.outcome.restraint_slips[i] - put_on(restraint))
+                .collect(),
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,
