@@ -101,7 +101,7 @@ fn command_line() -> clap::Command {
     with_status(Arguments::command()).mut_subcommands(with_status)
 }
 
-/// Runs the command with the process's arguments; its exit status ([`EXIT_STATUS`]).
+/// Runs the command with the process's arguments; the exit status stands at the end of every help.
 pub fn main() -> ExitCode {
     let parsed = command_line().try_get_matches().and_then(|mut matches| {
         limit_threads(&matches);
