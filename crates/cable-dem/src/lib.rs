@@ -3,6 +3,7 @@
 mod approach;
 mod cable;
 mod carried;
+mod clamps;
 mod course;
 mod ends;
 mod error;

@@ -1,6 +1,6 @@
 //! What the cable keeps from one pass to the next.
 
-use crate::ends::ClampReader;
+use crate::clamps::ClampReader;
 use crate::ends::EndReader;
 use crate::error::checked;
 use crate::step::Chain;

@@ -4,7 +4,8 @@
 //! and h/2 at the ends), and hangs on its neighbours by springs k = EA/h. End springs and clamps
 //! are springs S to the ground; a fixed end does not move.
 
-use crate::ends::{ClampReader, EndReader};
+use crate::clamps::ClampReader;
+use crate::ends::EndReader;
 use crate::error::checked;
 use crate::step::{Chain, FixedEndFriction, Grip};
 use crate::{CableError, DuctedCable, End, EndForces, Mesh};

@@ -3,7 +3,8 @@
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::supports::Supports;
 use super::window::{self, WindowBounds};
-use crate::ends::{ClampReader, EndReader};
+use crate::clamps::ClampReader;
+use crate::ends::EndReader;
 use crate::outcome::Recorder;
 use crate::step::{Chain, Grip, Load, Prediction, StepSolver, Stretch, largest};
 use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
