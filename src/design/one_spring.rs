@@ -7,7 +7,7 @@ use super::answer::ACCURACY;
 use super::error::DesignError;
 use super::request::DesignOptions;
 use super::runs::{Found, Runs, stiffnesses};
-use super::trade_off::{Limit, Side, TradeOff, in_duct};
+use super::trade_off::{Limit, Side, TradeOff, with_duct};
 use crate::ground::Ground;
 use crate::{Error, Place, Scene};
 
@@ -25,7 +25,7 @@ pub fn search<'a>(
     options: &'a DesignOptions<'a>,
 ) -> Result<(Runs<'a>, usize, Found), DesignError> {
     let limits = &options.limits;
-    let all: Vec<Limit> = limits.all().chain(in_duct(scene)).collect();
+    let all = with_duct(limits, scene);
     let stiffnesses = stiffnesses(scene, options.place, limits, POINTS_PER_DECADE);
     let expected = stiffnesses.len() + HALVINGS;
     let runs = Runs::new(scene, ground, options, options.progress, expected)?;

@@ -104,12 +104,12 @@ pub enum Side {
     Stiffer,
 }
 
-/// What no end may exceed, whatever is limited: the cable is to stay in the duct.
-pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = Limit> {
+/// The `limits`, and last what no end may exceed whatever is limited: the cable is to stay in the
+/// duct.
+pub(super) fn with_duct(limits: &Limits, scene: &Scene) -> Vec<Limit> {
     let most = largest_movement_in_duct(scene);
-    CableEnd::ALL
-        .into_iter()
-        .map(move |end| (end.into(), Limited::Movement, most))
+    let in_duct = CableEnd::ALL.map(|end| (end.into(), Limited::Movement, most));
+    limits.all().chain(in_duct).collect()
 }
 
 impl Spring {

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::error::DesignError;
 use super::request::DesignOptions;
 use super::runs::{Found, Runs, stiffnesses};
-use super::trade_off::{Limit, TradeOff, in_duct};
+use super::trade_off::{Limit, TradeOff, with_duct};
 use crate::ground::Ground;
 use crate::{Limited, Place, Scene};
 
@@ -63,7 +63,7 @@ pub fn search<'a>(
         trials: grid(FINE_PER_DECADE),
         levels,
         places,
-        limits: limits.all().chain(in_duct(scene)).collect(),
+        limits: with_duct(limits, scene),
         moves_freely: limits.all().all(|(_, quantity, _)| quantity == Limited::Force),
     };
     let progress = options.progress.part(ROUGH_SHARE, 1.0);
