@@ -20,11 +20,12 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    let judgement = judge(problem, found, mistakes)?;
+    let readings = readings(problem, fit);
+    let r_squared = explained(&readings);
+    let judgement = judge(problem, found, mistakes, r_squared)?;
     let suspicious = judgement.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
-    let readings = readings(problem, fit);
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
     let answer = Calibrated {
@@ -38,7 +39,7 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         correlation: fit.correlation.clone(),
         residual_rms_n: forces.map_or(0.0, |forces| forces.rms),
         residuals,
-        r_squared: explained(&readings),
+        r_squared,
         evaluations: found.evaluations,
         warnings: warnings(problem, fit, &model_error, judgement.warnings),
         lack_of_fit: judgement.lack_of_fit,

@@ -28,7 +28,7 @@ const OUTLIER: f64 = 4.5;
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// R² of a model whose residuals are three times the spread of the readings: it does not follow them
 /// at all, however few they are.
-pub const MISSED: f64 = -8.0;
+const MISSED: f64 = -8.0;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
 /// Fewest readings that are judged beside the parameters.
@@ -57,8 +57,14 @@ pub struct Judgement {
     pub warnings: Vec<String>,
 }
 
-/// Judges the fit; `mistakes` are those of sign and unit that were found.
-pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Judgement, Error> {
+/// Judges the fit, which explains the share `r_squared` of the readings; `mistakes` are those of
+/// sign and unit that were found.
+pub fn judge(
+    problem: &Problem<'_>,
+    found: &Final,
+    mistakes: Vec<String>,
+    r_squared: Option<f64>,
+) -> Result<Judgement, Error> {
     let fit = &found.fit;
     let rows = Rows::new(problem, fit);
     let outliers = rows.outliers();
@@ -85,7 +91,7 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         suspicious: false,
     };
     let mut failed = failed_tests(&lack_of_fit, &errors, &fit.estimates[0].name);
-    if fit.r_squared.is_some_and(|explained| explained < MISSED) {
+    if misses_by(r_squared).is_some() {
         failed.push("they are many times the spread of the readings".into());
     }
     let is_robust = problem.options.loss != Loss::Squares;
@@ -114,6 +120,12 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         lack_of_fit,
         warnings,
     })
+}
+
+/// How many times the spread of the readings the residuals are, if the model does not follow them.
+pub fn misses_by(r_squared: Option<f64>) -> Option<f64> {
+    let missed = r_squared.filter(|explained| *explained < MISSED)?;
+    Some((1.0 - missed).sqrt())
 }
 
 /// The tests that the residuals fail, each in words.

@@ -42,7 +42,7 @@ pub use ::calibrate::{CalibrationError, Loss};
 pub(crate) use cell::{force_ends, held_end};
 #[cfg(feature = "cli")]
 pub(crate) use discrepancy::SHARES;
-pub use judgement::{LackOfFit, MISSED};
+pub use judgement::LackOfFit;
 #[cfg(feature = "plot")]
 pub(crate) use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::judgement::LackOfFit;
+use super::judgement::{LackOfFit, misses_by};
 use crate::finite;
 
 /// A calibrated scene.
@@ -38,6 +38,13 @@ pub struct Calibrated {
     pub model_error: ModelErrorEstimate,
     /// Readings and what the calibrated model says to them.
     pub fit: Vec<FittedReading>,
+}
+
+impl Calibrated {
+    /// How many times their spread the model misses the readings by, if it does not follow them at all.
+    pub fn misses_by(&self) -> Option<f64> {
+        misses_by(self.r_squared)
+    }
 }
 
 /// A fitted parameter.

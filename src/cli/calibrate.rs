@@ -11,8 +11,8 @@ use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Readings;
 use crate::calibration::{
-    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, MISSED, ResidualSize,
-    SHARES, Series, Unknown,
+    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, ResidualSize, SHARES,
+    Series, Unknown,
 };
 use crate::scene::{Dimension, FrictionLaw, four_digits};
 use crate::shown::{ROWS, percent};
@@ -172,13 +172,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let slips: Vec<String> = inputs.into_iter().flat_map(|input| input.warnings).collect();
     answer.warnings.splice(0..0, slips);
     destination.write(&answer, &answer.fit, || print(&answer, law))?;
-    match answer.r_squared {
-        Some(explained) if explained < MISSED => Err(Failure::NotKept(format!(
-            "the model misses these readings by {:.0} times their spread: see whether units, ends, ground and traffic are those of the scene",
-            (1.0 - explained).sqrt()
-        ))),
-        _ => Ok(()),
-    }
+    let missed = answer.misses_by().map(|times| {
+        Failure::NotKept(format!(
+            "the model misses these readings by {times:.0} times their spread: see whether units, ends, ground and traffic are those of the scene"
+        ))
+    });
+    missed.map_or(Ok(()), Err)
 }
 
 /// Runs of the model that a fit of so many parameters usually takes, measured on one to four; two are fitted where none is named.
