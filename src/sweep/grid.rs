@@ -8,7 +8,9 @@ use super::axis::Axis;
 use super::distribution::{ID, drawn};
 use super::error::SweepError;
 use super::point::PointLimits;
-use super::samples::{Samples, hash};
+use super::samples::Samples;
+use creepage_run::hash::fnv1a;
+
 use crate::scene::{SceneError, TypedValue, Wrong, WrongKind, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
@@ -313,7 +315,7 @@ impl Sweep {
             ..
         } = self;
         let text = format!("{version}\0{scene:?}\0{axes:?}\0{samples:?}\0{by_row}\0{files:?}\0{limits:?}");
-        hash(text.as_bytes())
+        fnv1a(text.into_bytes())
     }
 }
 

@@ -1,5 +1,7 @@
 //! Where the samples of a drawn key lie.
 
+use creepage_run::hash::fnv1a;
+
 /// How drawn keys are sampled.
 ///
 /// A sample's value follows from the seed, the row (its `id`, or else its number), the key and the
@@ -23,18 +25,11 @@ impl Samples {
         } else {
             format!("{key}\0{id}")
         };
-        let stream = fastrand::Rng::with_seed(self.seed ^ hash(name.as_bytes())).u64(..);
+        let stream = fastrand::Rng::with_seed(self.seed ^ fnv1a(name.bytes())).u64(..);
         // Generators of neighbouring seeds begin with related numbers, forks of them no more.
         let mut random = fastrand::Rng::with_seed(stream.wrapping_add(sample as u64)).fork();
         random.f64() + HALF
     }
-}
-
-/// FNV-1a, 64 bits (draft-eastlake-fnv).
-pub fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, &byte| {
-        (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }
 
 #[cfg(test)]
@@ -63,13 +58,5 @@ mod tests {
         assert!(scores.iter().all(|z| z.abs() < 4.5), "{scores:?}");
         let mean_square = dot(&scores, &scores) / PAIRS as f64;
         assert!((mean_square - 1.0).abs() < 0.4, "{mean_square}");
-    }
-
-    #[test]
-    fn the_hash_is_fnv_1a() {
-        // Published values: draft-eastlake-fnv, test vectors.
-        assert_eq!(hash(b""), 0xcbf2_9ce4_8422_2325);
-        assert_eq!(hash(b"a"), 0xaf63_dc4c_8601_ec8c);
-        assert_eq!(hash(b"foobar"), 0x85944171f73967e8);
     }
 }

@@ -12,6 +12,8 @@ mod error_source;
 pub mod finite;
 #[doc(hidden)]
 pub mod ground;
+#[doc(hidden)]
+pub mod hash;
 mod jumps;
 #[doc(hidden)]
 pub mod passes;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::cable::cable;
+use crate::hash::fnv1a;
 use crate::scene::Scene;
 
 /// Version of what is written.
@@ -30,7 +31,6 @@ pub struct SavedState {
     clamps: Vec<SavedClamp>,
     cable: CableState,
     /// Of all runs.
-    #[serde(default)]
     history: Vec<PastPass>,
 }
 
@@ -70,7 +70,6 @@ struct SavedClamp {
     position_m: f64,
     stiffness_n_per_m: f64,
     slipped_m: f64,
-    #[serde(default)]
     put_on_m: f64,
 }
 
@@ -120,14 +119,10 @@ fn duct(scene: &Scene) -> Vec<Value> {
     duct
 }
 
-/// FNV-1a over the values and their names.
+/// Of the values and their names.
 fn hash(duct: &[Value]) -> u64 {
-    let bytes = duct
-        .iter()
-        .flat_map(|value| value.key.bytes().chain(value.value.to_bits().to_le_bytes()));
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    let bytes = |value: &Value| [value.key.as_bytes(), &value.value.to_bits().to_le_bytes()].concat();
+    fnv1a(duct.iter().flat_map(bytes))
 }
 
 fn same(a: f64, b: f64) -> bool {
@@ -234,24 +229,30 @@ impl SavedState {
         self.clamps.len() == scene.restraints.len() && pairs().all(|(saved, clamp)| saved.is(clamp))
     }
 
-    /// The clamp that was there, or a new one, which bears nothing as yet: how far it has slipped
-    /// \[m\].
-    fn slipped(&self, clamp: &Restraint) -> f64 {
+    /// The clamp that was there, or a new one, which bears nothing as yet.
+    fn clamp(&self, clamp: &Restraint) -> SavedClamp {
         let known = self.clamps.iter().find(|saved| saved.is(clamp));
-        known.map_or_else(|| self.displacement(clamp.position), |saved| saved.slipped_m)
+        known.copied().unwrap_or_else(|| {
+            let moved = self.displacement(clamp.position);
+            SavedClamp {
+                position_m: clamp.position,
+                stiffness_n_per_m: clamp.stiffness,
+                slipped_m: moved,
+                put_on_m: moved,
+            }
+        })
     }
 
     /// How far the cable had moved there when this clamp was put on, now or before \[m\].
     pub(crate) fn put_on(&self, clamp: &Restraint) -> f64 {
-        let known = self.clamps.iter().find(|saved| saved.is(clamp));
-        known.map_or_else(|| self.displacement(clamp.position), |saved| saved.put_on_m)
+        self.clamp(clamp).put_on_m
     }
 
     /// The cable of `scene`, held where this state has it.
     pub(crate) fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
         let mut restraints = scene.restraints.clone();
         for clamp in &mut restraints {
-            if self.slipped(clamp) != 0.0 {
+            if self.clamp(clamp).slipped_m != 0.0 {
                 clamp.holds = clamp.holds.or(Some(FIRM));
             }
         }
@@ -284,7 +285,10 @@ impl SavedState {
         let mut state = carried(&self.cable, mesh)?;
         let is_same_mesh = *state.displacement() == *self.cable.displacement();
         if !(is_same_mesh && self.has_clamps_of(scene)) {
-            let slips = scene.restraints.iter().map(|clamp| [self.slipped(clamp); 2]);
+            let slips = scene
+                .restraints
+                .iter()
+                .map(|clamp| [self.clamp(clamp).slipped_m; 2]);
             state = state.with_clamp_slips(slips.collect())?;
         }
         if !cable.friction().law().has_memory() {
