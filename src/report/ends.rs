@@ -38,10 +38,7 @@ pub fn columns(shown: &Shown, moved: &str) -> Vec<(String, CableEnd, usize)> {
 
 /// Force \[N\] and displacement \[m\] of an end after a pass.
 pub fn of_pass(record: &PassRecord, end: CableEnd) -> [f64; 2] {
-    end.of([
-        [record.upstream_force_n, record.upstream_displacement_m],
-        [record.downstream_force_n, record.downstream_displacement_m],
-    ])
+    [record.force_after(end), record.displacement(end)]
 }
 
 /// The same at a time of the day.

@@ -177,10 +177,14 @@ impl<'r> Passes<'r> {
     /// Where a pass is on the axis.
     pub fn place(&self, pass: u64) -> f64 {
         let (before, days) = self.before();
-        match (self.per_day, self.unit()) {
-            (Some(per_day), Some((unit, _))) => (days + pass as f64 / per_day) / unit,
-            _ => (before + pass) as f64,
-        }
+        let days = self.per_day.map(|per_day| days + pass as f64 / per_day);
+        self.place_of(before + pass, days)
+    }
+
+    /// Where a pass of all runs is, so many days after the first if they are known.
+    fn place_of(&self, pass: u64, days: Option<f64>) -> f64 {
+        let unit = self.unit().zip(days);
+        unit.map_or(pass as f64, |((unit, _), days)| days / unit)
     }
 
     /// `chart` with what the runs before have left of each of `ends`, and a line where this one begins.
@@ -193,15 +197,10 @@ impl<'r> Passes<'r> {
         if self.history.is_empty() {
             return chart;
         }
-        let unit = self.per_day.and(self.unit()).map(|(unit, _)| unit);
-        let place = |past: &PastPass| match unit.zip(past.days) {
-            Some((unit, days)) => days / unit,
-            None => past.pass as f64,
-        };
+        let place = |past: &PastPass| self.place_of(past.pass, past.days);
         let chart = ends::lines(chart, ends, None, |end| {
-            self.history
-                .iter()
-                .map(move |past| (place(past), value(past, end)))
+            let history = self.history.iter();
+            history.map(move |past| (place(past), value(past, end)))
         });
         chart.refer(Reference::vertical(self.place(0), ""))
     }

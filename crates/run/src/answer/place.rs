@@ -242,12 +242,11 @@ impl Run {
             (Limited::Force, _) => [record.force_after(end), record.largest_force(end)].map(wider),
             (Limited::Movement, None) => [movement; 2],
             (Limited::Movement, Some(spring)) => {
-                let peak = end.of([record.upstream_peak_n, record.downstream_peak_n]);
-                let least = end.of([record.upstream_least_n, record.downstream_least_n]);
-                let after = end.of([record.upstream_displacement_m, record.downstream_displacement_m]);
                 let outward = end.of([-1.0, 1.0]);
-                let during = [peak, least]
-                    .map(|force| (after + outward * (force - record.force_after(end)) / spring).abs());
+                let during = record.extremes(end).map(|force| {
+                    let further = outward * (force - record.force_after(end)) / spring;
+                    (record.displacement(end) + further).abs()
+                });
                 [movement, during.into_iter().fold(movement, f64::max)]
             }
         }
@@ -257,9 +256,16 @@ impl Run {
 impl PassRecord {
     /// The force on an end that is largest in size after the pass and during it \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
-        let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
-        let least = end.of([self.upstream_least_n, self.downstream_least_n]);
+        let [least, peak] = self.extremes(end);
         larger(larger(self.force_after(end), peak), least)
+    }
+
+    /// The least and the largest force on an end during the pass \[N\].
+    pub fn extremes(&self, end: CableEnd) -> [f64; 2] {
+        end.of([
+            [self.upstream_least_n, self.upstream_peak_n],
+            [self.downstream_least_n, self.downstream_peak_n],
+        ])
     }
 
     /// Force on an end after the pass \[N\].
@@ -269,8 +275,12 @@ impl PassRecord {
 
     /// How far an end is displaced after the pass, whichever way \[m\].
     pub fn movement(&self, end: CableEnd) -> f64 {
+        self.displacement(end).abs()
+    }
+
+    /// Displacement of an end after the pass \[m\].
+    pub fn displacement(&self, end: CableEnd) -> f64 {
         end.of([self.upstream_displacement_m, self.downstream_displacement_m])
-            .abs()
     }
 }
 

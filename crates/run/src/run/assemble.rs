@@ -13,7 +13,7 @@ use crate::passes::{Passes, force_profile, listed_passes};
 use crate::plan::{PassMethod, Plan};
 use crate::refine::Solved;
 use crate::saved_state::{PastPass, SavedState};
-use crate::scene::{End, Scene};
+use crate::scene::{CableEnd, End, Scene};
 
 /// The answer from passes that were simulated by `method`, for a `reason`.
 pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solved) -> Result<Run, Error> {
@@ -31,10 +31,8 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
     };
     let first = &ground.motions[0];
     let past = past(scene, &passes);
-    let spring = |end: End| match end {
-        End::Spring(stiffness) => Some(stiffness),
-        End::Free | End::Fixed => None,
-    };
+    // A free end is a spring of no stiffness.
+    let spring = |end: End| end.stiffness().filter(|stiffness| *stiffness > 0.0);
     let mut run = Run {
         title: scene.title.clone(),
         duct_motion: DuctMotionSummary {
@@ -90,8 +88,8 @@ fn past(scene: &Scene, passes: &[PassRecord]) -> Vec<PastPass> {
     let past = |record: &PassRecord| PastPass {
         pass: record.pass,
         days: scene.traffic.per_day.map(|a_day| record.pass as f64 / a_day),
-        force_n: [record.upstream_force_n, record.downstream_force_n],
-        displacement_m: [record.upstream_displacement_m, record.downstream_displacement_m],
+        force_n: CableEnd::ALL.map(|end| record.force_after(end)),
+        displacement_m: CableEnd::ALL.map(|end| record.displacement(end)),
     };
     passes.iter().filter(is_kept).map(past).collect()
 }
