@@ -19,6 +19,8 @@ pub(crate) struct Course<F> {
     pub shape: F,
     /// Distance \[m\] before and past the duct over which the vehicle is followed.
     pub approach: f64,
+    /// How far its wheels reach from its origin \[m\].
+    pub half_length: f64,
 }
 
 /// The course of a vehicle whose duct motion is `motion` over a duct with nodes as in `mesh`, if the motion is known far enough and the
@@ -49,6 +51,7 @@ pub(crate) fn as_driven(
         // A lattice needs a few points more than the reach.
         shape: move |xi: f64| sign * motion.longitudinal(sign * xi.clamp(-reach, reach)),
         approach,
+        half_length: motion.half_length(),
     })
 }
 
@@ -59,6 +62,7 @@ impl<F: Fn(f64) -> f64> Course<F> {
             direction,
             shape,
             approach: checked_approach(approach)?,
+            half_length: 0.0,
         })
     }
 

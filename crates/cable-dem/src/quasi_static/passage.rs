@@ -124,7 +124,7 @@ impl Passage {
         let behind = ((end + stride + approach) / m + 3) * m;
         let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
         let shape = course.tabulate((-behind..ahead).map(|j| step * j as f64))?;
-        let positions = schedule(&shape, behind as usize, end, approach, stride);
+        let positions = schedule(end, approach, (course.half_length / step).ceil() as i64, stride);
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         let phases: Vec<Phase> = (0..m as usize)
