@@ -19,11 +19,6 @@ pub const WATCHED_SHARE: f64 = 0.05;
 /// 30 m changes by 3e-7, 2e-6 and 2e-5.
 pub const QUIET_SHARE: f64 = 0.25;
 
-/// A support is solved again when its force has changed by as much as may be unbalanced. For this a
-/// fixed end counts as a spring this many times as stiff as an element. With 1 it takes 0.97 times
-/// as long, and the force of two passes over 30 m is off by 1.4e-5; with 5 by 1e-8.
-pub const FIXED_END: f64 = 5.0;
-
 /// Nodes between two windows from which on each is solved on its own. With 8 it takes 0.9 to 1.0
 /// times as long, with 32 1.0 to 1.2 times, with one window for all 1.2 to 1.5 times.
 pub const GAP: usize = 16;

@@ -50,7 +50,7 @@ impl ForwardSolver {
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
         let bounds = WindowBounds::new(chain.free, screening);
         Self {
-            supports: Supports::new(&cable, mesh, &chain, bounds),
+            supports: Supports::new(&cable, mesh, bounds),
             ends: EndReader::new(&cable, mesh),
             clamps: ClampReader::new(&cable, mesh),
             slips: Vec::new(),
@@ -138,7 +138,7 @@ impl ForwardSolver {
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
-        self.update_supports(snapshot, true);
+        self.hold(snapshot);
         self.solve(self.bounds.free, snapshot)?;
         self.anchor(self.bounds.free);
         self.moving.clear();
@@ -155,11 +155,11 @@ impl ForwardSolver {
         watched: Stretch,
         first: usize,
     ) -> Result<(), CableError> {
-        self.update_supports(snapshot, false);
+        self.hold(snapshot);
         let mut windows = std::mem::take(&mut self.windows);
         self.collect(&mut windows, snapshot, watched);
         let travelling = windows.clone();
-        windows.extend(self.supports.due());
+        windows.extend(&self.supports.windows);
         window::join(&mut windows);
         self.moving.clear();
         for window in &mut windows {
@@ -171,10 +171,8 @@ impl ForwardSolver {
             *window = self.solve(begun, snapshot)?;
             if travels {
                 self.prediction.write(first, *window, &self.step.trial.contact);
-                self.supports.remember(begun, &[]);
             } else {
-                // Around a support nothing moves on until its load changes.
-                self.supports.remember(begun, &self.moving[before..]);
+                // Around a support nothing travels.
                 self.moving.truncate(before);
             }
             let widest = &mut self.recorder.statistics.widest_window;
@@ -183,10 +181,7 @@ impl ForwardSolver {
         for window in &windows {
             self.anchor(*window);
         }
-        let touched = windows.iter().any(|window| self.bounds.near_an_end(*window));
-        if touched || self.supports.due().next().is_some() {
-            self.record_ends(snapshot);
-        }
+        self.record_ends(snapshot);
         self.record_clamps(snapshot);
         self.windows = windows;
         Ok(())
@@ -223,11 +218,13 @@ impl ForwardSolver {
         }
     }
 
-    fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
+    /// Brings loads and fixed ends to the vehicle's position.
+    fn hold(&mut self, snapshot: &Snapshot<'_>) {
         self.recorder.statistics.steps += 1;
         let StepSolver { chain, trial, .. } = &mut self.step;
+        self.supports.load(snapshot, chain);
         let state = (&mut *self.r, &mut *self.g);
-        self.recorder.dissipated += self.supports.update(snapshot, all, chain, state, trial);
+        self.recorder.dissipated += self.supports.hold(snapshot, chain, state, trial);
     }
 
     /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
@@ -266,7 +263,7 @@ impl ForwardSolver {
             })?;
             let StepSolver { chain, trial, .. } = &mut self.step;
             if chain.correct_grips(stretch, |i| trial.r[i] + snapshot.adherent_at(i)) {
-                self.supports.grip(snapshot, chain);
+                self.supports.load(snapshot, chain);
                 corrections += 1;
                 continue;
             }

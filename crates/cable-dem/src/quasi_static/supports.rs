@@ -1,68 +1,62 @@
-//! Ends and clamps while the vehicle passes: their loads, and when the cable around them is to be solved again.
+//! Ends and clamps while the vehicle passes: their loads, and where they stand, in the adherent frame.
+//!
+//! The cable around each of them is solved at every step.
 
 use super::passage::Snapshot;
 use super::window::WindowBounds;
 use crate::step::{Chain, FixedEndFriction, Stretch, Support, Trial};
-use crate::tuning::{FIXED_END, UNBALANCED_SHARE};
 use crate::{DuctedCable, Mesh};
-
-/// A support, and what it feels of the vehicle in the adherent frame.
-#[derive(Debug, Clone)]
-struct WatchedSupport {
-    support: Support,
-    /// Where a fixed end stands \[m\].
-    position: f64,
-    /// Its least window, and what moved in it when it was last solved.
-    least: Stretch,
-    window: Stretch,
-    /// For which it was last solved: the load on a spring \[N\], or the adherent displacement
-    /// against which the ground holds a fixed end \[m\].
-    solved: f64,
-    /// Displacement of the adherent frame then \[m\].
-    frame: f64,
-    /// Whether that has changed since.
-    due: bool,
-    /// Displacement \[m\] and adhesion \[N/m\] of the duct up to which a fixed end's own friction
-    /// has followed.
-    followed: [f64; 2],
-}
 
 /// All supports of a cable.
 #[derive(Debug, Clone)]
 pub(super) struct Supports {
-    all: Vec<WatchedSupport>,
+    /// Those that are springs, with their stiffness \[N/m\].
+    springs: Vec<(usize, f64)>,
+    fixed: Vec<FixedEnd>,
     /// Friction law of fixed nodes.
     law: FixedEndFriction,
+    /// Least windows around all of them.
+    pub windows: Vec<Stretch>,
     /// Loads in the adherent frame \[N\] by node: those of the supports, and the cable's own along the duct.
     pub load: Vec<f64>,
     /// The latter alone.
     body: Vec<f64>,
-    /// Change of a support's force \[N\] from which it is solved again: as much as a window's edge may be off.
-    threshold: f64,
+}
+
+/// A fixed end, and how far its friction has followed the duct.
+#[derive(Debug, Clone)]
+struct FixedEnd {
+    node: usize,
+    /// Where it stands \[m\].
+    position: f64,
+    /// Displacement \[m\] and adhesion \[N/m\] of the duct.
+    followed: [f64; 2],
 }
 
 impl Supports {
     /// Those of `cable` on `mesh`.
-    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, bounds: WindowBounds) -> Self {
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, bounds: WindowBounds) -> Self {
         let body = cable.loads(mesh, 0.0);
-        let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
         let [upstream, downstream] = cable.end_positions();
-        let watched = |support: Support| WatchedSupport {
-            position: if support.node == 0 { upstream } else { downstream },
-            least: around(support.node),
-            window: around(support.node),
-            solved: 0.0,
-            frame: 0.0,
-            due: false,
-            followed: [0.0; 2],
-            support,
-        };
+        let (mut springs, mut fixed, mut windows) = (Vec::new(), Vec::new(), Vec::new());
+        for Support { node, stiffness, .. } in Support::of(cable, mesh) {
+            windows.push(bounds.widened(Stretch { lo: node, hi: node }, bounds.margin));
+            match stiffness {
+                Some(spring) => springs.push((node, spring)),
+                None => fixed.push(FixedEnd {
+                    node,
+                    position: if node == 0 { upstream } else { downstream },
+                    followed: [0.0; 2],
+                }),
+            }
+        }
         Self {
-            all: Support::of(cable, mesh).into_iter().map(watched).collect(),
+            springs,
+            fixed,
             law: FixedEndFriction::new(cable, mesh),
+            windows,
             load: body.clone(),
             body,
-            threshold: UNBALANCED_SHARE * chain.least_limit * mesh.spacing(),
         }
     }
 
@@ -71,76 +65,37 @@ impl Supports {
     pub fn rest(&mut self, body: Vec<f64>) {
         self.load.copy_from_slice(&body);
         self.body = body;
-        for watched in &mut self.all {
-            (watched.solved, watched.frame, watched.followed) = (0.0, 0.0, [0.0; 2]);
-            watched.window = watched.least;
+        for end in &mut self.fixed {
+            end.followed = [0.0; 2];
         }
     }
 
-    /// Loads the nodes of clamps that slip anew, after they have changed between sticking and sliding.
-    pub fn grip(&mut self, snapshot: &Snapshot<'_>, chain: &Chain) {
-        for watched in self.all.iter_mut().filter(|watched| watched.support.slips) {
-            let node = watched.support.node;
-            if let Some(spring) = watched.support.stiffness {
-                watched.frame = snapshot.adherent_at(node);
-                watched.solved = cut(snapshot, node, chain) - spring * watched.frame;
-                self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
-            }
+    /// Loads the nodes on springs as the vehicle and the clamps that slip demand.
+    pub fn load(&mut self, snapshot: &Snapshot<'_>, chain: &Chain) {
+        for &(node, spring) in &self.springs {
+            let frame = snapshot.adherent_at(node);
+            let spring = cut(snapshot, node, chain) - spring * frame;
+            self.load[node] = spring + self.body[node] + chain.grip_load(node, frame);
         }
     }
 
-    /// The windows around supports that are to be solved again.
-    pub fn due(&self) -> impl Iterator<Item = Stretch> {
-        self.all
-            .iter()
-            .filter(|watched| watched.due)
-            .map(|watched| watched.window)
-    }
-
-    /// Remembers what `moved` in a `window` that was solved: the windows of its supports begin with
-    /// that next time.
-    pub fn remember(&mut self, window: Stretch, moved: &[Stretch]) {
-        let in_window = |watched: &&mut WatchedSupport| watched.due && watched.least.overlaps(window);
-        for watched in self.all.iter_mut().filter(in_window) {
-            watched.window = moved.iter().copied().fold(watched.least, Stretch::hull);
-        }
-    }
-
-    /// Brings the loads up to date where the vehicle's effect on them has changed, or everywhere if `all`, and moves fixed nodes, whose
-    /// friction is `g`, in both the state `r` and the `trial`. Returns the heat of the slip there \[J\].
-    pub fn update(
+    /// Moves fixed nodes, whose friction is `g`, in both the state `r` and the `trial`. Returns the heat of the slip there \[J\].
+    pub fn hold(
         &mut self,
         snapshot: &Snapshot<'_>,
-        all: bool,
         chain: &Chain,
         (r, g): (&mut [f64], &mut [f64]),
         trial: &mut Trial,
     ) -> f64 {
         let mut heat = 0.0;
-        for watched in &mut self.all {
-            let node = watched.support.node;
-            let adherent = snapshot.adherent_at(node);
-            // Force on the node for each newton of load, or each metre of displacement.
-            let (target, force) = match watched.support.stiffness {
-                Some(spring) => (cut(snapshot, node, chain) - spring * adherent, 1.0),
-                None => (adherent, FIXED_END * chain.stiffness),
-            };
-            let changed = force * (target - watched.solved).abs() > self.threshold;
-            watched.due = all || changed || chain.slides(node);
-            if watched.due {
-                (watched.solved, watched.frame) = (target, adherent);
-            }
-            if watched.support.stiffness.is_some() {
-                self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
-                continue;
-            }
-            r[node] = watched.position - watched.solved;
+        for end in &mut self.fixed {
+            let node = end.node;
+            r[node] = end.position - snapshot.adherent_at(node);
             trial.r[node] = r[node];
-            // Its friction turns at slips far smaller than those that matter to its neighbours.
             // The duct stands at D = a + γ A.
             let (gamma, adhesion) = (chain.compliance, snapshot.adhesion[node]);
-            let duct = adherent + gamma * adhesion;
-            let [duct_before, adhesion_before] = std::mem::replace(&mut watched.followed, [duct, adhesion]);
+            let duct = snapshot.adherent_at(node) + gamma * adhesion;
+            let [duct_before, adhesion_before] = std::mem::replace(&mut end.followed, [duct, adhesion]);
             let (slip, before) = (duct - duct_before, g[node] + adhesion_before);
             let after = self.law.after_slip(before, slip, chain.nodes[node].limit);
             heat += chain.nodes[node].tributary * after * (slip - gamma * (after - before));

@@ -34,11 +34,6 @@ impl WindowBounds {
         }
     }
 
-    /// Whether a window reaches so near to an end that the end feels it.
-    pub fn near_an_end(self, stretch: Stretch) -> bool {
-        stretch.lo <= self.free.lo + self.margin || stretch.hi + self.margin >= self.free.hi
-    }
-
     /// The part of the cable that may slip under a vehicle over `node` whose adhesion matters over `reach` nodes.
     pub fn under(self, node: i64, reach: usize) -> Stretch {
         let clamp = |node: i64| node.clamp(self.free.lo as i64, self.free.hi as i64) as usize;

@@ -105,14 +105,6 @@ impl Stretch {
         self.lo <= other.hi && other.lo <= self.hi
     }
 
-    /// What holds both.
-    pub fn hull(self, other: Self) -> Self {
-        Self {
-            lo: self.lo.min(other.lo),
-            hi: self.hi.max(other.hi),
-        }
-    }
-
     pub fn len(self) -> usize {
         self.hi + 1 - self.lo
     }
@@ -317,13 +309,6 @@ impl Chain {
         for grip in &self.grips {
             load[grip.node] += grip.load(0.0);
         }
-    }
-
-    /// Whether a clamp on `node` slides.
-    pub fn slides(&self, node: usize) -> bool {
-        self.grips
-            .iter()
-            .any(|grip| grip.node == node && !grip.is_stuck())
     }
 
     /// Leaves the clamps that slip to the caller.

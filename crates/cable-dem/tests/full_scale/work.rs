@@ -39,10 +39,12 @@ fn a_quasi_static_pass() -> Outcome {
                     positions + 2,
                     "one step a vehicle position, one from rest and one to it"
                 );
-                // Where the vehicle is, at either end, and now and then once more for a window that has grown, or for a second zone.
-                assert_at_most("windows a step", work.windows, 2.2, work.steps, work);
-                // Two linear solves a window: contact states are predicted from the step before, at the same distance from the vehicle.
-                assert_at_most("solves a step", work.sweeps, 4.0, work.steps, work);
+                // Where the vehicle is, at either end if it is elsewhere, and now and then once more for a window that has grown, or for
+                // a second zone.
+                assert_at_most("windows a step", work.windows, 3.2, work.steps, work);
+                // One linear solve around a support, and two where the vehicle is: contact states are predicted from the step before, at the
+                // same distance from the vehicle.
+                assert_at_most("solves a window", work.sweeps, 1.8, work.windows, work);
                 // The zones that slip are some 6 m long, with what the sheath carries along 10 m, whatever the duct, all along the road; and
                 // where the iteration cycles, ten solves of them.
                 let zone = if law == FrictionLaw::Coulomb { 11.5 } else { 14.0 } / spacing;
