@@ -171,8 +171,8 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
             let (mut elastic, mut friction, mut together) = (Vec::new(), Vec::new(), Vec::new());
             for b in decades(4.8, 10.7, 60) {
                 let limits = limits(law, b)?;
-                elastic.push((limits.elastic.time_step, b));
-                friction.push((limits.friction.time_step, b));
+                elastic.push((limits.elastic, b));
+                friction.push((limits.friction, b));
                 together.push((limits.together(), b));
             }
             let inside = |point: &(f64, f64)| (3e-5..2.9e-3).contains(&point.0);
@@ -205,8 +205,8 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
                 steps_axis(&grid),
                 Axis::logarithmic("speed, m/s").cells(grid.y.clone()),
             )
-            .with(Series::line("elastic limit", line(limits.elastic.time_step)))
-            .with(Series::line("friction limit", line(limits.friction.time_step)).dashed())
+            .with(Series::line("elastic limit", line(limits.elastic)))
+            .with(Series::line("friction limit", line(limits.friction)).dashed())
             .with(Series::line("both together", line(limits.together())).dotted());
         figure = figure.with(map);
         table += &grid.csv(&name);

@@ -37,9 +37,7 @@ pub enum CableError {
     },
     /// Nothing holds a cable that its own weight draws down the duct.
     #[error(
-        "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it",
-        body_force = short(*body_force),
-        limit = short(*limit)
+        "the cable slides out of its duct: {body_force:.4} N/m along it is no less than the friction of {limit:.4} N/m, and no end and no clamp holds it"
     )]
     NothingHolds {
         /// Force along the duct \[N/m\].
@@ -102,15 +100,18 @@ pub enum CableError {
     },
     /// A time step beyond the explicit scheme's limit.
     #[error(
-        "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({formula})"
+        "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({elastic:.3e} s for the springs \
+         and {friction:.3e} s for friction)"
     )]
     UnstableStep {
         /// The step asked for \[s\].
         time_step: f64,
         /// The longest stable step \[s\].
         limit: f64,
-        /// The limit that governs.
-        formula: &'static str,
+        /// That of the springs alone \[s\].
+        elastic: f64,
+        /// That of friction alone \[s\].
+        friction: f64,
     },
     /// A pass would take more work than allowed.
     #[error(

@@ -30,7 +30,7 @@ pub use carried::carried;
 pub use ends::EndForces;
 pub use error::CableError;
 pub use explicit::{
-    EnergyBalance, Explicit, ExplicitOptions, ExplicitOutcome, MovingDuct, SigmoidLeak, StepLimit, StepLimits,
+    EnergyBalance, Explicit, ExplicitOptions, ExplicitOutcome, MovingDuct, SigmoidLeak, StepLimits,
 };
 pub use friction::{Friction, FrictionLaw};
 pub use inertia::inertia_ratio;

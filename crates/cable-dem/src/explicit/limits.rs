@@ -1,19 +1,7 @@
 //! The longest time step of the explicit scheme.
 
-use std::fmt;
-
 use super::lumped::Lumped;
 use crate::FrictionLaw;
-
-/// One limit of the time step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct StepLimit {
-    /// Longest stable step \[s\]; infinite where nothing limits it.
-    pub time_step: f64,
-    /// The formula it comes from.
-    pub formula: &'static str,
-}
 
 /// Limits of the explicit scheme's time step for one cable on one mesh.
 ///
@@ -41,10 +29,10 @@ pub struct StepLimit {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct StepLimits {
-    /// From the cable's and its supports' springs.
-    pub elastic: StepLimit,
-    /// From the slope of the friction law.
-    pub friction: StepLimit,
+    /// Longest stable step of the cable's and its supports' springs alone, Δt_e \[s\].
+    pub elastic: f64,
+    /// Longest stable step of the friction law's slope alone, Δt_f \[s\]; infinite for Coulomb's law.
+    pub friction: f64,
     /// Elastic limit with springs to the ground counted four times, so that the swing of a node on one is resolved.
     resolving_springs: f64,
 }
@@ -64,70 +52,25 @@ impl StepLimits {
 
         let friction = lumped.cable.friction();
         let per_mass = friction.limit() * friction.law().shape_factor() / lumped.mass_per_metre;
-        let friction = match friction.law() {
-            FrictionLaw::Coulomb => StepLimit {
-                time_step: f64::INFINITY,
-                formula: "none: Coulomb friction by projection",
-            },
-            FrictionLaw::ElasticPlastic { .. } => StepLimit {
-                time_step: (8.0 / per_mass).sqrt(),
-                formula: "√(8 m′/(q b))",
-            },
-            FrictionLaw::Sigmoid { .. } => StepLimit {
-                time_step: (4.0 / per_mass).sqrt(),
-                formula: "√(4 m′/(q b))",
-            },
-        };
         Self {
-            elastic: StepLimit {
-                time_step: 2.0 / fastest(1.0).sqrt(),
-                formula: "2/√(max Σ|K_ij|/m_i)",
+            elastic: 2.0 / fastest(1.0).sqrt(),
+            friction: match friction.law() {
+                FrictionLaw::Coulomb => f64::INFINITY,
+                FrictionLaw::ElasticPlastic { .. } => (8.0 / per_mass).sqrt(),
+                FrictionLaw::Sigmoid { .. } => (4.0 / per_mass).sqrt(),
             },
-            friction,
             resolving_springs: 2.0 / fastest(4.0).sqrt(),
         }
     }
 
     /// Longest stable step \[s\]: both limits together.
     pub fn together(&self) -> f64 {
-        1.0 / (1.0 / self.elastic.time_step).hypot(1.0 / self.friction.time_step)
+        1.0 / (1.0 / self.elastic).hypot(1.0 / self.friction)
     }
 
     /// The step \[s\] to take: 0.9 of what the elastic limit and half the friction limit allow together, springs to the
     /// ground at half of theirs too.
     pub fn advised(&self) -> f64 {
-        0.9 / (1.0 / self.resolving_springs).hypot(2.0 / self.friction.time_step)
-    }
-
-    /// The smaller of both limits.
-    pub fn governing(&self) -> StepLimit {
-        if self.friction.time_step < self.elastic.time_step {
-            self.friction
-        } else {
-            self.elastic
-        }
-    }
-
-    /// How many times `time_step` \[s\] fits into both limits together; stable above 1.
-    pub fn margin(&self, time_step: f64) -> f64 {
-        self.together() / time_step
-    }
-}
-
-impl fmt::Display for StepLimits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let advised = self.advised();
-        write!(
-            f,
-            "elastic limit {} = {:.3e} s, friction limit {} = {:.3e} s, together {:.3e} s; advised {advised:.3e} s, a margin \
-             of {:.2} and {:.2}",
-            self.elastic.formula,
-            self.elastic.time_step,
-            self.friction.formula,
-            self.friction.time_step,
-            self.together(),
-            self.elastic.time_step / advised,
-            self.friction.time_step / advised,
-        )
+        0.9 / (1.0 / self.resolving_springs).hypot(2.0 / self.friction)
     }
 }

@@ -9,7 +9,7 @@ mod nodes;
 
 pub use energy::EnergyBalance;
 pub use leak::SigmoidLeak;
-pub use limits::{StepLimit, StepLimits};
+pub use limits::StepLimits;
 pub use moving_duct::MovingDuct;
 
 use ground_field::DuctMotion;
@@ -142,12 +142,14 @@ impl Explicit {
         )?;
         if let Some(time_step) = options.time_step {
             checked("time_step", time_step, "finite and positive", |v| v > 0.0)?;
-            let margin = limits.margin(time_step);
-            if options.check_limits && (margin < 1.0 || margin.is_nan()) {
+            // Written so that NaN fails.
+            let is_stable = time_step <= limits.together();
+            if options.check_limits && !is_stable {
                 return Err(CableError::UnstableStep {
                     time_step,
+                    elastic: limits.elastic,
+                    friction: limits.friction,
                     limit: limits.together(),
-                    formula: limits.governing().formula,
                 });
             }
         }

@@ -25,45 +25,6 @@ pub(super) struct MovingNodes {
     gross: f64,
 }
 
-/// Friction of one node over one step of time.
-#[derive(Debug, Clone, Copy)]
-struct NodeFriction {
-    law: FrictionLaw,
-    /// Friction limit that makes the law's slope \[N/m\].
-    limit: f64,
-    /// Δt \[s\], and Δt/m′.
-    time_step: f64,
-    per_mass: f64,
-}
-
-impl NodeFriction {
-    /// Given the node's `velocity` after the elastic forces \[m/s\], how far its duct moves in the
-    /// step \[m\] and the `friction` before \[N/m\], with the limit `q` \[N/m\]: its velocity with
-    /// friction, and the friction after.
-    fn act(self, velocity: f64, duct: f64, friction: f64, q: f64) -> (f64, f64) {
-        // All but Coulomb friction are found after the step that they act in.
-        let rubbed = velocity + self.per_mass * friction;
-        let slip = duct - self.time_step * rubbed;
-        match self.law {
-            // The friction that stops the slip, returned to ±q where that is too much (J. J.
-            // Moreau's time stepping, node by node, as the masses are lumped).
-            FrictionLaw::Coulomb => {
-                let stopping = (duct / self.time_step - velocity) / self.per_mass;
-                let friction = stopping.max(-q).min(q);
-                (velocity + self.per_mass * friction, friction)
-            }
-            // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
-            FrictionLaw::ElasticPlastic { shape_factor } => {
-                let trial = friction + 0.5 * self.limit * shape_factor * slip;
-                (rubbed, trial.max(-q).min(q))
-            }
-            FrictionLaw::Sigmoid { shape_factor } => {
-                (rubbed, q * (0.5 * shape_factor * (self.limit / q) * slip).tanh())
-            }
-        }
-    }
-}
-
 impl MovingNodes {
     /// At rest in `state`.
     pub fn new(state: &CableState) -> Self {
@@ -90,50 +51,37 @@ impl MovingNodes {
             let before = std::mem::replace(duct, *increment);
             *increment -= before;
         }
-        // v ← v + Δt (w p − (K + S) u)/m.
         let per_mass = time_step / lumped.mass_per_metre;
-        for (i, velocity) in self.velocity.iter_mut().enumerate() {
-            *velocity -= per_mass
-                * lumped
-                    .chain
-                    .balancing_friction(&self.displacement, &lumped.load, i);
-        }
-        let mut gripped = 0.0;
-        for grip in &mut lumped.grips {
-            let (force, heat) = grip.bear(self.displacement[grip.node]);
-            gripped += heat;
-            self.velocity[grip.node] -= per_mass * force * lumped.chain.nodes[grip.node].per_tributary;
-        }
-        let friction = NodeFriction {
-            law: lumped.cable.friction().law(),
-            limit: lumped.cable.friction().limit(),
-            time_step,
-            per_mass,
-        };
+        let gripped = self.accelerate(lumped, per_mass);
+        let friction = lumped.cable.friction();
         let compliance = lumped.elastic_compliance();
-        // Coulomb friction is found with the velocity; any other that acts in a step is that of its start.
-        let found_at_once = friction.law == FrictionLaw::Coulomb;
+        let coulomb = friction.law() == FrictionLaw::Coulomb;
         let (mut work, mut heat, mut gross) = (0.0, 0.0, 0.0);
         for i in 0..self.velocity.len() {
             let (increment, before) = (self.increment[i], self.friction[i]);
-            let (mut velocity, mut after) =
-                friction.act(self.velocity[i], increment, before, lumped.chain.nodes[i].limit);
-            // Fixed ends do not move; their friction follows their own slip.
+            let limit = lumped.chain.nodes[i].limit;
             let is_held = !lumped.chain.free.nodes().contains(&i);
-            if is_held {
-                (velocity, after) = (
-                    0.0,
-                    lumped
-                        .held
-                        .after_slip(before, increment, lumped.chain.nodes[i].limit),
-                );
-            }
+            let (velocity, after) = if is_held {
+                // Fixed ends do not move; their friction follows their own slip.
+                (0.0, lumped.held.after_slip(before, increment, limit))
+            } else if coulomb {
+                // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by
+                // node, as the masses are lumped).
+                let stopping = (increment / time_step - self.velocity[i]) / per_mass;
+                let after = stopping.max(-limit).min(limit);
+                (self.velocity[i] + per_mass * after, after)
+            } else {
+                // All but Coulomb friction are found after the step that they act in.
+                let velocity = self.velocity[i] + per_mass * before;
+                let slip = increment - time_step * velocity;
+                (velocity, friction.after_slip_within(before, slip, limit))
+            };
             let moved = time_step * velocity;
             (self.velocity[i], self.friction[i]) = (velocity, after);
             self.displacement[i] += moved;
             // What is left of the slip apart from its elastic part, γ Δf.
             let slip = increment - moved - compliance * (after - before);
-            let acting = if found_at_once { after } else { before };
+            let acting = if coulomb { after } else { before };
             // Friction acts from one half step to the next: on half the slip of either step.
             let weight = 0.5 * lumped.chain.nodes[i].tributary * acting;
             let [earlier, plastic] = std::mem::replace(&mut self.before[i], [increment, slip]);
@@ -146,6 +94,21 @@ impl MovingNodes {
         self.work += work;
         self.heat += heat + gripped;
         self.gross += gross + gripped;
+    }
+
+    /// v ← v + Δt (w p − (K + S) u)/m, with `per_mass` Δt/m′. Returned: the heat of clamps that slip \[J\].
+    fn accelerate(&mut self, lumped: &mut Lumped, per_mass: f64) -> f64 {
+        let (chain, u) = (&lumped.chain, &self.displacement);
+        for (i, velocity) in self.velocity.iter_mut().enumerate() {
+            *velocity -= per_mass * chain.balancing_friction(u, &lumped.load, i);
+        }
+        let mut gripped = 0.0;
+        for grip in &mut lumped.grips {
+            let (force, heat) = grip.bear(u[grip.node]);
+            gripped += heat;
+            self.velocity[grip.node] -= per_mass * force * chain.nodes[grip.node].per_tributary;
+        }
+        gripped
     }
 
     pub fn end_forces(&self, lumped: &Lumped) -> EndForces {
