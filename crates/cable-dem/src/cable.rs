@@ -56,15 +56,6 @@ impl Restraint {
             ..self
         }
     }
-
-    /// The clamp as springs \[N/m\] on the two nodes around it, by the lever rule.
-    pub(crate) fn by_node(&self, mesh: &Mesh) -> [(usize, f64); 2] {
-        let (left, share) = mesh.place(self.position);
-        [
-            (left, (1.0 - share) * self.stiffness),
-            (left + 1, share * self.stiffness),
-        ]
-    }
 }
 
 /// A cable in a duct from x = 0 (upstream) to x = length (downstream), level and straight unless its

@@ -1,6 +1,6 @@
 //! What a load cell at an end of the cable reads.
 
-use crate::step::Support;
+use crate::step::Grip;
 use crate::{DuctedCable, End, Mesh};
 
 /// Forces at both ends \[N\], compression positive: what load cells there read.
@@ -17,15 +17,27 @@ use crate::{DuctedCable, End, Mesh};
 /// |---|---|---|
 /// | free | 0 | 0 |
 /// | fixed | F: a clamp on a node that does not move carries nothing | F |
-/// | spring s, beside clamps with c on that node | F s/(s + c) | s u: F also accelerates the half element |
+/// | spring s | F | s u: F also accelerates the half element |
+/// | spring s, with clamps on that node | s u | s u |
 ///
-/// At rest s u is the same, but for a stiff spring u is a small difference of large numbers and has no digits left.
+/// At rest s u is the same as F, but for a stiff spring u is a small difference of large numbers and has no digits left.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EndForces {
     /// At x = 0.
     pub upstream: f64,
     /// At x = length.
     pub downstream: f64,
+}
+
+/// How the force on an end is read.
+#[derive(Debug, Clone, Copy)]
+enum Reading {
+    /// Nothing holds the end.
+    Nothing,
+    /// From the force of the chain: the end alone holds its node.
+    Chain,
+    /// From the displacement of its spring \[N/m\]: clamps hold its node too.
+    Spring(f64),
 }
 
 /// Reads the ends of one cable on one mesh.
@@ -36,11 +48,8 @@ pub(crate) struct EndReader {
     /// w = h/2 \[m\].
     tributary: f64,
     last: usize,
-    /// s/(s + c) of a spring that clamps share its node with, 1 of a fixed end, 0 of a free one;
-    /// upstream and downstream.
-    shares: [f64; 2],
-    /// Stiffness of a spring whose node a clamp that slips is on too \[N/m\]: its displacement is what it reads.
-    springs: [Option<f64>; 2],
+    /// What is read upstream and downstream.
+    reads: [Reading; 2],
     /// Where it bears nothing \[m\].
     positions: [f64; 2],
     /// Body force on either end node \[N\].
@@ -50,31 +59,20 @@ pub(crate) struct EndReader {
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
-        let supports = Support::of(cable, mesh);
+        let grips = Grip::of(cable, mesh);
         let body = cable.body_loads(mesh);
-        let share = |node: usize, end: End| {
-            let on_node = supports.iter().filter(|support| support.node == node);
-            let all: f64 = on_node.filter_map(|support| support.stiffness).sum();
-            match end.stiffness() {
-                Some(spring) if spring > 0.0 => spring / all,
-                Some(_) => 0.0,
-                None => 1.0,
-            }
-        };
-        let spring = |node: usize, end: End| {
-            let slips = supports
-                .iter()
-                .any(|support| support.node == node && support.slips);
-            end.stiffness().filter(|stiffness| slips && *stiffness > 0.0)
+        let reading = |node: usize, end: End| match end {
+            End::Free | End::Spring(0.0) => Reading::Nothing,
+            End::Spring(spring) if grips.iter().any(|grip| grip.node == node) => Reading::Spring(spring),
+            _ => Reading::Chain,
         };
         Self {
-            springs: [spring(0, cable.upstream()), spring(last, cable.downstream())],
+            reads: [reading(0, cable.upstream()), reading(last, cable.downstream())],
             positions: cable.end_positions(),
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             tributary: mesh.tributary_length(0),
             last,
             body: [body[0], body[last]],
-            shares: [share(0, cable.upstream()), share(last, cable.downstream())],
         }
     }
 
@@ -85,16 +83,14 @@ impl EndReader {
         displacement: impl Fn(usize) -> f64,
         friction: impl Fn(usize) -> f64,
     ) -> EndForces {
-        let force = |side: usize, node: usize, inner: usize, outward: f64| {
-            if self.shares[side] == 0.0 {
-                return 0.0;
+        let force = |side: usize, node: usize, inner: usize, outward: f64| match self.reads[side] {
+            Reading::Nothing => 0.0,
+            Reading::Spring(spring) => outward * spring * (displacement(node) - self.positions[side]),
+            Reading::Chain => {
+                let chain = self.stiffness * (displacement(inner) - displacement(node));
+                let inward = chain + self.tributary * friction(node) + self.body[side];
+                outward * inward + thermal
             }
-            if let Some(spring) = self.springs[side] {
-                return outward * spring * (displacement(node) - self.positions[side]);
-            }
-            let chain = self.stiffness * (displacement(inner) - displacement(node));
-            let inward = chain + self.tributary * friction(node) + self.body[side];
-            self.shares[side] * (outward * inward + thermal)
         };
         EndForces {
             upstream: force(0, 0, 1, -1.0),

@@ -3,7 +3,6 @@
 mod approach;
 mod cable;
 mod carried;
-mod clamps;
 mod course;
 mod ends;
 mod error;

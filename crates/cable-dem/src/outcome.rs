@@ -124,8 +124,8 @@ impl Recorder {
     }
 
     /// Records the `forces` on all clamps \[N\].
-    pub fn record_clamps(&mut self, forces: impl Iterator<Item = f64>) {
-        for (range, force) in self.clamps.iter_mut().zip(forces) {
+    pub fn record_clamps(&mut self, forces: &[f64]) {
+        for (range, &force) in self.clamps.iter_mut().zip(forces) {
             *range = [range[0].min(force), range[1].max(force)];
         }
     }
@@ -148,7 +148,7 @@ impl Recorder {
     ) -> Result<PassOutcome, CableError> {
         self.record(force);
         let restraints = state.restraint_forces(cable)?;
-        self.record_clamps(restraints.iter().copied());
+        self.record_clamps(&restraints);
         let (least, largest) = [force.upstream, force.downstream]
             .into_iter()
             .fold(extremes(state, cable), |(least, largest), force| {

@@ -347,7 +347,7 @@ fn set_loads(load: &mut [f64], body: &[f64], chain: &Chain, thermal_force: f64) 
         load[grip.node] = body[grip.node];
     }
     (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
-    chain.add_grip_loads(load);
+    chain.add_grip_loads(load, |_| 0.0);
 }
 
 #[cfg(test)]

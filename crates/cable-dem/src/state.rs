@@ -1,9 +1,8 @@
 //! What the cable keeps from one pass to the next.
 
-use crate::clamps::ClampReader;
 use crate::ends::EndReader;
 use crate::error::checked;
-use crate::step::Chain;
+use crate::step::{Chain, Grip};
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
 /// Rounding of the force in an element, as a share of the largest.
@@ -237,10 +236,13 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        let clamps = ClampReader::new(cable, &self.mesh);
-        Ok(clamps
-            .read(&self.clamp_slips, |node| self.displacement[node])
-            .collect())
+        let mut grips = Grip::of(cable, &self.mesh);
+        for grip in &mut grips {
+            grip.start(&self.clamp_slips);
+        }
+        Ok(Grip::forces(&grips, cable.restraints(), |node| {
+            self.displacement[node]
+        }))
     }
 
     /// The largest friction \[N/m\] that every node can bear with the cable's force as it is; it depends on that in bends alone.
@@ -280,7 +282,7 @@ impl CableState {
     pub fn friction_share(&self, cable: &DuctedCable) -> Result<f64, CableError> {
         let chain = self.pressing(cable)?;
         let mut load = cable.loads(&self.mesh, self.thermal_force);
-        chain.add_grip_loads(&mut load);
+        chain.add_grip_loads(&mut load, |_| 0.0);
         let forces = self.element_forces(cable)?;
         let rounding =
             ROUNDING * forces.fold(0.0, |most: f64, force| most.max(force.abs())) / self.node_spacing();

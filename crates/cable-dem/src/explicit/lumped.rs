@@ -4,7 +4,6 @@
 //! and h/2 at the ends), and hangs on its neighbours by springs k = EA/h. End springs and clamps
 //! are springs S to the ground; a fixed end does not move.
 
-use crate::clamps::ClampReader;
 use crate::ends::EndReader;
 use crate::error::checked;
 use crate::step::{Chain, FixedEndFriction, Grip};
@@ -19,14 +18,13 @@ pub(crate) struct Lumped {
     pub mass_per_metre: f64,
     /// K + S.
     pub chain: Chain,
-    /// Clamps that slip.
+    /// Clamps.
     pub grips: Vec<Grip>,
     /// Body force w p of every node \[N\].
     pub load: Vec<f64>,
     /// Friction of held nodes.
     pub held: FixedEndFriction,
     ends: EndReader,
-    pub clamps: ClampReader,
 }
 
 impl Lumped {
@@ -42,7 +40,6 @@ impl Lumped {
             load: cable.loads(&mesh, 0.0),
             held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
-            clamps: ClampReader::new(&cable, &mesh),
             cable,
             mesh,
         })

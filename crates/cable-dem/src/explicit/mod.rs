@@ -17,7 +17,7 @@ use ground_field::DuctMotion;
 use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
-use crate::step::check_precision;
+use crate::step::{Grip, check_precision};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
 use lumped::Lumped;
 use nodes::MovingNodes;
@@ -344,11 +344,9 @@ fn run(
         let t = time_step * step as f64;
         nodes.step(lumped, |d| duct.displacement(t, d), time_step);
         recorder.record(nodes.end_forces(lumped));
-        if !lumped.clamps.is_empty() {
-            for grip in &lumped.grips {
-                grip.store(&mut state.clamp_slips);
-            }
-            recorder.record_clamps(lumped.clamps.read(&state.clamp_slips, |i| nodes.displacement(i)));
+        if !lumped.grips.is_empty() {
+            let clamps = lumped.cable.restraints();
+            recorder.record_clamps(&Grip::forces(&lumped.grips, clamps, |i| nodes.displacement(i)));
         }
         look(t, &nodes);
         if step % LOOK == 0 || step == steps {
@@ -371,6 +369,9 @@ fn run(
     recorder.statistics.steps = steps;
     recorder.statistics.node_updates += steps * count;
     recorder.statistics.widest_window = count;
+    for grip in &lumped.grips {
+        grip.store(&mut state.clamp_slips);
+    }
     nodes.store(state);
     Ok(energy)
 }

@@ -3,7 +3,6 @@
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::supports::Supports;
 use super::window::{self, WindowBounds};
-use crate::clamps::ClampReader;
 use crate::ends::EndReader;
 use crate::outcome::Recorder;
 use crate::step::{Chain, Grip, Load, Prediction, StepSolver, Stretch, largest};
@@ -19,9 +18,6 @@ pub(super) struct ForwardSolver {
     pub step: StepSolver,
     cable: DuctedCable,
     ends: EndReader,
-    clamps: ClampReader,
-    /// How far clamps have slipped \[m\].
-    slips: Vec<[f64; 2]>,
     supports: Supports,
     bounds: WindowBounds,
     /// A node moves if it does so by more than this in a step \[m\].
@@ -50,10 +46,8 @@ impl ForwardSolver {
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
         let bounds = WindowBounds::new(chain.free, screening);
         Self {
-            supports: Supports::new(&cable, mesh, bounds),
+            supports: Supports::new(&cable, mesh, &chain, bounds),
             ends: EndReader::new(&cable, mesh),
-            clamps: ClampReader::new(&cable, mesh),
-            slips: Vec::new(),
             bounds,
             quiet: QUIET_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
@@ -91,7 +85,6 @@ impl ForwardSolver {
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction = Prediction::new(points, phases);
-        self.slips.clone_from(&state.clamp_slips);
         self.recorder = Recorder::new(&self.cable, state)?;
 
         let mut behind = self.bounds.free.lo;
@@ -299,14 +292,12 @@ impl ForwardSolver {
 
     /// Records the force on each clamp with the vehicle at the snapshot's position.
     fn record_clamps(&mut self, snapshot: &Snapshot<'_>) {
-        if self.clamps.is_empty() {
-            return;
+        let grips = &self.step.chain.grips;
+        if !grips.is_empty() {
+            let u = |node| self.r[node] + snapshot.adherent_at(node);
+            self.recorder
+                .record_clamps(&Grip::forces(grips, self.cable.restraints(), u));
         }
-        for grip in &self.step.chain.grips {
-            grip.store(&mut self.slips);
-        }
-        let u = |node| self.r[node] + snapshot.adherent_at(node);
-        self.recorder.record_clamps(self.clamps.read(&self.slips, u));
     }
 
     /// Records the force on each end with the vehicle at the snapshot's position.

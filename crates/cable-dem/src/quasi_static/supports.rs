@@ -4,14 +4,14 @@
 
 use super::passage::Snapshot;
 use super::window::WindowBounds;
-use crate::step::{Chain, FixedEndFriction, Stretch, Support, Trial};
+use crate::step::{Chain, FixedEndFriction, Stretch, Trial};
 use crate::{DuctedCable, Mesh};
 
 /// All supports of a cable.
 #[derive(Debug, Clone)]
 pub(super) struct Supports {
-    /// Those that are springs, with their stiffness \[N/m\].
-    springs: Vec<(usize, f64)>,
+    /// Ends that move, with the stiffness of their springs \[N/m\].
+    ends: Vec<(usize, f64)>,
     fixed: Vec<FixedEnd>,
     /// Friction law of fixed nodes.
     law: FixedEndFriction,
@@ -35,26 +35,30 @@ struct FixedEnd {
 
 impl Supports {
     /// Those of `cable` on `mesh`.
-    pub fn new(cable: &DuctedCable, mesh: &Mesh, bounds: WindowBounds) -> Self {
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, bounds: WindowBounds) -> Self {
         let body = cable.loads(mesh, 0.0);
-        let [upstream, downstream] = cable.end_positions();
-        let (mut springs, mut fixed, mut windows) = (Vec::new(), Vec::new(), Vec::new());
-        for Support { node, stiffness, .. } in Support::of(cable, mesh) {
-            windows.push(bounds.widened(Stretch { lo: node, hi: node }, bounds.margin));
-            match stiffness {
-                Some(spring) => springs.push((node, spring)),
+        let last = mesh.elements();
+        let (mut ends, mut fixed) = (Vec::new(), Vec::new());
+        let held = [(0, cable.upstream()), (last, cable.downstream())];
+        for ((node, end), position) in held.into_iter().zip(cable.end_positions()) {
+            match end.stiffness() {
+                Some(spring) => ends.push((node, spring)),
                 None => fixed.push(FixedEnd {
                     node,
-                    position: if node == 0 { upstream } else { downstream },
+                    position,
                     followed: [0.0; 2],
                 }),
             }
         }
+        let nodes = [0, last]
+            .into_iter()
+            .chain(chain.grips.iter().map(|grip| grip.node));
+        let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
         Self {
-            springs,
+            ends,
             fixed,
             law: FixedEndFriction::new(cable, mesh),
-            windows,
+            windows: nodes.map(around).collect(),
             load: body.clone(),
             body,
         }
@@ -70,13 +74,16 @@ impl Supports {
         }
     }
 
-    /// Loads the nodes on springs as the vehicle and the clamps that slip demand.
+    /// Loads ends and clamps as the vehicle and what slips demand.
     pub fn load(&mut self, snapshot: &Snapshot<'_>, chain: &Chain) {
-        for &(node, spring) in &self.springs {
-            let frame = snapshot.adherent_at(node);
-            let spring = cut(snapshot, node, chain) - spring * frame;
-            self.load[node] = spring + self.body[node] + chain.grip_load(node, frame);
+        for grip in &chain.grips {
+            self.load[grip.node] = self.body[grip.node];
         }
+        for &(node, spring) in &self.ends {
+            let pull = cut(snapshot, node, chain) - spring * snapshot.adherent_at(node);
+            self.load[node] = self.body[node] + pull;
+        }
+        chain.add_grip_loads(&mut self.load, |node| snapshot.adherent_at(node));
     }
 
     /// Moves fixed nodes, whose friction is `g`, in both the state `r` and the `trial`. Returns the heat of the slip there \[J\].
@@ -105,16 +112,11 @@ impl Supports {
     }
 }
 
-/// Force of the adherent motion on the last node of a cable that is cut at an end \[N\]; zero
-/// elsewhere.
+/// Force of the adherent motion on the last node of a cable that is cut at an end \[N\].
 ///
 /// Beyond an end the adherent motion would go on; cutting the chain there leaves ±(k/2)(a_{+1} − a_{−1}), the force of
 /// the missing half.
-fn cut(snapshot: &Snapshot<'_>, node: usize, chain: &Chain) -> f64 {
-    let strain = 0.5 * chain.stiffness * snapshot.stretch_around(node);
-    match node {
-        0 => strain,
-        node if node + 1 == chain.nodes.len() => -strain,
-        _ => 0.0,
-    }
+fn cut(snapshot: &Snapshot<'_>, end: usize, chain: &Chain) -> f64 {
+    let strain = 0.5 * chain.stiffness * snapshot.stretch_around(end);
+    if end == 0 { strain } else { -strain }
 }

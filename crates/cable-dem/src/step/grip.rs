@@ -1,4 +1,4 @@
-//! Clamps that slip: springs between cable and ground that bear no more than they hold.
+//! Clamps: springs between cable and ground, which may slip.
 //!
 //! A spring of stiffness s that has slipped by p bears F = s (u − p) while |F| is at most its holding force, and ± that force while it
 //! slips, u the displacement of its node. The first makes it a spring of the chain, the second a load. A clamp between two nodes is a
@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-9;
 /// A clamp nearer to a node than this share of the spacing is on it alone.
 const ON_NODE: f64 = 1e-9;
 
-/// A clamp that slips, or its share on one of two nodes.
+/// A clamp, or its share on one of two nodes.
 #[derive(Debug, Clone)]
 pub(crate) struct Grip {
     /// The clamp's place among the cable's restraints, and its side: 0 before it, 1 after it; 2 for both where it is on its node.
@@ -19,9 +19,9 @@ pub(crate) struct Grip {
     pub node: usize,
     /// \[N/m\]
     pub stiffness: f64,
-    /// Diagonal of its node's row with all springs.
+    /// Diagonal of its node's row without clamps.
     pub diagonal: f64,
-    /// Holding force \[N\].
+    /// Holding force \[N\]; infinite if it never slips.
     holds: f64,
     /// How far it has slipped before the step \[m\].
     slip: f64,
@@ -34,32 +34,36 @@ impl Grip {
     pub fn of(cable: &DuctedCable, mesh: &Mesh) -> Vec<Self> {
         let mut grips = Vec::new();
         for (restraint, clamp) in cable.restraints().iter().enumerate() {
-            let Restraint {
-                stiffness,
-                holds: Some(holds),
-                ..
-            } = *clamp
-            else {
-                continue;
-            };
-            let shares = clamp.by_node(mesh).map(|(node, part)| (node, part / stiffness));
-            for (side, (node, share)) in shares
-                .into_iter()
-                .enumerate()
-                .filter(|(_, (_, share))| *share > ON_NODE)
-            {
-                grips.push(Self {
-                    place: (restraint, if share < 1.0 - ON_NODE { side } else { 2 }),
-                    node,
-                    stiffness: share * stiffness,
-                    diagonal: f64::NAN,
-                    holds: share * holds,
-                    slip: 0.0,
-                    slides: 0.0,
-                });
+            let holds = clamp.holds.unwrap_or(f64::INFINITY);
+            let (left, share) = mesh.place(clamp.position);
+            for (side, node, share) in [(0, left, 1.0 - share), (1, left + 1, share)] {
+                if share > ON_NODE && clamp.stiffness > 0.0 {
+                    grips.push(Self {
+                        place: (restraint, if share < 1.0 - ON_NODE { side } else { 2 }),
+                        node,
+                        stiffness: share * clamp.stiffness,
+                        diagonal: f64::NAN,
+                        holds: share * holds,
+                        slip: 0.0,
+                        slides: 0.0,
+                    });
+                }
             }
         }
         grips
+    }
+
+    /// Forces of the cable on all `clamps` \[N\], positive toward growing x, from the displacement \[m\] of any node.
+    pub fn forces(grips: &[Self], clamps: &[Restraint], u: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut forces = vec![0.0; clamps.len()];
+        for grip in grips {
+            forces[grip.place.0] += grip.stiffness * (u(grip.node) - grip.slip);
+        }
+        for (force, clamp) in forces.iter_mut().zip(clamps) {
+            let holds = clamp.holds.unwrap_or(f64::INFINITY);
+            *force = force.clamp(-holds, holds);
+        }
+        forces
     }
 
     pub fn is_stuck(&self) -> bool {
@@ -105,12 +109,12 @@ impl Grip {
         }
     }
 
-    /// Load on its node \[N\], beside that of its spring in a frame that moves by `frame` \[m\] there.
+    /// Load on its node \[N\], apart from its spring if it sticks, in a frame that has moved by `frame` \[m\] there.
     pub fn load(&self, frame: f64) -> f64 {
         if self.is_stuck() {
-            self.stiffness * self.slip
+            self.stiffness * (self.slip - frame)
         } else {
-            self.stiffness * frame - self.holds * self.slides
+            -self.holds * self.slides
         }
     }
 
@@ -139,6 +143,9 @@ impl Grip {
 
     /// Ends a step that moved its node to `u` \[m\]. Returned: the heat of the slip \[J\].
     pub fn settle(&mut self, u: f64) -> f64 {
+        if self.is_stuck() {
+            return 0.0;
+        }
         let slipped = self.slipped(u);
         let heat = self.holds * (slipped - self.slip).abs();
         self.slip = slipped;
@@ -164,7 +171,9 @@ impl Grip {
 
     /// Writes how far it has slipped to the `slips` of all clamps.
     pub fn store(&self, slips: &mut Vec<[f64; 2]>) {
-        self.store_slip(self.slip, slips);
+        if self.holds.is_finite() {
+            self.store_slip(self.slip, slips);
+        }
     }
 
     fn store_slip(&self, slip: f64, slips: &mut Vec<[f64; 2]>) {

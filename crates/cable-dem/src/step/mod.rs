@@ -14,7 +14,6 @@ mod prediction;
 mod problem;
 mod response;
 mod solver;
-mod support;
 mod tolerance;
 
 pub(crate) use fixed_end_friction::FixedEndFriction;
@@ -22,7 +21,6 @@ pub(crate) use grip::Grip;
 pub(crate) use prediction::Prediction;
 pub(crate) use problem::{Chain, Load, Stretch, Trial};
 pub(crate) use solver::StepSolver;
-pub(crate) use support::Support;
 pub(crate) use tolerance::{check_precision, largest};
 
 #[cfg(test)]

@@ -46,7 +46,6 @@ mod tests {
                 least_limit: 1.0,
                 bends: Vec::new(),
                 grips: Vec::new(),
-                is_held_for_ever: self.is_held(),
                 free: self.stretch(),
                 is_held: self.is_held(),
                 rounding: 0.0,

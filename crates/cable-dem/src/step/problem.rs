@@ -10,10 +10,9 @@
 //! lies within its bounds and every slipping node has slipped the way its friction points.
 
 use super::grip::Grip;
-use super::support::Support;
 use crate::section::{self, Section, limit_of};
 use crate::tridiagonal::Row;
-use crate::{DuctedCable, Mesh, Restraint};
+use crate::{DuctedCable, End, Mesh};
 
 /// State of the contact between one node and the duct.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,13 +38,12 @@ pub(crate) struct Chain {
     pub least_limit: f64,
     /// Nodes whose friction limit grows with the force in the cable, and the sections they lie on.
     pub(super) bends: Vec<(usize, Vec<(f64, Section)>)>,
-    /// Clamps that slip; their springs are among the nodes' while they stick.
+    /// Clamps; their springs are among the nodes' while they stick.
     pub grips: Vec<Grip>,
     /// The unknown nodes: all but fixed ends.
     pub free: Stretch,
-    /// Whether a fixed end, a spring or a clamp holds the cable; and whether one does that never slips.
+    /// Whether a fixed end, a spring or a clamp holds the cable.
     pub is_held: bool,
-    pub(super) is_held_for_ever: bool,
     /// Rounding error of a node's force per metre \[N/m\], for each metre of displacement.
     pub rounding: f64,
 }
@@ -195,24 +193,18 @@ impl Chain {
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         let compliance = cable.friction().compliance();
         let mut diagonal = vec![2.0; last + 1];
-        diagonal[0] -= 1.0;
-        diagonal[last] -= 1.0;
         let mut free = Stretch { lo: 0, hi: last };
-        let mut stiffest = 0.0_f64;
-        for Support {
-            node,
-            stiffness: spring,
-            ..
-        } in Support::of(cable, mesh)
-        {
-            match spring {
-                Some(spring) => {
-                    diagonal[node] += spring / stiffness;
-                    stiffest = stiffest.max(rounding(spring, mesh.tributary_length(node)));
-                }
-                None if node == 0 => free.lo = 1,
-                None => free.hi = last - 1,
-            }
+        for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
+            diagonal[node] = 1.0 + end.stiffness().unwrap_or(0.0) / stiffness;
+        }
+        free.lo += usize::from(cable.upstream() == End::Fixed);
+        free.hi -= usize::from(cable.downstream() == End::Fixed);
+        let mut grips = Grip::of(cable, mesh);
+        for grip in &mut grips {
+            grip.diagonal = diagonal[grip.node];
+        }
+        for grip in &grips {
+            diagonal[grip.node] += grip.stiffness / stiffness;
         }
         let mut bends = Vec::new();
         let node = |(i, &diagonal): (usize, &f64)| {
@@ -225,7 +217,7 @@ impl Chain {
         };
         let nodes = diagonal.iter().enumerate().map(node).collect();
         let mut chain = Self {
-            rounding: rounding(stiffness, mesh.spacing()) + stiffest,
+            rounding: 0.0,
             stiffness,
             per_stiffness: 1.0 / stiffness,
             nodes,
@@ -233,33 +225,35 @@ impl Chain {
             least_limit: cable.least_limit(),
             bends,
             free,
-            grips: Grip::of(cable, mesh),
+            grips,
             is_held: false,
-            is_held_for_ever: free.len() < mesh.nodes(),
         };
-        // A spring that rounding loses holds nothing.
-        let springs = free.nodes().any(|i| chain.spring(i) > 0.0);
-        let sticks = |restraint: &Restraint| restraint.holds.is_none() && restraint.stiffness > 0.0;
-        let ends = [cable.upstream(), cable.downstream()];
-        let never_slips =
-            ends.iter().any(|end| end.stiffness() > Some(0.0)) || cable.restraints().iter().any(sticks);
-        chain.is_held_for_ever |= springs && (chain.grips.is_empty() || never_slips);
-        chain.is_held = chain.is_held_for_ever || !chain.grips.is_empty();
-        for grip in &mut chain.grips {
-            grip.diagonal = chain.nodes[grip.node].diagonal;
-        }
+        let springs = free
+            .nodes()
+            .map(|i| rounding(chain.spring(i), chain.nodes[i].tributary));
+        chain.rounding = rounding(stiffness, mesh.spacing()) + springs.fold(0.0, f64::max);
+        chain.is_held = chain.holds();
         chain
+    }
+
+    /// Whether something holds the cable; a spring that rounding loses holds nothing.
+    fn holds(&self) -> bool {
+        let last = self.nodes.len() - 1;
+        let mut springs = [0, last]
+            .into_iter()
+            .chain(self.grips.iter().map(|grip| grip.node));
+        self.free.len() <= last || springs.any(|i| self.spring(i) > 0.0)
     }
 
     /// Leaves the node of a clamp those springs that stick.
     fn hang(&mut self, index: usize) {
         let Grip { node, diagonal, .. } = self.grips[index];
-        let slide = |grip: &&Grip| grip.node == node && !grip.is_stuck();
-        let sliding: f64 = self.grips.iter().filter(slide).map(|grip| grip.stiffness).sum();
+        let sticks = |grip: &&Grip| grip.node == node && grip.is_stuck();
+        let springs: f64 = self.grips.iter().filter(sticks).map(|grip| grip.stiffness).sum();
         let Node { tributary, limit, .. } = self.nodes[node];
-        let diagonal = diagonal - sliding / self.stiffness;
+        let diagonal = diagonal + springs / self.stiffness;
         self.nodes[node] = Node::new(diagonal, tributary, limit, self.stiffness, self.compliance);
-        self.is_held = self.is_held_for_ever || self.grips.iter().any(Grip::is_stuck);
+        self.is_held = self.holds();
     }
 
     /// Lets all clamps stick that have slipped by these `slips` before and after each \[m\].
@@ -297,21 +291,14 @@ impl Chain {
         corrected
     }
 
-    /// What clamps on `node` that have slipped, or slide, do to its load \[N\] where those of their springs are in a frame that has
-    /// moved by `frame` \[m\].
-    pub fn grip_load(&self, node: usize, frame: f64) -> f64 {
-        let here = self.grips.iter().filter(|grip| grip.node == node);
-        here.map(|grip| grip.load(frame)).sum()
-    }
-
-    /// Adds the same to the `load` of every node in the frame of the ground.
-    pub fn add_grip_loads(&self, load: &mut [f64]) {
+    /// Adds what clamps do beside their springs to the `load` of every node \[N\], in a frame that has moved by `frame` \[m\] there.
+    pub fn add_grip_loads(&self, load: &mut [f64], frame: impl Fn(usize) -> f64) {
         for grip in &self.grips {
-            load[grip.node] += grip.load(0.0);
+            load[grip.node] += grip.load(frame(grip.node));
         }
     }
 
-    /// Leaves the clamps that slip to the caller.
+    /// Leaves the clamps to the caller.
     pub fn take_grips(&mut self) -> Vec<Grip> {
         for index in 0..self.grips.len() {
             self.grips[index].let_go();
