@@ -13,9 +13,6 @@ use crate::scene::Scene;
 const VERSION: u32 = 1;
 /// Values nearer than this are the same, as a share of them.
 const SAME: f64 = 1e-9;
-/// What a clamp holds that never slips and did not begin where the cable was laid \[N\]: more than
-/// any force.
-const FIRM: f64 = 1e300;
 
 /// The cable as a run has left it, and the duct that it lies in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -250,12 +247,6 @@ impl SavedState {
 
     /// The cable of `scene`, held where this state has it.
     pub(crate) fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
-        let mut restraints = scene.restraints.clone();
-        for clamp in &mut restraints {
-            if self.clamp(clamp).slipped_m != 0.0 {
-                clamp.holds = clamp.holds.or(Some(FIRM));
-            }
-        }
         let ends: [(End, f64); 2] = [
             (scene.ends.upstream, 0.0),
             (scene.ends.downstream, scene.duct.length),
@@ -274,9 +265,7 @@ impl SavedState {
                 self.displacement(place)
             }
         });
-        cable(scene)?
-            .with_restraints(restraints)?
-            .with_end_positions(positions)
+        cable(scene)?.with_end_positions(positions)
     }
 
     /// The cable of `scene` on `mesh` at rest in this state, with what it finds there.

@@ -125,8 +125,10 @@ impl PassSolver {
             .first()
             .map_or(limits.advised(), |duct| solver.time_step(duct));
         Some(format!(
-            "time step {step:.3e} s, a margin of {:.2} to the limit: {limits}",
-            limits.margin(step)
+            "time step {step:.3e} s, a margin of {:.2} to the limit: {:.3e} s of the springs and {:.3e} s of friction together",
+            limits.together() / step,
+            limits.elastic,
+            limits.friction
         ))
     }
 
