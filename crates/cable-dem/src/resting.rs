@@ -258,7 +258,12 @@ impl RestingCable {
 
     /// Heat pushes the two ends apart and nothing between them; clamps that slip bear their part.
     fn heat(&mut self, thermal_force: f64) {
-        set_loads(&mut self.load, &self.body, &self.step.chain, thermal_force);
+        let (body, load, last) = (&self.body, &mut self.load, self.body.len() - 1);
+        for grip in &self.step.chain.grips {
+            load[grip.node] = body[grip.node];
+        }
+        (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
+        self.step.chain.add_grip_loads(load, |_| 0.0);
     }
 
     /// Lets the cable in `state` press on the bends of the duct, as warm as it will be: that is the force before anything moves.
@@ -280,41 +285,21 @@ impl RestingCable {
         self.step.chain.grip(&state.clamp_slips);
         self.heat(thermal_force);
         self.press(state, thermal_force);
-        let duct = duct.unwrap_or(&self.nothing);
         let StepSolver { chain, trial, .. } = &mut self.step;
+        let moved = |i: usize| duct.map_or(0.0, |duct| duct[i]);
         let compliance = chain.compliance;
         let (u, f) = (&mut state.displacement, &mut state.friction);
         for (i, anchor) in self.anchor.iter_mut().enumerate() {
-            *anchor = u[i] + duct[i] + compliance * f[i];
+            *anchor = u[i] + moved(i) + compliance * f[i];
         }
         trial.r.copy_from_slice(u);
         self.step.start(largest(u, movement));
-        // With the force before it where the duct bends, and then with the force that it leads to; with clamps that stick, and then
-        // with those that slide.
-        let mut changes = f64::INFINITY;
-        let mut rounds = 0;
-        while changes > PRESSED {
-            let load = Load {
-                adhesion: &self.nothing,
-                support: &self.load,
-                anchor: &self.anchor,
-            };
-            let solved = self.step.solve(&load, self.step.chain.free);
-            let violation = solved.err().or((rounds == MAX_ROUNDS).then_some(changes));
-            if let Some(violation) = violation {
-                self.release_again();
-                return Err(CableError::NoConvergence {
-                    vehicle_position: f64::INFINITY,
-                    violation,
-                });
-            }
-            let StepSolver { chain, trial, .. } = &mut self.step;
-            changes = chain.press(|i| trial.r[i], thermal_force);
-            if chain.correct_grips(chain.free, |i| trial.r[i]) {
-                changes = f64::INFINITY;
-                set_loads(&mut self.load, &self.body, chain, thermal_force);
-            }
-            rounds += 1;
+        if let Err(violation) = self.equilibrate(thermal_force) {
+            self.release_again();
+            return Err(CableError::NoConvergence {
+                vehicle_position: f64::INFINITY,
+                violation,
+            });
         }
         let StepSolver { chain, trial, .. } = &mut self.step;
         let mut heat = 0.0;
@@ -328,9 +313,9 @@ impl RestingCable {
             let after = if is_free {
                 trial.g[i]
             } else {
-                self.held.after_slip(f[i], duct[i], node.limit)
+                self.held.after_slip(f[i], moved(i), node.limit)
             };
-            let slip = duct[i] - (trial.r[i] - u[i]) - compliance * (after - f[i]);
+            let slip = moved(i) - (trial.r[i] - u[i]) - compliance * (after - f[i]);
             heat += node.tributary * after * slip;
             (u[i], f[i]) = (trial.r[i], after);
         }
@@ -338,16 +323,28 @@ impl RestingCable {
         self.release_again();
         Ok(heat)
     }
-}
 
-/// Loads on all nodes \[N\]: the `body` force, heat at the ends, and clamps that slip.
-fn set_loads(load: &mut [f64], body: &[f64], chain: &Chain, thermal_force: f64) {
-    let last = load.len() - 1;
-    for grip in &chain.grips {
-        load[grip.node] = body[grip.node];
+    /// Solves the step from its anchors: with the force before it where the duct bends, and then with the force that it leads to; with
+    /// clamps that stick, and then with those that slide. On failure, the largest violation as a share of the friction limit.
+    fn equilibrate(&mut self, thermal_force: f64) -> Result<(), f64> {
+        let mut change = f64::INFINITY;
+        for _ in 0..=MAX_ROUNDS {
+            let load = Load {
+                adhesion: &self.nothing,
+                support: &self.load,
+                anchor: &self.anchor,
+            };
+            self.step.solve(&load, self.step.chain.free)?;
+            let StepSolver { chain, trial, .. } = &mut self.step;
+            change = chain.press(|i| trial.r[i], thermal_force);
+            let corrected = chain.correct_grips(chain.free, |i| trial.r[i]);
+            if change <= PRESSED && !corrected {
+                return Ok(());
+            }
+            self.heat(thermal_force);
+        }
+        Err(change)
     }
-    (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
-    chain.add_grip_loads(load, |_| 0.0);
 }
 
 #[cfg(test)]

@@ -182,9 +182,12 @@ impl Passage {
         self.positions.len()
     }
 
-    /// Number of lattice points of each phase, and of phases.
+    /// Number of lattice points, and of phases.
     pub(super) fn lattice(&self) -> (usize, usize) {
-        (self.phases[0].adherent.len(), self.phases.len())
+        (
+            self.phases.len() * self.phases[0].adherent.len(),
+            self.phases.len(),
+        )
     }
 
     /// Lattice point in the vehicle's frame at which node 0 stands.

@@ -146,7 +146,7 @@ impl StepSolver {
     fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> Violations {
         let (chain, tolerance, range) = (&self.chain, self.tolerance, stretch.nodes());
         let Trial { r, g, contact } = &mut self.trial;
-        let [before, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
+        let [mut left, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
         let n = stretch.len();
         // Slices of one length, so that no access is checked in the loop: both take 1.2 times as long without.
         let nodes = &chain.nodes[range.clone()][..n];
@@ -159,7 +159,6 @@ impl StepSolver {
         let (r, g) = (&r[range.clone()][..n], &mut g[range.clone()][..n]);
         let contact = &mut contact[range][..n];
         let mut found = Violations::default();
-        let mut left = before;
         for i in 0..n {
             let (node, state, here) = (&nodes[i], contact[i], r[i]);
             let right = if i + 1 < n { r[i + 1] } else { after };
@@ -170,23 +169,21 @@ impl StepSolver {
                 let total = balancing + adhesion[i];
                 let excess = total.abs() - node.limit;
                 g[i] = balancing;
-                // A comparison that NaN fails: it counts as a violation.
-                let within = excess <= 0.0;
-                if within {
+                // Comparisons that NaN fails: it counts as a violation.
+                if excess <= 0.0 {
                     continue;
                 }
-                let negligible = excess <= tolerance.friction;
-                if negligible {
+                if excess <= tolerance.friction {
                     g[i] = node.limit.copysign(total) - adhesion[i];
-                } else {
-                    found.violate(excess / node.limit);
-                    found.corrected += 1;
-                    contact[i] = if total < 0.0 {
-                        Contact::Backward
-                    } else {
-                        Contact::Forward
-                    };
+                    continue;
                 }
+                found.violate(excess / node.limit);
+                found.corrected += 1;
+                contact[i] = if total < 0.0 {
+                    Contact::Backward
+                } else {
+                    Contact::Forward
+                };
             } else {
                 g[i] = node.bound(state, adhesion[i]);
                 let residual = (balancing - g[i]).abs();
