@@ -9,18 +9,17 @@ use crate::Error;
 use crate::cable::cable;
 use crate::ground::{length_scale, road};
 use crate::passes::Task;
-use crate::plan::Period;
 use crate::tuning::days::FINEST;
 use crate::tuning::ground::LAW_LENGTH;
 
 /// Periods that it takes: the first one brings the cable into the state that lasts.
 const PERIODS: usize = 2;
 
-/// The law for `passes` of `traffic` on the mesh of `task`, or a coarser one: both ends free, a
+/// The law for `passes` of `vehicles` on the mesh of `task`, or a coarser one: both ends free, a
 /// body force that balances the locked friction. And what it costs.
 pub fn locked_law(
     task: &Task<'_>,
-    traffic: &Period,
+    vehicles: &[usize],
     passes: usize,
 ) -> Result<(LockedLaw, Statistics), Error> {
     let Task {
@@ -59,12 +58,12 @@ pub fn locked_law(
         let mut before = 0.0;
         for _ in 0..PERIODS {
             before = state.displacement()[middle];
-            for &vehicle in &traffic.vehicles {
+            for &vehicle in vehicles {
                 statistics += solver.pass(&passages[vehicle], &mut state)?.statistics;
             }
         }
         let moved = state.displacement()[middle] - before;
-        *advance = moved * passes as f64 / traffic.len() as f64;
+        *advance = moved * passes as f64 / vehicles.len() as f64;
     }
     Ok((LockedLaw::new(advances, limit), statistics))
 }

@@ -9,8 +9,9 @@ use super::random_spread;
 use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::{ErrorParts, mesh_error};
 use crate::passes::{FixedMesh, Jumping, KnownJumps, Passes, RunOptions, Task};
-use crate::plan::{Levels, PassMethod, Plan};
+use crate::plan::{Levels, Plan};
 use crate::refine::{MeshLoop, OnMeshes, Solved};
+use crate::scene::SolverMethod;
 use crate::tuning::meshes::FINDING;
 use crate::{Error, ErrorSource, Progress, Scene};
 
@@ -28,7 +29,7 @@ struct PassesOnMeshes<'a> {
 /// Carries `plan` out by `method`, where `error` has what no mesh makes smaller.
 pub fn solve(
     plan: &Plan<'_>,
-    method: PassMethod,
+    method: SolverMethod,
     options: &RunOptions<'_>,
     mut error: ErrorParts,
 ) -> Result<Solved, Error> {
@@ -39,7 +40,7 @@ pub fn solve(
         found: None,
         known: None,
     };
-    let jumps = matches!(method, PassMethod::Jumps(_));
+    let jumps = method == SolverMethod::PassLaw;
     // The scatter of random orders is every run's own.
     let fits = |known: &FixedMesh| !jumps || known.jumps.is_some() && !plan.period.reordered;
     let known = options.mesh.filter(|_| plan.levels.named).filter(fits);

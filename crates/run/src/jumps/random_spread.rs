@@ -47,7 +47,7 @@ pub fn spread(
         downstream: quantiles(downstream, last.downstream),
         upstream: quantiles(upstream, last.upstream),
     });
-    Ok((spread, simulation.statistics()))
+    Ok((spread, simulation.statistics))
 }
 
 /// Of `forces`, moved so that their mean is `mean`.

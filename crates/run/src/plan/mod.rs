@@ -10,7 +10,6 @@ mod mesh;
 mod method;
 mod mix;
 pub mod occurrence;
-mod pass_method;
 mod period;
 mod report;
 mod representatives;
@@ -25,7 +24,6 @@ use crate::ground::{Ground, road};
 use crate::{Error, Scene};
 pub use mesh::Levels;
 pub use method::{MOST_PASSES, MethodChoice};
-pub use pass_method::{CableMethod, PassMethod};
 pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
 
