@@ -86,17 +86,13 @@ pub mod periods {
     /// In random order a period of at most so many vehicles is taken as it is, and with heat it may
     /// be longer than a day.
     pub const FEW: usize = 12;
-    /// A mix is near where every vehicle's share is right within this share of itself; of longer
-    /// ones within the factor the nearest is taken.
+    /// A mix is near where every vehicle's share is right within this share of itself.
     pub const NEAR: f64 = 0.05;
-    pub const LONGER: f64 = 1.25;
     /// It has at least so many vehicles: in shorter ones too few of those follow each other that do
     /// in the traffic, and its largest forces are missed.
     pub const LEAST: usize = 100;
-    /// A mix that has the shares exactly is taken where it is at most so many times as long as a
-    /// near one, or so short: a near one is compared with another, and hardly shows which vehicles
-    /// follow each other in the traffic.
-    pub const EXACT: usize = 2;
+    /// A mix that has the shares exactly is taken where it is at most so long: a near one is
+    /// compared with another, and hardly shows which vehicles follow each other in the traffic.
     pub const SHORT: usize = 600;
 }
 

@@ -6,8 +6,6 @@
 //! uneven, and two meshes may agree by chance. So more is counted: the largest of a share of each
 //! difference seen so far, and never less than what is typical of the level.
 
-use std::ops::{Index, IndexMut};
-
 use super::ErrorShares;
 use super::differences::Shares;
 use crate::Error;
@@ -19,72 +17,72 @@ use crate::tuning::meshes::{MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 const DOUBTFUL: f64 = 0.1;
 
 /// The error of a run by its parts: shares of the forces and of the movements.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorParts {
-    parts: [Shares; ErrorSource::ALL.len()],
+    pub mesh: Shares,
+    pub ground: Shares,
+    pub inertia: Shares,
+    pub road: Shares,
+    pub passes: Shares,
+    pub days: Shares,
     /// Whether a finer run was made to measure the mesh's part.
     pub measured: bool,
-}
-
-impl Index<ErrorSource> for ErrorParts {
-    type Output = Shares;
-
-    fn index(&self, source: ErrorSource) -> &Shares {
-        &self.parts[source as usize]
-    }
-}
-
-impl IndexMut<ErrorSource> for ErrorParts {
-    fn index_mut(&mut self, source: ErrorSource) -> &mut Shares {
-        &mut self.parts[source as usize]
-    }
 }
 
 impl ErrorParts {
     /// The `accuracy` of D_l as a share of its peak, counted in full as error of the force, and
     /// what leaving `inertia` out may cost; as yet nothing else.
     pub fn new(accuracy: f64, inertia: f64) -> Self {
-        let mut error = Self {
-            parts: [Shares::default(); ErrorSource::ALL.len()],
-            measured: false,
-        };
-        error[ErrorSource::Ground] = Shares::both(accuracy);
-        error[ErrorSource::Inertia] = Shares::both(inertia);
-        error
+        Self {
+            ground: Shares::both(accuracy),
+            inertia: Shares::both(inertia),
+            ..Self::default()
+        }
+    }
+
+    /// What comes from each of [`ErrorSource::ALL`].
+    fn parts(&self) -> impl Iterator<Item = (ErrorSource, Shares)> {
+        let parts = [
+            self.mesh,
+            self.ground,
+            self.inertia,
+            self.road,
+            self.passes,
+            self.days,
+        ];
+        ErrorSource::ALL.into_iter().zip(parts)
     }
 
     pub fn total(&self) -> Shares {
-        self.parts
-            .into_iter()
-            .fold(Shares::default(), |sum, part| sum + part)
+        let sum = |sum, (_, part)| sum + part;
+        self.parts().fold(Shares::default(), sum)
     }
 
     /// The same for a reader.
     pub fn shares(&self) -> ErrorShares {
-        let [mesh, ground, inertia, road, passes, temperature] = self.parts.map(|part| part.force);
         ErrorShares {
-            mesh,
-            ground,
-            inertia,
-            road,
-            passes,
-            temperature,
-            law: passes,
+            mesh: self.mesh.force,
+            ground: self.ground.force,
+            inertia: self.inertia.force,
+            road: self.road.force,
+            passes: self.passes.force,
+            temperature: self.days.force,
+            law: self.passes.force,
             movement: self.total().movement,
         }
     }
 
     /// The largest part of those that are `eligible`, by the share that `of` gives.
     pub fn largest(&self, eligible: impl Fn(ErrorSource) -> bool, of: fn(Shares) -> f64) -> ErrorSource {
-        let sources = ErrorSource::ALL.into_iter().filter(|source| eligible(*source));
-        let largest = sources.max_by(|a, b| of(self[*a]).total_cmp(&of(self[*b])));
-        largest.unwrap_or(ErrorSource::Mesh)
+        let parts = self.parts().filter(|(source, _)| eligible(*source));
+        let largest = parts.max_by(|(_, a), (_, b)| of(*a).total_cmp(&of(*b)));
+        largest.map_or(ErrorSource::Mesh, |(source, _)| source)
     }
 
     /// What keeps the forces from being an answer: passes or days that could be simulated, if that
     /// would do, else the largest part.
     fn cause(&self, tolerance: f64) -> ErrorSource {
-        let skipped = self[ErrorSource::Passes] + self[ErrorSource::Days];
+        let skipped = self.passes + self.days;
         let skipping = !is_doubtful(self.total().less(skipped).force, tolerance);
         self.largest(|source| source.is_skipping() == skipping, |share| share.force)
     }
@@ -97,9 +95,10 @@ impl std::fmt::Display for ErrorParts {
         } else {
             "from runs on coarser meshes: "
         })?;
-        let is_shown = |source: &ErrorSource| !source.is_skipping() || self[*source] != Shares::default();
-        let shown = ErrorSource::ALL.into_iter().filter(is_shown);
-        let parts = shown.map(|source| format!("{} {}", source.name(), percent(self[source].force)));
+        let is_shown =
+            |(source, part): &(ErrorSource, Shares)| !source.is_skipping() || *part != Shares::default();
+        let shown = self.parts().filter(is_shown);
+        let parts = shown.map(|(source, part)| format!("{} {}", source.name(), percent(part.force)));
         let parts = parts.collect::<Vec<_>>().join(", ");
         write!(
             f,

@@ -44,13 +44,15 @@ impl ErrorShares {
     /// The part that comes from `source`: those of all sources sum to the whole error of the
     /// forces.
     pub fn of(&self, source: ErrorSource) -> f64 {
-        match source {
-            ErrorSource::Mesh => self.mesh,
-            ErrorSource::Ground => self.ground,
-            ErrorSource::Inertia => self.inertia,
-            ErrorSource::Road => self.road,
-            ErrorSource::Passes => self.passes,
-            ErrorSource::Days => self.temperature,
-        }
+        let Self {
+            mesh,
+            ground,
+            inertia,
+            road,
+            passes,
+            temperature,
+            ..
+        } = *self;
+        [mesh, ground, inertia, road, passes, temperature][source as usize]
     }
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::error_shares::ErrorEstimate;
 use super::force_profile::ForceProfile;
 use super::heat::{DayExtremes, HeatRecord};
+use super::saturation::larger;
 use crate::SavedState;
 use crate::scene::{CableEnd, Traffic};
 
@@ -251,17 +252,14 @@ impl Run {
     /// what one pass in twenty leaves less and more than.
     pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
         let extremes = |end: CableEnd| {
-            let of_random = self
-                .random
-                .map(|random| [random.of(end).q05_n, random.of(end).q95_n]);
+            let of_random = self.random.map(|random| random.of(end));
+            let of_random = of_random.map(|random| [random.q05_n, random.q95_n]);
             let of_period = self.range.map(|range| {
-                end.of([
-                    [range.upstream_min_n, range.upstream_max_n],
-                    [range.downstream_min_n, range.downstream_max_n],
-                ])
+                let downstream = [range.downstream_min_n, range.downstream_max_n];
+                end.of([[range.upstream_min_n, range.upstream_max_n], downstream])
             });
             let [least, most] = of_random.or(of_period)?;
-            (most - least > NOTICEABLE * most.abs().max(least.abs())).then_some((end, least, most))
+            (most - least > NOTICEABLE * larger(most, least).abs()).then_some((end, least, most))
         };
         CableEnd::ALL.into_iter().filter_map(extremes).collect()
     }
@@ -277,25 +275,18 @@ impl Run {
 impl Saturation {
     /// Whether it is noticeably larger than all of `passes` leave.
     pub fn is_beyond(&self, passes: &[PassRecord]) -> bool {
-        let reached = |record: &PassRecord| {
-            let forces = [
-                record.upstream_force_n,
-                record.downstream_force_n,
-                record.max_compression_n,
-            ];
-            forces
-                .into_iter()
-                .fold(0.0, |most: f64, force| most.max(force.abs()))
-        };
-        let reached = passes.iter().map(reached).fold(0.0, f64::max);
-        self.force_n.abs() > (1.0 + NOTICEABLE) * reached
+        let forces = passes.iter().flat_map(|record| {
+            let ends = CableEnd::ALL.map(|end| record.force_after(end));
+            [ends[0], ends[1], record.max_compression_n]
+        });
+        self.force_n.abs() > (1.0 + NOTICEABLE) * forces.fold(0.0, larger).abs()
     }
 }
 
 impl RandomSpread {
     /// That of one end.
-    pub fn of(&self, end: CableEnd) -> &Quantiles {
-        end.of([&self.upstream, &self.downstream])
+    pub fn of(&self, end: CableEnd) -> Quantiles {
+        end.of([self.upstream, self.downstream])
     }
 }
 
@@ -365,16 +356,12 @@ impl Cost {
 
 impl PassRecord {
     pub fn new(record: &Record, traffic: &Traffic) -> Self {
-        let Record {
-            pass,
-            outcome,
-            interpolated,
-        } = record;
+        let outcome = &record.outcome;
         // No minus before zero.
         let plain = |value: f64| value + 0.0;
         Self {
-            pass: *pass,
-            years: traffic.years_after(*pass),
+            pass: record.pass,
+            years: traffic.years_after(record.pass),
             downstream_force_n: plain(outcome.force.downstream),
             downstream_peak_n: plain(outcome.peak.downstream),
             upstream_force_n: plain(outcome.force.upstream),
@@ -385,7 +372,7 @@ impl PassRecord {
             dissipated_energy_j: Some(outcome.dissipated),
             downstream_least_n: plain(outcome.lowest.downstream),
             upstream_least_n: plain(outcome.lowest.upstream),
-            interpolated: *interpolated,
+            interpolated: record.interpolated,
         }
     }
 }

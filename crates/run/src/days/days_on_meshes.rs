@@ -17,7 +17,7 @@ use crate::refine::{MeshLoop, OnMeshes, Solved, on_coarse_level};
 use crate::scene::{Heat, SolverMethod};
 use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, SHARE, TYPICAL};
 use crate::tuning::meshes::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST};
-use crate::{Error, ErrorSource, Progress};
+use crate::{Error, Progress};
 
 /// Carries `plan`, whose scene has `heat`, out, where `error` has what no mesh makes smaller.
 pub fn solve(
@@ -39,7 +39,7 @@ pub fn solve(
     };
     let first = first_level(plan);
     let progress = options.progress.part(0.0, FINDING);
-    error[ErrorSource::Days] = find_periods(&mut days, first, progress, &mut statistics)?;
+    error.days = find_periods(&mut days, first, progress, &mut statistics)?;
     let meshes = MeshLoop {
         plan,
         options,
@@ -48,7 +48,7 @@ pub fn solve(
     };
     let mut solved = meshes.refine(first, options.progress.part(FINDING, 1.0), error)?;
     let of_days = error_of_days(&days, solved.level, &solved.passes, &mut statistics)?;
-    solved.error[ErrorSource::Days] = error[ErrorSource::Days] + of_days;
+    solved.error.days = error.days + of_days;
     solved.statistics += statistics;
     solved.warnings.extend(days.warning());
     let known = solved.passes.days.as_ref().ok_or(Error::NoPass)?;
@@ -92,20 +92,15 @@ fn find_periods(
     let mut parts = progress.parts(0.5);
     loop {
         days.periods_a_day *= 2;
+        if days.day()?.is_simulated() {
+            return Ok(Shares::default());
+        }
         let more = days.simulate(scene, level, Some(&fewer), parts(), false)?;
         *statistics += more.statistics;
         let error = days.difference(&more, &fewer).times(CAUTION);
         let next = REFINEMENT_COST.saturating_mul(more.statistics.node_updates);
         if error.is_within(allowed) || 4 * next > MAX_NODE_UPDATES {
             return Ok(error);
-        }
-        let twice = DaySimulator {
-            periods_a_day: 2 * days.periods_a_day,
-            ..*days
-        };
-        if twice.day()?.is_simulated() {
-            days.periods_a_day = twice.periods_a_day;
-            return Ok(Shares::default());
         }
         fewer = more;
     }

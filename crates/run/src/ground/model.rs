@@ -47,32 +47,36 @@ impl Ground {
         let profile = &scene.ground.profile()?;
         let is_graded = profile.layers().iter().any(|layer| layer.soil().is_none());
         let automatic = scene.ground.model == GroundModel::Auto;
-        let (name, field, accuracy, reason): (_, &dyn GroundField, _, _) =
-            match (own, scene.ground.model, profile.homogeneous()) {
-                (Some(own), _, _) => ("own", own, OWN_ACCURACY, "the caller's own model"),
-                (_, GroundModel::Auto | GroundModel::Boussinesq, Some(soil)) => (
-                    "boussinesq",
-                    &HalfSpace::new(soil),
-                    CLOSED_FORM_ACCURACY,
-                    "the ground is one half-space, whose displacement has a closed form",
-                ),
-                (_, GroundModel::Boussinesq, None) => {
-                    let reason = "its ground has layers or a rigid base, and this closed form knows one half-space only";
-                    return Err(Error::unfit("ground.model", "boussinesq", reason));
-                }
-                (_, GroundModel::Auto, None) if is_graded => return Self::graded(scene, profile, reach),
-                (_, GroundModel::Auto | GroundModel::Burmister, _) => (
-                    "burmister",
-                    &layered(profile)?,
-                    TRANSFORM_ACCURACY,
-                    "the Hankel transform is exact for uniform layers",
-                ),
-                (_, GroundModel::FiniteElements, _) => {
-                    // A quarter of the tolerance is for the ground.
-                    let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
-                    ("fem", &elements(profile, accuracy)?, accuracy, "")
-                }
-            };
+        let (name, field, accuracy, reason): (_, &dyn GroundField, _, _) = match (
+            own,
+            scene.ground.model,
+            profile.homogeneous(),
+        ) {
+            (Some(own), _, _) => ("own", own, OWN_ACCURACY, "the caller's own model"),
+            (_, GroundModel::Auto | GroundModel::Boussinesq, Some(soil)) => (
+                "boussinesq",
+                &HalfSpace::new(soil),
+                CLOSED_FORM_ACCURACY,
+                "the ground is one half-space, whose displacement has a closed form",
+            ),
+            (_, GroundModel::Boussinesq, None) => {
+                let reason =
+                    "its ground has layers or a rigid base, and this closed form knows one half-space only";
+                return Err(Error::unfit("ground.model", "boussinesq", reason));
+            }
+            (_, GroundModel::Auto, None) if is_graded => return Self::graded(scene, profile, reach),
+            (_, GroundModel::Auto | GroundModel::Burmister, _) => (
+                "burmister",
+                &layered(profile)?,
+                TRANSFORM_ACCURACY,
+                "the Hankel transform is exact for uniform layers",
+            ),
+            (_, GroundModel::FiniteElements, _) => {
+                // A quarter of the tolerance is for the ground.
+                let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
+                ("fem", &elements(profile, accuracy)?, accuracy, "")
+            }
+        };
         let named = own.is_none() && !automatic;
         Ok(Self {
             name,

@@ -166,15 +166,19 @@ impl Search<'_> {
     fn in_place(&mut self, found: &Found, vehicles: Vec<usize>) -> Result<Passes, Error> {
         let size = found.known.size;
         let first = size.first_periods * self.plan.period.len() as u64;
-        let size = JumpSize {
-            first_periods: first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS),
-            ..size
-        };
+        let first_periods = first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS);
         let period = Period {
             vehicles,
             ..self.plan.period.clone()
         };
-        self.simulate(found.level, size, &period)
+        self.simulate(
+            found.level,
+            JumpSize {
+                first_periods,
+                ..size
+            },
+            &period,
+        )
     }
 
     /// What random orders of the period leave in the mean, from as many draws as the tolerance

@@ -13,7 +13,7 @@ use crate::plan::{Levels, Plan};
 use crate::refine::{MeshLoop, OnMeshes, Solved};
 use crate::scene::SolverMethod;
 use crate::tuning::meshes::FINDING;
-use crate::{Error, ErrorSource, Progress, Scene};
+use crate::{Error, Progress, Scene};
 
 /// A plan's passes, on whatever level.
 struct PassesOnMeshes<'a> {
@@ -54,7 +54,7 @@ pub fn solve(
             (passes.known, passes.found, search) = (Some(found.known), Some(found), work);
         }
     }
-    error[ErrorSource::Passes] = passes.known.map_or(Shares::default(), |jumps| jumps.error);
+    error.passes = passes.known.map_or(Shares::default(), |jumps| jumps.error);
     let meshes = MeshLoop {
         plan,
         options,
@@ -64,7 +64,7 @@ pub fn solve(
     let mut solved = meshes.refine(plan.levels.first, options.progress.part(begin, 1.0), error)?;
     solved.statistics += search;
     solved.shown = Some(FixedMesh {
-        error: solved.error[ErrorSource::Mesh],
+        error: solved.error.mesh,
         jumps: passes.known,
     });
     if let Some(found) = &passes.found {

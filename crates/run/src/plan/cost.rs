@@ -34,7 +34,11 @@ impl Estimates {
             (Some(_), Some(per_day)) => DAYS.min(passes / per_day) * per_day.min(length * PERIODS_A_DAY),
             _ => (length * (first + per_e * periods.ln())).min(passes),
         };
-        let fastest = scene.vehicles.iter().map(|vehicle| vehicle.speed).fold(0.0, f64::max);
+        let fastest = scene
+            .vehicles
+            .iter()
+            .map(|vehicle| vehicle.speed)
+            .fold(0.0, f64::max);
         let explicit = explicit_steps(scene, levels)? * levels.whole_cable_updates(levels.first);
         Ok(Self {
             inertia: inertia_ratio(&cable, cable::mass(scene), fastest)?,

@@ -100,7 +100,11 @@ fn check_length(scene: &Scene, period: &Period, method: SolverMethod, seconds: f
             "solver.method = \"pass-law\" computes any number".to_owned()
         };
         let reason = format!("at most 1 000 000 are simulated one by one; {why}");
-        return Err(Error::unfit("traffic.passes", "more than a million passes", reason));
+        return Err(Error::unfit(
+            "traffic.passes",
+            "more than a million passes",
+            reason,
+        ));
     }
     if scene.solver.method == SolverMethod::Auto && !has_rest && seconds > LONGEST_WITHOUT_REST {
         let reason = format!(

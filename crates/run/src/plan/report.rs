@@ -101,7 +101,13 @@ impl Plan<'_> {
 
     /// The plan for a reader.
     pub fn report(&self) -> PlanReport {
-        let Self { scene, ground, choice, levels, .. } = self;
+        let Self {
+            scene,
+            ground,
+            choice,
+            levels,
+            ..
+        } = self;
         let (node_spacing_m, vehicle_step_m) = levels.spacing(levels.first);
         let chosen = Candidate {
             part: Part::Ground,
@@ -111,7 +117,11 @@ impl Plan<'_> {
             estimated_seconds: None,
             reason: ground.reason.into(),
         };
-        let methods = [SolverMethod::PassLaw, SolverMethod::QuasiStatic, SolverMethod::Explicit];
+        let methods = [
+            SolverMethod::PassLaw,
+            SolverMethod::QuasiStatic,
+            SolverMethod::Explicit,
+        ];
         let methods = methods.map(|method| self.method(method));
         let meshes = (0..=levels.finest).filter(|&level| levels.mesh(level).is_ok());
         let meshes = meshes.take(LISTED).map(|level| self.mesh(level));

@@ -73,31 +73,28 @@ fn absent(scene: &Scene) -> Result<Option<String>, Error> {
 
 /// Inertia that is left out, where that may cost more than the tolerance.
 fn left_out(scene: &Scene, inertia: f64) -> Option<String> {
-    let remedy = if scene.warming().is_none() {
-        ErrorSource::Inertia.remedy()
-    } else {
-        "days of heat are computed without it"
+    let remedy = match scene.warming() {
+        None => ErrorSource::Inertia.remedy(),
+        Some(_) => "days of heat are computed without it",
     };
+    let (tolerance, most) = (exact_percent(scene.solver.tolerance), percent(inertia));
     (inertia > scene.solver.tolerance).then(|| {
         format!(
-            "leaving the cable's inertia out changes the force by up to {}, more than the tolerance of {}: {remedy}",
-            percent(inertia),
-            exact_percent(scene.solver.tolerance)
+            "leaving the cable's inertia out changes the force by up to {most}, more than the tolerance of {tolerance}: {remedy}"
         )
     })
 }
 
 fn fast(scene: &Scene) -> Option<String> {
-    let profile = &scene.ground.profile().ok()?;
+    let profile = scene.ground.profile().ok()?;
     let base = match profile.base() {
-        Base::HalfSpace(soil) => Some(soil.shear_modulus()),
-        Base::Rigid => None,
+        Base::HalfSpace(soil) => soil.shear_modulus(),
+        Base::Rigid => f64::INFINITY,
     };
-    let layers = profile.layers().iter().map(|layer| {
+    let softest = profile.layers().iter().fold(base, |least, layer| {
         let ends = [0.0, layer.thickness()].map(|depth| layer.young_modulus_at(depth));
-        ends[0].min(ends[1]) / (2.0 * (1.0 + layer.poisson_ratio()))
+        least.min(ends[0].min(ends[1]) / (2.0 * (1.0 + layer.poisson_ratio())))
     });
-    let softest = layers.chain(base).fold(f64::INFINITY, f64::min);
     let wave = (softest / SOIL_DENSITY).sqrt();
     let speeds = scene.vehicles.iter().map(|traffic| traffic.speed);
     let mach = speeds.fold(0.0, f64::max) / wave;

@@ -11,7 +11,7 @@ use crate::ground::road;
 use crate::passes::{FixedMesh, Passes, RunOptions};
 use crate::plan::{Levels, Plan};
 use crate::tuning::meshes::{LEAST_SHARE, MAX_NODE_UPDATES, REFINEMENT_COST, SHARP};
-use crate::{Error, ErrorSource, Progress, Scene};
+use crate::{Error, Progress, Scene};
 
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
@@ -114,10 +114,10 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
             meshes.extend(unless_coarse(passes, level < first)?);
         }
         loop {
-            error[ErrorSource::Mesh] = match self.known_error {
+            error.mesh = match self.known_error {
                 Some(known) => known,
                 None if meshes.len() > 1 => simulation.mesh_error(level, &meshes),
-                None => error[ErrorSource::Mesh],
+                None => error.mesh,
             };
             if self.is_good_enough(level, &meshes, &error) || !self.may_refine(level, &meshes) {
                 break;
@@ -136,14 +136,14 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let passes = meshes.pop().ok_or(Error::NoPass)?;
         if self.options.verify || alone || plan.levels.named && refused {
             let finer = simulate(plan.scene, level + 1, Some(&passes), parts(), true)?;
-            error[ErrorSource::Mesh] = simulation.difference(&passes, &finer).times(VERIFIED);
+            error.mesh = simulation.difference(&passes, &finer).times(VERIFIED);
             error.measured = true;
         }
         if !road::is_followed_enough(plan.scene, &plan.ground.motions)? {
             let mut far = plan.scene.clone();
             far.solver.approach = None;
             let farther = simulate(&far, level, Some(&passes), Progress::default(), false)?;
-            error[ErrorSource::Road] = simulation.difference(&passes, &farther);
+            error.road = simulation.difference(&passes, &farther);
         }
         let mesh = plan.levels.mesh(level)?;
         Ok(Solved {
@@ -161,7 +161,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let still = meshes
             .last()
             .is_some_and(|passes| scale.is_still(&passes.records));
-        let others = error[ErrorSource::Passes] + error[ErrorSource::Days] + error[ErrorSource::Inertia];
+        let others = error.passes + error.days + error.inertia;
         let of_mesh = error.total().less(others);
         // What these, which no finer mesh takes away, leave of the tolerance.
         let tolerance = self.plan.scene.solver.tolerance;

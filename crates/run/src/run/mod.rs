@@ -120,7 +120,7 @@ fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<F
         if method == SolverMethod::Explicit {
             time_steps(plan, &mut solved)?;
         }
-        judge(&solved.error, plan, &solved.mesh, &mut solved.warnings)?;
+        judge(&solved.error, plan, &mut solved.warnings)?;
         Ok(solved)
     };
     let (mut method, mut reason) = (choice.method, choice.reason.clone());
