@@ -86,7 +86,9 @@ impl DaySimulator<'_> {
         let whole = (passes / period * period).max(period);
         self.broken_sequence().map(|_| {
             format!(
-                "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it                  began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {whole} has none of                  that"
+                "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
+                 began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {whole} has none of \
+                 that"
             )
         })
     }

@@ -49,7 +49,7 @@ pub fn find<'a>(
     };
     let mut found = search.jumps()?;
     found.known.error = found.known.error + search.mix_error(&found)?;
-    if !plan.period.drawn.is_empty() {
+    if plan.period.is_drawn {
         let draws = search.draws(&found)?;
         found.known.error = found.known.error + draws.error;
         found.draws = Some(draws);
@@ -187,7 +187,7 @@ impl Search<'_> {
         let mut all = Vec::new();
         let mut work = 0;
         loop {
-            let passes = self.in_place(found, self.plan.period.draw(all.len() as u64))?;
+            let passes = self.in_place(found, self.plan.period.shuffled(all.len() as u64))?;
             work += passes.statistics.node_updates;
             all.push(passes.records);
             if all.len() >= FEWEST_DRAWS {

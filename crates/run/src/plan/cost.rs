@@ -39,14 +39,15 @@ impl Estimates {
             .iter()
             .map(|vehicle| vehicle.speed)
             .fold(0.0, f64::max);
-        let explicit = explicit_steps(scene, levels)? * levels.whole_cable_updates(levels.first);
         Ok(Self {
             inertia: inertia_ratio(&cable, cable::mass(scene), fastest)?,
             typical: simulated(TYPICAL_PERIODS),
             most: simulated(MOST_PERIODS),
             passes,
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(levels.first),
-            explicit: EXPLICIT_SECONDS * explicit,
+            explicit: EXPLICIT_SECONDS
+                * explicit_steps(scene, levels)?
+                * levels.whole_cable_updates(levels.first),
         })
     }
 

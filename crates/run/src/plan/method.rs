@@ -79,7 +79,7 @@ fn automatic(scene: &Scene, period: &Period, estimates: &Estimates) -> (SolverMe
     if !estimates.jumps_pay() {
         return (every_pass, reason);
     }
-    let good_enough = !period.drawn.is_empty() && scene.solver.tolerance >= DRAWN_ERROR;
+    let good_enough = period.is_drawn && scene.solver.tolerance >= DRAWN_ERROR;
     let affordable = estimates.every_pass(every_pass) <= LONGEST_EVERY_PASS;
     if period.stands_in() && !good_enough && affordable {
         let why = "with jumps, another order of vehicles would stand in for the traffic";
