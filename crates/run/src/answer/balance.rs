@@ -7,8 +7,8 @@
 
 use cable_dem::{CableState, DuctedCable};
 
+use super::differences::larger;
 use super::record::{PassRecord, RestraintRecord};
-use super::saturation::larger;
 use crate::Error;
 use crate::scene::{Scene, Section};
 

@@ -4,8 +4,8 @@
 use cycle_jump::days::Extremes;
 use serde::{Deserialize, Serialize};
 
-use super::force_profile::ForceProfile;
-use super::saturation::larger;
+use super::along_cable::ForceProfile;
+use super::differences::larger;
 use crate::scene::CableEnd;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::differences::SMALL;
+use super::differences::{SMALL, larger};
 use super::record::{PassRecord, Run};
-use super::saturation::larger;
 use super::units::Units;
 use crate::scene::{CableEnd, Scene};
 use crate::shown::exact;

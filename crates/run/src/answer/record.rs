@@ -1,13 +1,13 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::{SlipLengths, Statistics};
+use cable_dem::Statistics;
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
-use super::error_shares::ErrorEstimate;
-use super::force_profile::ForceProfile;
+use super::along_cable::{ForceProfile, SlipRecord, Stage};
+use super::differences::larger;
+use super::error_estimate::ErrorEstimate;
 use super::heat::{DayExtremes, HeatRecord};
-use super::saturation::larger;
 use crate::SavedState;
 use crate::scene::{CableEnd, Traffic};
 
@@ -144,32 +144,6 @@ pub struct PassRecord {
     pub interpolated: bool,
 }
 
-/// The cable at one pass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Stage {
-    /// Number of the pass, from 1.
-    pub pass: u64,
-    /// Force along the cable after it.
-    pub force_profile: ForceProfile,
-    /// Friction on the cable during it.
-    pub friction: Option<FrictionProfile>,
-}
-
-/// Friction along the cable with the vehicle over the duct's middle (Kashiro et al., Figure 7).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FrictionProfile {
-    /// Place of the vehicle in the scene's list, from 0.
-    pub vehicle: usize,
-    /// Position of the vehicle's origin along the duct \[m\].
-    pub vehicle_position_m: f64,
-    /// Positions along the duct \[m\]: the nodes.
-    pub positions_m: Vec<f64>,
-    /// Friction on the cable there \[N/m\], positive toward growing x.
-    pub friction_n_per_m: Vec<f64>,
-    /// Lengths at the limit.
-    pub slip_lengths: SlipRecord,
-}
-
 /// A pass that counts where largest forces and movements are looked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExtremePass {
@@ -207,15 +181,6 @@ pub struct RestraintRecord {
     /// How far it has slipped \[m\], positive toward growing x; none if it never slips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slipped_m: Option<f64>,
-}
-
-/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct SlipRecord {
-    /// Friction at its limit toward growing x \[m\].
-    pub forward_m: f64,
-    /// Friction at its limit toward falling x \[m\].
-    pub backward_m: f64,
 }
 
 /// Where the force levels off.
@@ -332,15 +297,6 @@ pub struct Cost {
     pub sweeps: u64,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: u64,
-}
-
-impl From<SlipLengths> for SlipRecord {
-    fn from(lengths: SlipLengths) -> Self {
-        Self {
-            forward_m: lengths.forward,
-            backward_m: lengths.backward,
-        }
-    }
 }
 
 impl Cost {

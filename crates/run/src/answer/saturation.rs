@@ -11,7 +11,7 @@ use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Beyond, Record};
 
 use super::balance;
-use super::differences::largest_force;
+use super::differences::{larger, largest_force};
 use super::record::{ForceRange, Saturation};
 use crate::Scene;
 use crate::plan::Period;
@@ -209,11 +209,6 @@ fn extrapolate(forces: &[f64], period: usize, scale: f64) -> Option<Range> {
         return None;
     }
     range(forces[count - period..].iter().map(|force| force + remainder))
-}
-
-/// The larger in size of two forces.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if b.abs() > a.abs() { b } else { a }
 }
 
 #[cfg(test)]

@@ -5,8 +5,7 @@ use cycle_jump::days::Days;
 
 use super::day_simulator::{DaySimulator, a_day};
 use crate::Error;
-use crate::answer::{DayExtremes, DayPoint, HeatRecord};
-use crate::passes::force_profile;
+use crate::answer::{DayExtremes, DayPoint, ForceProfile, HeatRecord};
 use crate::scene::DAYS_PER_YEAR;
 use crate::shown::words_if;
 
@@ -54,8 +53,8 @@ impl DaySimulator<'_> {
             periodic_from_day: days.periodic_from,
             drift_per_day_m: drift,
             drift_per_year_m: drift.map(|drift| DAYS_PER_YEAR * drift),
-            hot_profile: force_profile(&cable, &days.hot)?,
-            cold_profile: force_profile(&cable, &days.cold)?,
+            hot_profile: ForceProfile::new(&cable, &days.hot)?,
+            cold_profile: ForceProfile::new(&cable, &days.cold)?,
         };
         Ok((days.days.iter().map(of_day).collect(), record))
     }

@@ -8,6 +8,6 @@ mod task;
 
 pub use listing::{listed_passes, mean, record_of};
 pub use options::{FixedMesh, JumpSize, Jumping, KnownJumps, RunOptions};
-pub use simulation::{Passes, Simulation, force_profile};
+pub use simulation::{Passes, Simulation};
 pub use solver::PassSolver;
 pub use task::Task;

@@ -32,16 +32,6 @@ pub struct Passes {
     pub days: Option<Days>,
 }
 
-/// Force along the cable as it is left in `state`.
-pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForceProfile, Error> {
-    let force_n: Vec<f64> = state.element_forces(cable)?.collect();
-    let middle = |element: usize| state.node_spacing() * (element as f64 + 0.5);
-    Ok(ForceProfile {
-        positions_m: (0..force_n.len()).map(middle).collect(),
-        force_n,
-    })
-}
-
 /// Passes under way.
 pub struct Simulation<'a> {
     task: &'a Task<'a>,
@@ -89,7 +79,7 @@ impl<'a> Simulation<'a> {
             if let Some(pass) = stage {
                 self.stages.push(Stage {
                     pass,
-                    force_profile: force_profile(&self.cable, state)?,
+                    force_profile: ForceProfile::new(&self.cable, state)?,
                     friction,
                 });
             }

@@ -6,10 +6,10 @@ use cycle_jump::{Record, peaks};
 use crate::Error;
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
-    Cost, DuctMotionSummary, ErrorEstimate, ExtremePass, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, Start, balance, larger, listed, saturation,
+    Cost, DuctMotionSummary, ErrorEstimate, ExtremePass, ForceProfile, PassRecord, PlanSummary,
+    RestraintRecord, Run, Stage, Start, balance, larger, listed, saturation,
 };
-use crate::passes::{Passes, Simulation, force_profile, listed_passes};
+use crate::passes::{Passes, Simulation, listed_passes};
 use crate::plan::Plan;
 use crate::refine::Solved;
 use crate::saved_state::{PastPass, SavedState};
@@ -62,7 +62,7 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &So
         heat,
         upstream_spring_n_per_m: spring(scene.ends.upstream),
         downstream_spring_n_per_m: spring(scene.ends.downstream),
-        force_profile: force_profile(&cable, &found.state)?,
+        force_profile: ForceProfile::new(&cable, &found.state)?,
         restraints,
         slip_lengths: found.slip,
         stages: found.stages.clone(),
@@ -155,7 +155,7 @@ pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error
     let mut scene = plan.scene.clone();
     let count = std::mem::replace(&mut scene.traffic.passes, 1);
     let mut passes = plan.task(&scene, mesh).every_pass()?;
-    let force_profile = force_profile(&plan.task(&scene, mesh).cable()?, &passes.state)?;
+    let force_profile = ForceProfile::new(&plan.task(&scene, mesh).cable()?, &passes.state)?;
     let stage = |&pass| Stage {
         pass,
         force_profile: force_profile.clone(),
