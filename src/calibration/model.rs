@@ -76,7 +76,7 @@ impl SeriesModel {
         scene.traffic.passes = series.readings.last_pass();
         let (method, period, ground) = {
             let plan = plan(&scene)?;
-            (plan.choice.method, plan.period, plan.ground)
+            (plan.method, plan.period, plan.ground)
         };
         let mut model = Self {
             observed,

@@ -128,7 +128,7 @@ impl Plan<'_> {
     pub fn task<'a>(&'a self, scene: &'a Scene, mesh: Mesh) -> Task<'a> {
         Task {
             scene,
-            method: self.choice.method,
+            method: self.method,
             motions: &self.ground.motions,
             mesh,
             start: self.start,

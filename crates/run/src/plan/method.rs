@@ -6,8 +6,8 @@
 //! `cycle-jump`). Explicit steps are taken where the scene names them, and for the sigmoid law,
 //! which has no state of rest.
 
+use super::Plan;
 use super::cost::Estimates;
-use super::mesh::Levels;
 use super::period::Period;
 use crate::Error;
 use crate::scene::{Scene, SolverMethod};
@@ -23,27 +23,16 @@ const LONGEST_PERIOD: usize = 5000;
 /// Most passes that are simulated one by one.
 pub const MOST_PASSES: u64 = 1_000_000;
 
-/// How the passes are computed, and why.
-#[derive(Debug)]
-pub struct MethodChoice {
-    /// Never `auto`.
-    pub method: SolverMethod,
-    pub reason: String,
-    /// By what share of the force leaving inertia out is off at most, where it is left out.
-    pub inertia: f64,
-    /// Whether every pass may be simulated where jumps do not get on.
-    pub may_simulate: bool,
-    /// What every method would cost.
-    pub estimates: Estimates,
-}
-
 pub const NO_REST: &str = "the sigmoid law has no state of rest: its friction depends on the time step";
 
-/// The method the scene names, or the cheapest that keeps its tolerance.
-pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodChoice, Error> {
-    let estimates = Estimates::new(scene, levels, period)?;
+/// The method the scene names, or the cheapest that keeps its tolerance, never `auto`; and why.
+pub fn choose(
+    scene: &Scene,
+    period: &Period,
+    estimates: &Estimates,
+) -> Result<(SolverMethod, String), Error> {
     let (mut method, mut reason) = match scene.solver.method {
-        SolverMethod::Auto => automatic(scene, period, &estimates),
+        SolverMethod::Auto => automatic(scene, period, estimates),
         named => (named, "the scene asks for it".to_owned()),
     };
     if method != SolverMethod::Explicit && !scene.friction.law().has_memory() {
@@ -56,15 +45,24 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
     if scene.friction_limit() > 0.0 {
         check_length(scene, period, method, estimates.seconds(method))?;
     }
-    let is_explicit = method == SolverMethod::Explicit;
-    Ok(MethodChoice {
-        inertia: if is_explicit { 0.0 } else { estimates.inertia },
-        may_simulate: scene.traffic.passes <= MOST_PASSES
-            && estimates.every_pass(method) <= LONGEST_EVERY_PASS,
-        method,
-        reason,
-        estimates,
-    })
+    Ok((method, reason))
+}
+
+impl Plan<'_> {
+    /// By what share of the force leaving inertia out is off at most, where it is left out.
+    pub fn inertia(&self) -> f64 {
+        match self.method {
+            SolverMethod::Explicit => 0.0,
+            _ => self.estimates.inertia,
+        }
+    }
+
+    /// Whether every pass may be simulated where jumps do not get on.
+    pub fn may_simulate_all(&self) -> bool {
+        self.method == SolverMethod::PassLaw
+            && self.scene.traffic.passes <= MOST_PASSES
+            && self.estimates.every_pass(self.method) <= LONGEST_EVERY_PASS
+    }
 }
 
 fn automatic(scene: &Scene, period: &Period, estimates: &Estimates) -> (SolverMethod, String) {

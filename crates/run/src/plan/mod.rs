@@ -21,9 +21,11 @@ use ground_field::GroundField;
 
 use crate::SavedState;
 use crate::ground::{Ground, road};
+use crate::scene::SolverMethod;
 use crate::{Error, Scene};
+pub use cost::Estimates;
 pub use mesh::Levels;
-pub use method::{MOST_PASSES, MethodChoice};
+pub use method::MOST_PASSES;
 pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
 
@@ -33,7 +35,11 @@ pub struct Plan<'a> {
     pub scene: &'a Scene,
     pub ground: Arc<Ground>,
     pub period: Period,
-    pub choice: MethodChoice,
+    /// How the passes are computed, and why.
+    pub method: SolverMethod,
+    pub reason: String,
+    /// What every method would cost.
+    pub estimates: Estimates,
     pub levels: Levels,
     pub warnings: Vec<String>,
     /// The state that the passes begin with, if not as laid.
@@ -67,14 +73,19 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
     let period = Period::new(scene, &ground.motions)?;
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first)?;
-    let choice = method::choose(scene, &levels, &period)?;
-    Ok(Plan {
-        warnings: warnings::warnings(scene, choice.inertia)?,
+    let estimates = Estimates::new(scene, &levels, &period)?;
+    let (method, reason) = method::choose(scene, &period, &estimates)?;
+    let mut plan = Plan {
         scene,
         ground,
         period,
-        choice,
+        method,
+        reason,
+        estimates,
         levels,
+        warnings: Vec::new(),
         start: None,
-    })
+    };
+    plan.warnings = warnings::warnings(scene, plan.inertia())?;
+    Ok(plan)
 }

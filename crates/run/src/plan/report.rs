@@ -83,14 +83,14 @@ impl Plan<'_> {
     pub fn reasons(&self, method: &str) -> Vec<String> {
         vec![
             format!("ground {}: {}", self.ground.name, self.ground.reason),
-            format!("cable {}: {method}", self.choice.method),
+            format!("cable {}: {method}", self.method),
         ]
     }
 
     /// Why the method was chosen, and how many passes it is expected to simulate.
     fn foreseen(&self) -> String {
-        let (reason, estimates) = (&self.choice.reason, &self.choice.estimates);
-        match self.choice.method {
+        let (reason, estimates) = (&self.reason, &self.estimates);
+        match self.method {
             SolverMethod::PassLaw => format!(
                 "about {:.0} of {} passes are simulated, with jumps between them; {reason}",
                 estimates.typical, estimates.passes
@@ -104,7 +104,6 @@ impl Plan<'_> {
         let Self {
             scene,
             ground,
-            choice,
             levels,
             ..
         } = self;
@@ -129,12 +128,12 @@ impl Plan<'_> {
         PlanReport {
             title: scene.title.clone(),
             ground: ground.name.into(),
-            cable: choice.method.to_string(),
+            cable: self.method.to_string(),
             node_spacing_m,
             vehicle_step_m,
             reasons: self.reasons(&self.foreseen()),
-            estimated_error: mesh_error.map(|error| error + choice.inertia + ground.accuracy),
-            estimated_seconds: choice.estimates.seconds(choice.method),
+            estimated_error: mesh_error.map(|error| error + self.inertia() + ground.accuracy),
+            estimated_seconds: self.estimates.seconds(self.method),
             occurrence: Occurrence::new(scene, &ground.motions),
             candidates: [chosen].into_iter().chain(methods).chain(meshes).collect(),
             warnings: self.warnings.clone(),
@@ -142,8 +141,8 @@ impl Plan<'_> {
     }
 
     fn method(&self, method: SolverMethod) -> Candidate {
-        let (scene, estimates) = (self.scene, &self.choice.estimates);
-        let chosen = method == self.choice.method;
+        let (scene, estimates) = (self.scene, &self.estimates);
+        let chosen = method == self.method;
         let inertia = match method {
             SolverMethod::Explicit => Some(0.0),
             _ => scene.friction.law().has_memory().then_some(estimates.inertia),

@@ -105,11 +105,11 @@ fn time_steps(plan: &Plan<'_>, solved: &mut Solved) -> Result<(), Error> {
 }
 
 fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<FixedMesh>), Error> {
-    let Plan { scene, choice, .. } = plan;
+    let scene = plan.scene;
     if let Some(start) = plan.start {
         start.check(scene)?;
     }
-    let error = ErrorParts::new(plan.ground.accuracy, choice.inertia);
+    let error = ErrorParts::new(plan.ground.accuracy, plan.inertia());
     // What no mesh makes smaller.
     error_estimate::judge(&error, scene.solver.tolerance)?;
     let solve = |method| {
@@ -123,13 +123,13 @@ fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<F
         judge(&solved.error, plan, &mut solved.warnings)?;
         Ok(solved)
     };
-    let (mut method, mut reason) = (choice.method, choice.reason.clone());
+    let (mut method, mut reason) = (plan.method, plan.reason.clone());
     let solved = if scene.friction_limit() == 0.0 {
         method = every_pass(method);
         without_friction(plan, options.stages)
     } else {
         match solve(method) {
-            Err(error) if may_help(&error) && choice.may_simulate && method == SolverMethod::PassLaw => {
+            Err(error) if may_help(&error) && plan.may_simulate_all() => {
                 method = every_pass(method);
                 reason = format!(
                     "{reason}; jumps gave no answer here ({error}): every pass was simulated after all"
