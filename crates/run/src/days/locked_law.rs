@@ -22,22 +22,16 @@ pub fn locked_law(
     vehicles: &[usize],
     passes: usize,
 ) -> Result<(LockedLaw, Statistics), Error> {
-    let Task {
-        scene, motions, mesh, ..
-    } = task;
+    let (scene, motions, mesh) = (task.scene, task.motions, task.mesh);
     let limit = scene.friction_limit();
     let scale = length_scale(motions, scene.duct.depth);
     let coarser = (scale / FINEST / mesh.spacing()).max(1.0);
     let spacing = coarser * mesh.spacing();
     let approach = road::needed(scene, motions)?;
     // Vehicles are to stay within the reach of the motions.
-    let reach = motions
-        .iter()
-        .map(DuctMotion::reach)
-        .fold(f64::INFINITY, f64::min);
-    let length = (LAW_LENGTH * scale).min(reach - approach);
-    let elements = (length / spacing).floor();
-    let length = elements * spacing;
+    let reaches = motions.iter().map(DuctMotion::reach);
+    let length = (LAW_LENGTH * scale).min(reaches.fold(f64::INFINITY, f64::min) - approach);
+    let length = (length / spacing).floor() * spacing;
     let mesh = Mesh::new(length, spacing, coarser * mesh.vehicle_step())?;
     let whole = cable(scene)?;
     let short = |body_force: f64| {
@@ -45,10 +39,8 @@ pub fn locked_law(
             .and_then(|cable| cable.with_body_force(body_force))
     };
     let solver = QuasiStatic::new(short(0.0)?, mesh)?;
-    let passages = motions
-        .iter()
-        .map(|motion| solver.passage(motion, approach))
-        .collect::<Result<Vec<_>, _>>()?;
+    let passages = motions.iter().map(|motion| solver.passage(motion, approach));
+    let passages = passages.collect::<Result<Vec<_>, _>>()?;
     let (nodes, middle) = (mesh.nodes(), mesh.nodes() / 2);
     let mut advances = [0.0; LockedLaw::SHARES.len()];
     let mut statistics = Statistics::default();

@@ -1,7 +1,6 @@
 //! The passes of a plan, every one simulated or few with jumps between them, on one mesh after the
 //! other.
 
-use cable_dem::Statistics;
 use cycle_jump::Guide;
 
 use super::jump_search::{self, Found};
@@ -44,15 +43,15 @@ pub fn solve(
     // The scatter of random orders is every run's own.
     let fits = |known: &FixedMesh| !jumps || known.jumps.is_some() && !plan.period.reordered;
     let known = options.mesh.filter(|_| plan.levels.named).filter(fits);
-    let (mut begin, mut search) = (0.0, Statistics::default());
+    let mut begin = 0.0;
+    if jumps && known.is_none() {
+        begin = FINDING;
+        let progress = options.progress.part(0.0, begin);
+        passes.found = Some(jump_search::find(plan, passes.scale, progress)?);
+    }
     if jumps {
-        passes.known = known.and_then(|known| known.jumps);
-        if known.is_none() {
-            begin = FINDING;
-            let progress = options.progress.part(0.0, begin);
-            let (found, work) = jump_search::find(plan, passes.scale, progress)?;
-            (passes.known, passes.found, search) = (Some(found.known), Some(found), work);
-        }
+        let found = passes.found.as_ref().map(|found| found.known);
+        passes.known = found.or(known.and_then(|known| known.jumps));
     }
     error.passes = passes.known.map_or(Shares::default(), |jumps| jumps.error);
     let meshes = MeshLoop {
@@ -62,7 +61,6 @@ pub fn solve(
         known_error: known.map(|known| known.error),
     };
     let mut solved = meshes.refine(plan.levels.first, options.progress.part(begin, 1.0), error)?;
-    solved.statistics += search;
     solved.shown = Some(FixedMesh {
         error: solved.error.mesh,
         jumps: passes.known,
@@ -74,6 +72,7 @@ pub fn solve(
         let task = plan.task(plan.scene, plan.levels.mesh(found.level)?);
         let (spread, work) = random_spread::spread(&task, &found.passes.state, &solved.passes)?;
         solved.random = spread;
+        solved.statistics += found.statistics;
         solved.statistics += work;
     }
     Ok(solved)

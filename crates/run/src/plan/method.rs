@@ -6,7 +6,6 @@
 //! `cycle-jump`). Explicit steps are taken where the scene names them, and for the sigmoid law,
 //! which has no state of rest.
 
-use super::Plan;
 use super::cost::Estimates;
 use super::period::Period;
 use crate::Error;
@@ -17,7 +16,7 @@ use crate::tuning::methods::DRAWN_ERROR;
 /// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
 const LONGEST_WITHOUT_REST: f64 = 600.0;
 /// Where every pass is simulated although jumps are possible, it takes no longer than this \[s\].
-const LONGEST_EVERY_PASS: f64 = 60.0;
+pub const LONGEST_EVERY_PASS: f64 = 60.0;
 /// Most vehicles in a period that jumps go over: what every pass of it leaves is kept.
 const LONGEST_PERIOD: usize = 5000;
 /// Most passes that are simulated one by one.
@@ -46,23 +45,6 @@ pub fn choose(
         check_length(scene, period, method, estimates.seconds(method))?;
     }
     Ok((method, reason))
-}
-
-impl Plan<'_> {
-    /// By what share of the force leaving inertia out is off at most, where it is left out.
-    pub fn inertia(&self) -> f64 {
-        match self.method {
-            SolverMethod::Explicit => 0.0,
-            _ => self.estimates.inertia,
-        }
-    }
-
-    /// Whether every pass may be simulated where jumps do not get on.
-    pub fn may_simulate_all(&self) -> bool {
-        self.method == SolverMethod::PassLaw
-            && self.scene.traffic.passes <= MOST_PASSES
-            && self.estimates.every_pass(self.method) <= LONGEST_EVERY_PASS
-    }
 }
 
 fn automatic(scene: &Scene, period: &Period, estimates: &Estimates) -> (SolverMethod, String) {

@@ -25,6 +25,7 @@ use crate::scene::SolverMethod;
 use crate::{Error, Scene};
 pub use cost::Estimates;
 pub use mesh::Levels;
+use method::LONGEST_EVERY_PASS;
 pub use method::MOST_PASSES;
 pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
@@ -88,4 +89,21 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
     };
     plan.warnings = warnings::warnings(scene, plan.inertia())?;
     Ok(plan)
+}
+
+impl Plan<'_> {
+    /// By what share of the force leaving inertia out is off at most, where it is left out.
+    pub fn inertia(&self) -> f64 {
+        match self.method {
+            SolverMethod::Explicit => 0.0,
+            _ => self.estimates.inertia,
+        }
+    }
+
+    /// Whether every pass may be simulated where jumps do not get on.
+    pub fn may_simulate_all(&self) -> bool {
+        self.method == SolverMethod::PassLaw
+            && self.scene.traffic.passes <= MOST_PASSES
+            && self.estimates.every_pass(self.method) <= LONGEST_EVERY_PASS
+    }
 }

@@ -16,6 +16,9 @@ use crate::{Error, Progress, Scene};
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 
+/// Below this tolerance a finer mesh may cost twice as much.
+const USUAL: f64 = 0.01;
+
 /// What is simulated on one mesh after the other: every pass, passes with jumps, or days.
 pub trait OnMeshes {
     /// Simulates the passes of `scene`, which is that of the plan or one like it, on `level`; the
@@ -119,7 +122,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
                 None if meshes.len() > 1 => simulation.mesh_error(level, &meshes),
                 None => error.mesh,
             };
-            if self.is_good_enough(level, &meshes, &error) || !self.may_refine(level, &meshes) {
+            if self.is_good_enough(level, &meshes, &error) || !self.may_refine(level, &meshes, &error) {
                 break;
             }
             match simulate(plan.scene, level + 1, meshes.last(), parts(), true) {
@@ -171,10 +174,14 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
     }
 
     /// Whether there is a mesh after `level` that is not too costly.
-    fn may_refine(&self, level: usize, meshes: &[Passes]) -> bool {
+    fn may_refine(&self, level: usize, meshes: &[Passes], error: &ErrorParts) -> bool {
+        let tolerance = self.plan.scene.solver.tolerance;
+        // A run whose error is above 10 % is refused: spend more before that.
+        let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
+        let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 2 };
         let last = meshes.last().map_or(0, |passes| passes.statistics.node_updates);
         self.known_error.is_none()
-            && REFINEMENT_COST.saturating_mul(last) <= MAX_NODE_UPDATES
+            && REFINEMENT_COST.saturating_mul(last) <= most
             && level < self.plan.levels.finest
     }
 
