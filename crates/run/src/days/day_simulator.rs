@@ -12,7 +12,7 @@ use crate::passes::{Passes, Simulation, Task, listed_passes};
 use crate::plan::Plan;
 use crate::refine::OnMeshes;
 use crate::scene::{Heat, Scene};
-use crate::tuning::days::{COARSEST, FEW, JUMPS_SHARE, MOST, RESOLVED, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
+use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use crate::{Error, Progress};
 
 /// Days simulated after the first one, before any is jumped over.
@@ -101,7 +101,7 @@ impl DaySimulator<'_> {
     /// The jumps of cycle-jump.
     fn jumps(&self) -> Result<Jumps, Error> {
         let (scale, levels) = (self.scale(), &self.plan.levels);
-        let tolerance = (JUMPS_SHARE * self.plan.scene.solver.tolerance).min(MOST);
+        let tolerance = (SHARE * self.plan.scene.solver.tolerance).min(MOST);
         let (finer, first_jump) = if self.finer { (0.25, 0.25) } else { (1.0, 0.5) };
         let least = (scale.force, scale.movement);
         let jumps =
@@ -215,9 +215,7 @@ impl OnMeshes for DaySimulator<'_> {
             return Shares::default();
         };
         // Place of the mesh among those with typical errors.
-        let (spacing, _) = self.plan.levels.spacing(level);
-        let nodes = 1.001 * self.plan.levels.length_scale / spacing;
-        let fineness = ((nodes / COARSEST).log2() as usize).min(TYPICAL.len() - 1);
+        let fineness = self.plan.levels.fineness(level).min(TYPICAL.len() - 1);
         let weight = if fineness < RESOLVED {
             WEIGHT_UNRESOLVED
         } else {

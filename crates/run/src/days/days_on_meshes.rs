@@ -120,7 +120,7 @@ fn error_of_days(
     let mut others: Vec<(DaySimulator<'_>, f64)> = others.collect();
     // Where the sequence goes on the next day; nor does the traffic keep the hours at which the
     // seldom vehicles of stand-ins come.
-    let half = (!others.is_empty()).then(|| days.vehicles.len() / 2);
+    let half = (!others.is_empty()).then_some(days.vehicles.len() / 2);
     let begun_later = days.broken_sequence().or(half);
     others.extend(begun_later.map(|begin| (DaySimulator { begin, ..*days }, 1.0)));
     let are_jumped = finest.schedule.iter().any(|length| *length > 0);

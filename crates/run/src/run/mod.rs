@@ -67,14 +67,6 @@ pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error>
     carry_out(plan, options).map(|(run, _)| run)
 }
 
-/// The method without jumps.
-fn every_pass(method: SolverMethod) -> SolverMethod {
-    match method {
-        SolverMethod::PassLaw => SolverMethod::QuasiStatic,
-        own => own,
-    }
-}
-
 /// Whether there may be an answer where every pass is simulated.
 fn may_help(error: &Error) -> bool {
     match error {
@@ -113,6 +105,9 @@ fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<F
     // What no mesh makes smaller.
     error_estimate::judge(&error, scene.solver.tolerance)?;
     let solve = |method| {
+        if scene.friction_limit() == 0.0 {
+            return without_friction(plan, options.stages);
+        }
         let mut solved = match scene.warming() {
             Some(heat) => days::solve(plan, heat, method, options, error),
             None => jumps::solve(plan, method, options, error),
@@ -123,21 +118,21 @@ fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<F
         judge(&solved.error, plan, &mut solved.warnings)?;
         Ok(solved)
     };
-    let (mut method, mut reason) = (plan.method, plan.reason.clone());
-    let solved = if scene.friction_limit() == 0.0 {
-        method = every_pass(method);
-        without_friction(plan, options.stages)
-    } else {
-        match solve(method) {
-            Err(error) if may_help(&error) && plan.may_simulate_all() => {
-                method = every_pass(method);
-                reason = format!(
-                    "{reason}; jumps gave no answer here ({error}): every pass was simulated after all"
-                );
-                solve(method)
-            }
-            solved => solved,
+    let every_pass = match plan.method {
+        SolverMethod::PassLaw => SolverMethod::QuasiStatic,
+        own => own,
+    };
+    let is_free = scene.friction_limit() == 0.0;
+    let mut method = if is_free { every_pass } else { plan.method };
+    let mut reason = plan.reason.clone();
+    let solved = match solve(method) {
+        Err(error) if may_help(&error) && plan.may_simulate_all() => {
+            method = every_pass;
+            reason =
+                format!("{reason}; jumps gave no answer here ({error}): every pass was simulated after all");
+            solve(method)
         }
+        solved => solved,
     }?;
     let run = assemble(plan, method, &reason, &solved)?;
     finite::check(&run)?;
