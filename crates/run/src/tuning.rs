@@ -79,13 +79,12 @@ pub mod methods {
 
 /// Periods that stand in for the traffic.
 pub mod periods {
-    /// More kinds than this that differ by their load alone have others that stand in for them.
-    pub const KINDS: usize = 12;
+    /// More kinds than this that differ by their load alone have others that stand in for them. In
+    /// random order a period of at most so many vehicles is taken as it is, and with heat it may be
+    /// longer than a day.
+    pub const FEW: usize = 12;
     /// Stand-ins for them.
     pub const STAND_INS: usize = 48;
-    /// In random order a period of at most so many vehicles is taken as it is, and with heat it may
-    /// be longer than a day.
-    pub const FEW: usize = 12;
     /// A mix is near where every vehicle's share is right within this share of itself.
     pub const NEAR: f64 = 0.05;
     /// It has at least so many vehicles: in shorter ones too few of those follow each other that do

@@ -15,7 +15,7 @@ use super::representatives;
 use crate::Error;
 use crate::cable::{known_order, traffic};
 use crate::scene::Scene;
-use crate::tuning::periods::{FEW, KINDS, STAND_INS};
+use crate::tuning::periods::{FEW, STAND_INS};
 
 /// Most vehicles in a period that is chosen here.
 const LONGEST: usize = 2000;
@@ -52,7 +52,7 @@ impl Period {
         let shares = shares(scene)?;
         let kinds = shares.iter().filter(|share| **share > 0.0).count();
         let (mix, others) = match representatives::advances(scene, motions) {
-            Some(advances) if kinds > KINDS => {
+            Some(advances) if kinds > FEW => {
                 let of = |length| Mix::new(representatives::counts(&shares, &advances, length), &shares);
                 (of(STAND_INS), vec![(of(STAND_INS / 2), 1.0)])
             }
