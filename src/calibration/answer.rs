@@ -111,7 +111,7 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
     let fit = &found.fit;
     Ok(FitMethod {
-        cable: problem.models[0].method().name().into(),
+        cable: problem.models[0].method().to_string(),
         load_cell: problem
             .models
             .iter()

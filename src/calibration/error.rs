@@ -20,6 +20,5 @@ pub fn unfit<T>(
     found: &'static str,
     reason: impl Into<Cow<'static, str>>,
 ) -> Result<T, Error> {
-    let reason = reason.into();
-    Err(Error::Unfit { key, found, reason })
+    Err(Error::unfit(key, found, reason))
 }

@@ -19,7 +19,8 @@ use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::ground::Ground;
-use crate::plan::{CableMethod, PassMethod, Period, plan};
+use crate::plan::{Period, plan};
+use crate::scene::SolverMethod;
 use crate::{Error, Progress, Scene};
 use creepage_run::passes::{JumpSize, Jumping, Task};
 
@@ -41,7 +42,7 @@ const MOST_PASSES: u64 = 100_000;
 pub struct SeriesModel {
     scene: Scene,
     ground: Arc<Ground>,
-    method: CableMethod,
+    method: SolverMethod,
     /// The traffic's period and the jumps over it, where not every pass is simulated.
     jumps: Option<(Period, Vec<u64>)>,
     /// Passes of the readings since the cable was at rest and what was measured, in their order.
@@ -75,7 +76,7 @@ impl SeriesModel {
         scene.traffic.passes = series.readings.last_pass();
         let (method, period, ground) = {
             let plan = plan(&scene)?;
-            (plan.choice.method.cable_method(), plan.period, plan.ground)
+            (plan.method, plan.period, plan.ground)
         };
         let mut model = Self {
             observed,
@@ -85,7 +86,7 @@ impl SeriesModel {
             ground,
             method,
         };
-        if model.scene.traffic.passes > EVERY_PASS && model.scene.friction.law().has_memory() {
+        if model.method != SolverMethod::Explicit && model.scene.traffic.passes > EVERY_PASS {
             let task = model.task(&model.scene, &model.ground.motions, 0)?;
             let passes = task.with_jumps(&jumping(&period, Guide::Free), &[])?;
             model.jumps = Some((period, passes.schedule));
@@ -94,10 +95,11 @@ impl SeriesModel {
     }
 
     /// How the passes are computed.
-    pub fn method(&self) -> PassMethod {
+    pub fn method(&self) -> SolverMethod {
         match &self.jumps {
-            Some(_) => PassMethod::Jumps(self.method),
-            None => PassMethod::EveryPass(self.method),
+            Some(_) => SolverMethod::PassLaw,
+            None if self.method == SolverMethod::PassLaw => SolverMethod::QuasiStatic,
+            None => self.method,
         }
     }
 

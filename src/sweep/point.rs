@@ -119,11 +119,7 @@ impl Answer {
 
     /// The same with what the `run` of `scene` makes of the limits.
     pub(super) fn judged(mut self, run: &Run, scene: &Scene, limits: &PointLimits) -> Result<Self, Error> {
-        let unfit = |reason: String| Error::Unfit {
-            key: "restraints",
-            found: "a limit of a clamp",
-            reason: reason.into(),
-        };
+        let unfit = |reason: String| Error::unfit("restraints", "a limit of a clamp", reason);
         let verdicts = (limits.of)(scene).map_err(unfit)?.verdicts(run);
         let reached = verdicts.iter().filter_map(|verdict| verdict.reached_after?.years);
         self.limit_exceeded = Some(verdicts.iter().any(Verdict::is_exceeded));

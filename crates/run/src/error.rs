@@ -96,7 +96,7 @@ pub enum Error {
         /// The scene's key.
         key: &'static str,
         /// What it asks for.
-        found: &'static str,
+        found: Cow<'static, str>,
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
@@ -149,6 +149,16 @@ pub fn with_causes(error: &dyn std::error::Error) -> String {
 }
 
 impl Error {
+    /// [`Error::Unfit`] of this `key`, for a `reason`.
+    pub fn unfit(
+        key: &'static str,
+        found: impl Into<Cow<'static, str>>,
+        reason: impl Into<Cow<'static, str>>,
+    ) -> Self {
+        let (found, reason) = (found.into(), reason.into());
+        Self::Unfit { key, found, reason }
+    }
+
     /// This error with the line of the key at fault, where one is at fault and the scene came from
     /// `file`.
     #[must_use]

@@ -36,24 +36,29 @@ impl ErrorSource {
 
     /// What it is called.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Mesh => "mesh",
-            Self::Ground => "ground",
-            Self::Inertia => "inertia",
-            Self::Road => "road",
-            Self::Passes => "passes not simulated",
-            Self::Days => "days not simulated",
-        }
+        self.words().0
     }
 
     /// What makes it smaller.
     pub fn remedy(self) -> &'static str {
+        self.words().1
+    }
+
+    fn words(self) -> (&'static str, &'static str) {
+        const EVERY_PASS: &str = "solver.method = \"quasi-static\" simulates every one";
         match self {
-            Self::Mesh => "a smaller solver.node_spacing may help, or a larger solver.tolerance",
-            Self::Ground => "another ground.model may help, or a larger solver.tolerance",
-            Self::Inertia => "solver.method = \"explicit\" computes it",
-            Self::Road => "without solver.approach vehicles are followed far enough",
-            Self::Passes | Self::Days => "solver.method = \"quasi-static\" simulates every one",
+            Self::Mesh => (
+                "mesh",
+                "a smaller solver.node_spacing may help, or a larger solver.tolerance",
+            ),
+            Self::Ground => (
+                "ground",
+                "another ground.model may help, or a larger solver.tolerance",
+            ),
+            Self::Inertia => ("inertia", "solver.method = \"explicit\" computes it"),
+            Self::Road => ("road", "without solver.approach vehicles are followed far enough"),
+            Self::Passes => ("passes not simulated", EVERY_PASS),
+            Self::Days => ("days not simulated", EVERY_PASS),
         }
     }
 }

@@ -65,15 +65,13 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
 pub fn profile_over(scene: &Scene, ground: &Ground, positions: &[f64]) -> Result<Profile, Error> {
     error_estimate::judge(&ErrorParts::new(ground.accuracy, 0.0), scene.solver.tolerance)?;
     let first = &ground.motions[0];
+    let all = |of: &dyn Fn(f64) -> f64| positions.iter().map(|&xi| of(xi)).collect();
     let profile = Profile {
         ground: ground.name.into(),
         positions_m: positions.to_vec(),
-        longitudinal_m: positions.iter().map(|&xi| first.longitudinal(xi)).collect(),
-        vertical_m: positions.iter().map(|&xi| first.vertical(xi)).collect(),
-        longitudinal_velocity_m_per_s: positions
-            .iter()
-            .map(|&xi| first.longitudinal_velocity(xi))
-            .collect(),
+        longitudinal_m: all(&|xi| first.longitudinal(xi)),
+        vertical_m: all(&|xi| first.vertical(xi)),
+        longitudinal_velocity_m_per_s: all(&|xi| first.longitudinal_velocity(xi)),
     };
     finite::check(&profile)?;
     Ok(profile)

@@ -78,7 +78,6 @@ impl<'a> Progress<'a> {
 
 impl fmt::Debug for Progress<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let callback = if self.callback.is_some() { ".." } else { "none" };
-        write!(f, "Progress({callback})")
+        f.debug_struct("Progress").finish_non_exhaustive()
     }
 }

@@ -1,13 +1,13 @@
 //! The state that a run leaves behind, with which another run goes on: other traffic, more clamps,
 //! other ends.
 
-use cable_dem::{CableError, CableState, DuctedCable, End, Mesh, RestingCable, Restraint, carried};
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, RestingCable, Restraint, carried};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::cable::cable;
 use crate::hash::fnv1a;
-use crate::scene::Scene;
+use crate::scene::{CableEnd, Scene};
 
 /// Version of what is written.
 const VERSION: u32 = 1;
@@ -70,22 +70,6 @@ struct SavedClamp {
     put_on_m: f64,
 }
 
-/// What `passes` of one run have left, behind those of the runs `before` it.
-fn history(before: Option<&SavedState>, passes: Vec<PastPass>) -> Vec<PastPass> {
-    let mut history = before.map_or(Vec::new(), |before| before.history.clone());
-    let first = before.map_or(0, SavedState::passes);
-    let begin = match before {
-        None => Some(0.0),
-        Some(_) => history.last().and_then(|last| last.days),
-    };
-    history.extend(passes.into_iter().map(|past| PastPass {
-        pass: first + past.pass,
-        days: begin.zip(past.days).map(|(begin, days)| begin + days),
-        ..past
-    }));
-    history
-}
-
 impl SavedClamp {
     fn is(&self, clamp: &Restraint) -> bool {
         let is_there = (self.position_m - clamp.position).abs() < SAME * (1.0 + clamp.position);
@@ -127,32 +111,37 @@ fn same(a: f64, b: f64) -> bool {
 }
 
 impl SavedState {
-    /// The cable of `scene` as `state`, with what its passes have left, after the runs `before` it.
+    /// The cable of `scene` as `state`, with what its `passes` have left, after the runs `before`
+    /// it.
     pub(crate) fn new(
         scene: &Scene,
         cable: &DuctedCable,
         state: &CableState,
         before: Option<&Self>,
-        past: Vec<PastPass>,
+        passes: Vec<PastPass>,
     ) -> Self {
         let duct = duct(scene);
-        let ends = [cable.upstream(), cable.downstream()]
-            .into_iter()
-            .zip(cable.end_positions());
-        let ends: Vec<SavedEnd> = ends
-            .map(|(end, position_m)| SavedEnd {
-                stiffness_n_per_m: end.stiffness(),
-                position_m,
-            })
-            .collect();
+        let position = cable.end_positions();
+        let ends = [(cable.upstream(), position[0]), (cable.downstream(), position[1])];
         let clamps = cable.restraints().iter().zip(state.clamp_slips(cable));
+        let first = before.map_or(0, Self::passes);
+        let mut history = before.map_or(Vec::new(), |before| before.history.clone());
+        let begin = before.map_or(Some(0.0), |_| history.last().and_then(|last| last.days));
+        history.extend(passes.into_iter().map(|past| PastPass {
+            pass: first + past.pass,
+            days: begin.zip(past.days).map(|(begin, days)| begin + days),
+            ..past
+        }));
         Self {
             version: VERSION,
-            passes: before.map_or(0, Self::passes) + scene.traffic.passes,
-            history: history(before, past),
+            passes: first + scene.traffic.passes,
+            history,
             hash: hash(&duct),
             duct,
-            ends: [ends[0], ends[1]],
+            ends: ends.map(|(end, position_m)| SavedEnd {
+                stiffness_n_per_m: end.stiffness(),
+                position_m,
+            }),
             clamps: clamps
                 .map(|(clamp, slipped_m)| SavedClamp {
                     position_m: clamp.position,
@@ -177,39 +166,26 @@ impl SavedState {
 
     /// Refuses a state of another duct, or one that was changed.
     pub(crate) fn check(&self, scene: &Scene) -> Result<(), Error> {
-        let refused = |reason: String| Error::State { reason };
-        if self.version != VERSION {
-            return Err(refused(format!(
-                "its version is {}, and this program knows {VERSION}",
-                self.version
-            )));
-        }
-        if self.hash != hash(&self.duct) {
-            return Err(refused("it was changed after it was written".to_owned()));
-        }
-        if scene.friction_limit() == 0.0 {
-            return Err(refused(
-                "without friction a cable goes back to where it was laid".to_owned(),
-            ));
-        }
         let here = duct(scene);
-        if here.len() != self.duct.len() {
-            return Err(refused("its duct has another number of sections".to_owned()));
-        }
-        let differs = self
-            .duct
-            .iter()
-            .zip(&here)
-            .find(|(one, other)| !same(one.value, other.value));
-        if let Some((one, other)) = differs {
-            let Value { key, value } = one;
-            return Err(refused(format!(
-                "its {key} is {value}, and that of the scene {}",
-                other.value
-            )));
-        }
-        let _ = self.cable.element_forces(&cable(scene)?)?;
-        Ok(())
+        let mut values = self.duct.iter().zip(&here);
+        let differs = values.find(|(one, other)| !same(one.value, other.value));
+        let reason = if self.version != VERSION {
+            let version = self.version;
+            format!("its version is {version}, and this program knows {VERSION}")
+        } else if self.hash != hash(&self.duct) {
+            "it was changed after it was written".to_owned()
+        } else if scene.friction_limit() == 0.0 {
+            "without friction a cable goes back to where it was laid".to_owned()
+        } else if here.len() != self.duct.len() {
+            "its duct has another number of sections".to_owned()
+        } else if let Some((Value { key, value }, other)) = differs {
+            let other = other.value;
+            format!("its {key} is {value}, and that of the scene {other}")
+        } else {
+            let _ = self.cable.element_forces(&cable(scene)?)?;
+            return Ok(());
+        };
+        Err(Error::State { reason })
     }
 
     /// Displacement of the cable at `position` \[m\].
@@ -218,12 +194,6 @@ impl SavedState {
         let place = (position / self.cable.node_spacing()).clamp(0.0, (u.len() - 1) as f64);
         let left = (place.floor() as usize).min(u.len() - 2);
         u[left] + (place - left as f64) * (u[left + 1] - u[left])
-    }
-
-    /// Whether the scene has this state's clamps and no others, in their order.
-    fn has_clamps_of(&self, scene: &Scene) -> bool {
-        let pairs = || self.clamps.iter().zip(&scene.restraints);
-        self.clamps.len() == scene.restraints.len() && pairs().all(|(saved, clamp)| saved.is(clamp))
     }
 
     /// The clamp that was there, or a new one, which bears nothing as yet.
@@ -247,18 +217,14 @@ impl SavedState {
 
     /// The cable of `scene`, held where this state has it.
     pub(crate) fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
-        let ends: [(End, f64); 2] = [
-            (scene.ends.upstream, 0.0),
-            (scene.ends.downstream, scene.duct.length),
-        ];
-        let positions = [0, 1].map(|k| {
-            let (end, place) = ends[k];
-            let saved = self.ends[k];
-            let is_it = match (end.stiffness(), saved.stiffness_n_per_m) {
-                (Some(spring), Some(saved)) => same(spring, saved),
-                (None, None) => true,
-                _ => false,
+        let positions = CableEnd::ALL.map(|end| {
+            let saved = end.of(self.ends);
+            let springs = [end.held_in(scene).stiffness(), saved.stiffness_n_per_m];
+            let is_it = match springs {
+                [Some(spring), Some(saved)] => same(spring, saved),
+                springs => springs == [None, None],
             };
+            let place = end.of([0.0, scene.duct.length]);
             if is_it {
                 saved.position_m
             } else {
@@ -272,12 +238,13 @@ impl SavedState {
     pub(crate) fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
         let cable = self.cable(scene)?;
         let mut state = carried(&self.cable, mesh)?;
-        let is_same_mesh = *state.displacement() == *self.cable.displacement();
-        if !(is_same_mesh && self.has_clamps_of(scene)) {
-            let slips = scene
-                .restraints
-                .iter()
-                .map(|clamp| [self.clamp(clamp).slipped_m; 2]);
+        let mut clamps = self.clamps.iter().zip(&scene.restraints);
+        let is_the_same = *state.displacement() == *self.cable.displacement()
+            && self.clamps.len() == scene.restraints.len()
+            && clamps.all(|(saved, clamp)| saved.is(clamp));
+        if !is_the_same {
+            let slips = scene.restraints.iter();
+            let slips = slips.map(|clamp| [self.clamp(clamp).slipped_m; 2]);
             state = state.with_clamp_slips(slips.collect())?;
         }
         if !cable.friction().law().has_memory() {

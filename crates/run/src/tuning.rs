@@ -79,24 +79,19 @@ pub mod methods {
 
 /// Periods that stand in for the traffic.
 pub mod periods {
-    /// More kinds than this that differ by their load alone have others that stand in for them.
-    pub const KINDS: usize = 12;
+    /// More kinds than this that differ by their load alone have others that stand in for them. In
+    /// random order a period of at most so many vehicles is taken as it is, and with heat it may be
+    /// longer than a day.
+    pub const FEW: usize = 12;
     /// Stand-ins for them.
     pub const STAND_INS: usize = 48;
-    /// In random order a period of at most so many vehicles is taken as it is, and with heat it may
-    /// be longer than a day.
-    pub const FEW: usize = 12;
-    /// A mix is near where every vehicle's share is right within this share of itself; of longer
-    /// ones within the factor the nearest is taken.
+    /// A mix is near where every vehicle's share is right within this share of itself.
     pub const NEAR: f64 = 0.05;
-    pub const LONGER: f64 = 1.25;
     /// It has at least so many vehicles: in shorter ones too few of those follow each other that do
     /// in the traffic, and its largest forces are missed.
     pub const LEAST: usize = 100;
-    /// A mix that has the shares exactly is taken where it is at most so many times as long as a
-    /// near one, or so short: a near one is compared with another, and hardly shows which vehicles
-    /// follow each other in the traffic.
-    pub const EXACT: usize = 2;
+    /// A mix that has the shares exactly is taken where it is at most so long: a near one is
+    /// compared with another, and hardly shows which vehicles follow each other in the traffic.
     pub const SHORT: usize = 600;
 }
 
@@ -128,19 +123,16 @@ pub mod days {
     /// What half as many simulated periods a day change, times this, is the error of as many: of
     /// fifteen scenes with 24 and 48 or more it covers all, but a movement that was off by 0.18 %.
     pub const CAUTION: f64 = 2.0;
-    /// Share of the tolerance that days with few simulated periods may take.
+    /// Share of the tolerance that days with few simulated periods may take, and jumps over days.
     pub const SHARE: f64 = 0.5;
     /// Typical errors of the forces with 3, 6, 12, … nodes a depth, below which none is stated, and
     /// the share of the difference to a mesh half as fine that is the error: measured on nine
     /// scenes up to 24 nodes. From 12 on differences fall by a factor of 4 to 14.
     pub const TYPICAL: [f64; 4] = [5e-2, 1.2e-2, 1.5e-3, 4e-4];
-    pub const COARSEST: f64 = 3.0;
     pub const RESOLVED: usize = 2;
     pub const WEIGHT: f64 = 0.4;
     pub const WEIGHT_UNRESOLVED: f64 = 2.0;
-    /// Share of the tolerance that jumps over days may take, and the most that they take: slow
-    /// two-way creep adds up what larger ones miss.
-    pub const JUMPS_SHARE: f64 = 0.5;
+    /// The most that jumps over days may take: slow two-way creep adds up what larger ones miss.
     pub const MOST: f64 = 5e-3;
     /// Up to so many passes a day all are simulated on a day with real ones; and where a day has no
     /// whole sequence.

@@ -7,6 +7,7 @@
 
 use cable_dem::{CableState, DuctedCable};
 
+use super::differences::larger;
 use super::record::{PassRecord, RestraintRecord};
 use crate::Error;
 use crate::scene::{Scene, Section};
@@ -47,12 +48,8 @@ pub fn of_records(
         let clamps = restraints.iter().map(|clamp| clamp.after_passes_n[index].abs());
         let clamps: f64 = clamps.sum();
         let (upstream, downstream) = (record.upstream_force_n, record.downstream_force_n);
-        let largest = record
-            .max_compression_n
-            .abs()
-            .max(upstream.abs())
-            .max(downstream.abs());
-        let friction = carried(scene, largest);
+        let forces = [upstream, downstream, record.max_compression_n];
+        let friction = carried(scene, forces.into_iter().fold(0.0, larger).abs());
         let carried = (downstream - upstream).abs();
         if carried > (1.0 + MARGIN) * friction + clamps {
             return Err(Error::Unbalanced {

@@ -161,6 +161,11 @@ pub fn largest_force(outcome: &PassOutcome) -> f64 {
     places[..MOVEMENT].iter().map(largest).fold(0.0, f64::max)
 }
 
+/// The larger in size of two forces.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b.abs() > a.abs() { b } else { a }
+}
+
 /// Forces or movements at a place, as many for each.
 type Values = [f64; 4];
 

@@ -6,85 +6,137 @@
 //! uneven, and two meshes may agree by chance. So more is counted: the largest of a share of each
 //! difference seen so far, and never less than what is typical of the level.
 
-use std::ops::{Index, IndexMut};
+use serde::{Deserialize, Serialize};
 
-use super::ErrorShares;
 use super::differences::Shares;
 use crate::Error;
 use crate::error_source::ErrorSource;
 use crate::shown::percent;
 use crate::tuning::meshes::{MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 
-/// A larger error than this, or the tolerance if that is larger still, is no answer.
-const DOUBTFUL: f64 = 0.1;
-
-/// The error of a run by its parts: shares of the forces and of the movements.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ErrorParts {
-    parts: [Shares; ErrorSource::ALL.len()],
-    /// Whether a finer run was made to measure the mesh's part.
-    pub measured: bool,
+/// How wrong the forces may be: how well the equations are solved, not how well they describe a
+/// duct.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ErrorEstimate {
+    /// Largest error of a force, after a pass and during it, on an end, inside the cable or on a
+    /// clamp: as a share of the largest at its place, or of a tenth of the largest force of the run
+    /// if that is more.
+    pub relative: f64,
+    /// How that was found.
+    pub method: String,
+    /// Its parts: `relative` is the sum of these without `law` and `movement`.
+    pub parts: ErrorShares,
 }
 
-impl Index<ErrorSource> for ErrorParts {
-    type Output = Shares;
-
-    fn index(&self, source: ErrorSource) -> &Shares {
-        &self.parts[source as usize]
-    }
+/// Error by its causes, each as a share of the force but the movement's own.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct ErrorShares {
+    /// Node spacing and vehicle step.
+    pub mesh: f64,
+    /// What the ground model leaves out.
+    pub ground: f64,
+    /// Inertia of the cable, where it is left out: a bound.
+    pub inertia: f64,
+    /// Road beyond where vehicles are followed.
+    pub road: f64,
+    /// Passes that were not simulated.
+    pub passes: f64,
+    /// Heat and traffic of days of which few passes were simulated, or none.
+    #[serde(default)]
+    pub temperature: f64,
+    /// The same as `passes`, by its older name.
+    pub law: f64,
+    /// Largest error of an end's movement from all causes, as a share of the largest movement.
+    pub movement: f64,
 }
 
-impl IndexMut<ErrorSource> for ErrorParts {
-    fn index_mut(&mut self, source: ErrorSource) -> &mut Shares {
-        &mut self.parts[source as usize]
-    }
-}
-
-impl ErrorParts {
-    /// The `accuracy` of D_l as a share of its peak, counted in full as error of the force, and
-    /// what leaving `inertia` out may cost; as yet nothing else.
-    pub fn new(accuracy: f64, inertia: f64) -> Self {
-        let mut error = Self {
-            parts: [Shares::default(); ErrorSource::ALL.len()],
-            measured: false,
-        };
-        error[ErrorSource::Ground] = Shares::both(accuracy);
-        error[ErrorSource::Inertia] = Shares::both(inertia);
-        error
-    }
-
-    pub fn total(&self) -> Shares {
-        self.parts
-            .into_iter()
-            .fold(Shares::default(), |sum, part| sum + part)
-    }
-
-    /// The same for a reader.
-    pub fn shares(&self) -> ErrorShares {
-        let [mesh, ground, inertia, road, passes, temperature] = self.parts.map(|part| part.force);
-        ErrorShares {
+impl ErrorShares {
+    /// The part that comes from `source`: those of all sources sum to the whole error of the
+    /// forces.
+    pub fn of(&self, source: ErrorSource) -> f64 {
+        let Self {
             mesh,
             ground,
             inertia,
             road,
             passes,
             temperature,
-            law: passes,
+            ..
+        } = *self;
+        [mesh, ground, inertia, road, passes, temperature][source as usize]
+    }
+}
+
+/// A larger error than this, or the tolerance if that is larger still, is no answer.
+const DOUBTFUL: f64 = 0.1;
+
+/// The error of a run by its parts: shares of the forces and of the movements.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ErrorParts {
+    pub mesh: Shares,
+    pub ground: Shares,
+    pub inertia: Shares,
+    pub road: Shares,
+    pub passes: Shares,
+    pub days: Shares,
+    /// Whether a finer run was made to measure the mesh's part.
+    pub measured: bool,
+}
+
+impl ErrorParts {
+    /// The `accuracy` of D_l as a share of its peak, counted in full as error of the force, and
+    /// what leaving `inertia` out may cost; as yet nothing else.
+    pub fn new(accuracy: f64, inertia: f64) -> Self {
+        Self {
+            ground: Shares::both(accuracy),
+            inertia: Shares::both(inertia),
+            ..Self::default()
+        }
+    }
+
+    /// What comes from each of [`ErrorSource::ALL`].
+    fn parts(&self) -> impl Iterator<Item = (ErrorSource, Shares)> {
+        let parts = [
+            self.mesh,
+            self.ground,
+            self.inertia,
+            self.road,
+            self.passes,
+            self.days,
+        ];
+        ErrorSource::ALL.into_iter().zip(parts)
+    }
+
+    pub fn total(&self) -> Shares {
+        let sum = |sum, (_, part)| sum + part;
+        self.parts().fold(Shares::default(), sum)
+    }
+
+    /// The same for a reader.
+    pub fn shares(&self) -> ErrorShares {
+        ErrorShares {
+            mesh: self.mesh.force,
+            ground: self.ground.force,
+            inertia: self.inertia.force,
+            road: self.road.force,
+            passes: self.passes.force,
+            temperature: self.days.force,
+            law: self.passes.force,
             movement: self.total().movement,
         }
     }
 
     /// The largest part of those that are `eligible`, by the share that `of` gives.
     pub fn largest(&self, eligible: impl Fn(ErrorSource) -> bool, of: fn(Shares) -> f64) -> ErrorSource {
-        let sources = ErrorSource::ALL.into_iter().filter(|source| eligible(*source));
-        let largest = sources.max_by(|a, b| of(self[*a]).total_cmp(&of(self[*b])));
-        largest.unwrap_or(ErrorSource::Mesh)
+        let parts = self.parts().filter(|(source, _)| eligible(*source));
+        let largest = parts.max_by(|(_, a), (_, b)| of(*a).total_cmp(&of(*b)));
+        largest.map_or(ErrorSource::Mesh, |(source, _)| source)
     }
 
     /// What keeps the forces from being an answer: passes or days that could be simulated, if that
     /// would do, else the largest part.
     fn cause(&self, tolerance: f64) -> ErrorSource {
-        let skipped = self[ErrorSource::Passes] + self[ErrorSource::Days];
+        let skipped = self.passes + self.days;
         let skipping = !is_doubtful(self.total().less(skipped).force, tolerance);
         self.largest(|source| source.is_skipping() == skipping, |share| share.force)
     }
@@ -97,9 +149,10 @@ impl std::fmt::Display for ErrorParts {
         } else {
             "from runs on coarser meshes: "
         })?;
-        let is_shown = |source: &ErrorSource| !source.is_skipping() || self[*source] != Shares::default();
-        let shown = ErrorSource::ALL.into_iter().filter(is_shown);
-        let parts = shown.map(|source| format!("{} {}", source.name(), percent(self[source].force)));
+        let is_shown =
+            |(source, part): &(ErrorSource, Shares)| !source.is_skipping() || *part != Shares::default();
+        let shown = self.parts().filter(is_shown);
+        let parts = shown.map(|(source, part)| format!("{} {}", source.name(), percent(part.force)));
         let parts = parts.collect::<Vec<_>>().join(", ");
         write!(
             f,

@@ -4,7 +4,8 @@
 use cycle_jump::days::Extremes;
 use serde::{Deserialize, Serialize};
 
-use super::force_profile::ForceProfile;
+use super::along_cable::ForceProfile;
+use super::differences::larger;
 use crate::scene::CableEnd;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and
@@ -98,35 +99,27 @@ impl DayExtremes {
     /// By how much the force on an end changes at most over the day \[N\], and how far an end moves
     /// \[m\]: the cyclic load of joints.
     pub fn largest_range(&self) -> (f64, f64) {
-        let ends = CableEnd::ALL.map(|end| self.of(end));
-        let largest = |kind: usize| {
-            let ranges = ends.map(|of| of[kind][1] - of[kind][0]);
-            ranges[0].max(ranges[1])
-        };
-        (largest(0), largest(1))
+        let [a, b] = CableEnd::ALL.map(|end| self.of(end).map(|[least, most]| most - least));
+        (a[0].max(b[0]), a[1].max(b[1]))
     }
 
     /// The least and the largest force on an end \[N\], and displacement of it \[m\].
     pub fn of(&self, end: CableEnd) -> [[f64; 2]; 2] {
+        let upstream = [self.upstream_displacement_min_m, self.upstream_displacement_max_m];
+        let downstream = [
+            self.downstream_displacement_min_m,
+            self.downstream_displacement_max_m,
+        ];
         end.of([
-            [
-                [self.upstream_min_n, self.upstream_max_n],
-                [self.upstream_displacement_min_m, self.upstream_displacement_max_m],
-            ],
-            [
-                [self.downstream_min_n, self.downstream_max_n],
-                [
-                    self.downstream_displacement_min_m,
-                    self.downstream_displacement_max_m,
-                ],
-            ],
+            [[self.upstream_min_n, self.upstream_max_n], upstream],
+            [[self.downstream_min_n, self.downstream_max_n], downstream],
         ])
     }
 
     /// The force on the end that is largest in size \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
         let [least, most] = self.of(end)[0];
-        if -least > most { least } else { most }
+        larger(most, least)
     }
 
     /// How far the end is from where it was laid, whichever way \[m\].
@@ -136,29 +129,22 @@ impl DayExtremes {
     }
 
     pub fn new(day: u64, extremes: &Extremes) -> Self {
-        let Extremes {
-            force: [upstream, downstream],
-            displacement: [upstream_end, downstream_end],
-            compression,
-            tension,
-            ref restraints,
-        } = *extremes;
+        let [upstream, downstream] = extremes.force;
+        let [upstream_end, downstream_end] = extremes.displacement;
+        let on_clamp = |&[min_n, max_n]: &[f64; 2]| RestraintRange { max_n, min_n };
         Self {
             day,
             downstream_max_n: downstream[1],
             downstream_min_n: downstream[0],
             upstream_max_n: upstream[1],
             upstream_min_n: upstream[0],
-            max_compression_n: compression,
-            max_tension_n: tension,
+            max_compression_n: extremes.compression,
+            max_tension_n: extremes.tension,
             upstream_displacement_max_m: upstream_end[1],
             upstream_displacement_min_m: upstream_end[0],
             downstream_displacement_max_m: downstream_end[1],
             downstream_displacement_min_m: downstream_end[0],
-            restraints: restraints
-                .iter()
-                .map(|&[min_n, max_n]| RestraintRange { max_n, min_n })
-                .collect(),
+            restraints: extremes.restraints.iter().map(on_clamp).collect(),
         }
     }
 }

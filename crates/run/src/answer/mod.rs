@@ -1,11 +1,10 @@
 //! What a run gives, whether it can be true, and how wrong it may be.
 
+mod along_cable;
 pub mod balance;
 mod calendar;
 pub mod differences;
 pub mod error_estimate;
-mod error_shares;
-mod force_profile;
 mod heat;
 mod limits;
 mod listed;
@@ -16,15 +15,16 @@ mod saturation;
 mod table_rows;
 mod units;
 
+pub use along_cable::*;
 pub use calendar::after;
-pub use error_shares::*;
-pub use force_profile::ForceProfile;
+pub use differences::larger;
+pub use error_estimate::{ErrorEstimate, ErrorShares};
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
 pub use listed::{beyond, listed, simulated};
 pub use place::{Limited, Place, largest_movement_in_duct};
 pub use record::*;
-pub use saturation::{larger, saturation};
+pub use saturation::saturation;
 pub use table_rows::{in_rows, table_days, table_rows};
 pub use units::Units;
 pub use units::in_unit;

@@ -1,11 +1,11 @@
 //! The numbers of a run, by their fields: the computation has failed where one of them is none.
 
-use super::error_shares::{ErrorEstimate, ErrorShares};
-use super::force_profile::ForceProfile;
+use super::along_cable::{ForceProfile, FrictionProfile, SlipRecord, Stage};
+use super::error_estimate::{ErrorEstimate, ErrorShares};
 use super::heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 use super::record::{
-    DuctMotionSummary, ExtremePass, ForceRange, FrictionProfile, PassRecord, PlanSummary, Quantiles,
-    RandomSpread, RestraintRecord, Run, Saturation, SlipRecord, Stage,
+    DuctMotionSummary, ExtremePass, ForceRange, PassRecord, PlanSummary, Quantiles, RandomSpread,
+    RestraintRecord, Run, Saturation,
 };
 use crate::finite;
 

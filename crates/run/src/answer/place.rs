@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::differences::SMALL;
+use super::differences::{SMALL, larger};
 use super::record::{PassRecord, Run};
-use super::saturation::larger;
 use super::units::Units;
 use crate::scene::{CableEnd, Scene};
 use crate::shown::exact;
@@ -128,11 +127,10 @@ impl Run {
         let of = match (quantity, place) {
             (Limited::Force, _) => SMALL * self.largest_force(),
             (Limited::Movement, Place::Clamp(_)) => {
-                let clamps = self.clamps_at(place);
-                let softest = clamps.fold(f64::INFINITY, |least, k| {
-                    least.min(self.restraints[k].stiffness_n_per_m)
-                });
-                SMALL * self.largest_force() / softest
+                let clamps = self.restraints.iter();
+                let clamps = clamps.filter(|clamp| place.is_clamp_at(clamp.position_m));
+                let stiffnesses = clamps.map(|clamp| clamp.stiffness_n_per_m);
+                SMALL * self.largest_force() / stiffnesses.fold(f64::INFINITY, f64::min)
             }
             (Limited::Movement, _) => ends[0].max(ends[1]),
         };
@@ -153,77 +151,70 @@ impl Run {
         at_places.chain(inside).fold(0.0, f64::max)
     }
 
-    fn clamps_at(&self, place: Place) -> impl Iterator<Item = usize> {
-        let clamps = self.restraints.iter().enumerate();
-        let clamps = clamps.filter(move |(_, clamp)| place.is_clamp_at(clamp.position_m));
-        clamps.map(|(index, _)| index)
-    }
-
     /// What there is at `place` in all listed passes, on all days, and in the passes beside them.
     pub(super) fn values(&self, place: Place, quantity: Limited) -> impl Iterator<Item = Value> {
-        let value = move |pass, clamp: &dyn Fn(usize) -> [f64; 2], end: &dyn Fn(CableEnd) -> [f64; 2]| {
-            let on_clamps = || self.on_clamps(place, quantity, pass, clamp);
-            let [at_rest, largest] = place.end().map_or_else(on_clamps, end);
-            Value {
-                pass,
-                at_rest,
-                largest,
-            }
+        let last = self.passes.last().map_or(u64::MAX, |record| record.pass);
+        let value = move |pass: u64, [at_rest, largest]: [f64; 2]| Value {
+            pass: pass.min(last),
+            at_rest,
+            largest,
         };
         let listed = self.passes.iter().enumerate().map(move |(index, record)| {
+            let forces = self.restraints.iter().map(|clamp| {
+                let after = clamp.after_passes_n[index];
+                [after, clamp.during_passes_n.get(index).copied().unwrap_or(after)]
+            });
+            let [at_rest, largest] = match place.end() {
+                Some(end) => self.on_end(record, end, quantity, self.scatter(end, record)),
+                None => self.on_clamps(place, quantity, record.pass, forces),
+            };
             // On days of heat passes between simulated ones have the peaks of others.
             let has_peaks = self.heat.is_none() || !record.interpolated;
-            let known = |[at_rest, largest]: [f64; 2]| [at_rest, if has_peaks { largest } else { at_rest }];
-            let clamp = |clamp: usize| {
-                let clamp = &self.restraints[clamp];
-                let after = clamp.after_passes_n[index];
-                known([after, clamp.during_passes_n.get(index).copied().unwrap_or(after)])
-            };
-            let end = |end| known(self.on_end(record, end, quantity, self.scatter(end, record)));
-            value(record.pass, &clamp, &end)
+            value(record.pass, [at_rest, if has_peaks { largest } else { at_rest }])
         });
-        let last = self.passes.last().map_or(u64::MAX, |record| record.pass);
         let extremes = self.extremes.iter().map(move |extreme| {
-            let end = |end| self.on_end(&extreme.after, end, quantity, 0.0);
-            let clamp = |clamp: usize| {
-                let after = extreme.restraints_n[clamp];
-                [
-                    after,
-                    extreme.restraint_peaks_n.get(clamp).copied().unwrap_or(after),
-                ]
+            let forces = extreme.restraints_n.iter().zip(&extreme.restraint_peaks_n);
+            let forces = forces.map(|(&after, &peak)| [after, peak]);
+            let pass = extreme.after.pass;
+            let both = match place.end() {
+                Some(end) => self.on_end(&extreme.after, end, quantity, 0.0),
+                None => self.on_clamps(place, quantity, pass, forces),
             };
-            value(extreme.after.pass.min(last), &clamp, &end)
+            value(pass, both)
         });
         let days = self.heat.iter().flat_map(move |heat| {
             let days = self.days.iter().chain([&heat.all_days]);
             days.map(move |day| {
-                let clamp =
-                    |clamp: usize| [larger(day.restraints[clamp].max_n, day.restraints[clamp].min_n); 2];
-                let end = |end| match quantity {
-                    Limited::Force => [day.largest_force(end); 2],
-                    Limited::Movement => [day.movement(end); 2],
+                let pass = day.day * heat.passes_per_day;
+                let clamps = day.restraints.iter();
+                let forces = clamps.map(|clamp| [larger(clamp.max_n, clamp.min_n); 2]);
+                let both = match (place.end(), quantity) {
+                    (Some(end), Limited::Force) => [day.largest_force(end); 2],
+                    (Some(end), Limited::Movement) => [day.movement(end); 2],
+                    (None, _) => self.on_clamps(place, quantity, pass.min(last), forces),
                 };
-                value((day.day * heat.passes_per_day).min(last), &clamp, &end)
+                value(pass, both)
             })
         });
         listed.chain(extremes).chain(days)
     }
 
-    /// The largest in size of the clamps at `place`, on which there are these forces at rest and
+    /// The largest in size of the clamps at `place`, of all clamps with these `forces` at rest and
     /// during `pass`.
     fn on_clamps(
         &self,
         place: Place,
         quantity: Limited,
         pass: u64,
-        forces: &dyn Fn(usize) -> [f64; 2],
+        forces: impl Iterator<Item = [f64; 2]>,
     ) -> [f64; 2] {
         let row = self.passes.partition_point(|record| record.pass <= pass);
-        let values = self.clamps_at(place).map(|index| {
-            let clamp = &self.restraints[index];
+        let clamps = self.restraints.iter().zip(forces);
+        let clamps = clamps.filter(|(clamp, _)| place.is_clamp_at(clamp.position_m));
+        let values = clamps.map(|(clamp, forces)| {
             let slips = &clamp.slipped_after_passes_m;
             let slipped = slips.get(row.saturating_sub(1)).copied().or(clamp.slipped_m);
-            forces(index).map(|force| match quantity {
+            forces.map(|force| match quantity {
                 Limited::Force => force.abs(),
                 Limited::Movement => force.abs() / clamp.stiffness_n_per_m + slipped.unwrap_or(0.0).abs(),
             })

@@ -1,11 +1,12 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::{SlipLengths, Statistics};
+use cable_dem::Statistics;
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
-use super::error_shares::ErrorEstimate;
-use super::force_profile::ForceProfile;
+use super::along_cable::{ForceProfile, SlipRecord, Stage};
+use super::differences::larger;
+use super::error_estimate::ErrorEstimate;
 use super::heat::{DayExtremes, HeatRecord};
 use crate::SavedState;
 use crate::scene::{CableEnd, Traffic};
@@ -143,32 +144,6 @@ pub struct PassRecord {
     pub interpolated: bool,
 }
 
-/// The cable at one pass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Stage {
-    /// Number of the pass, from 1.
-    pub pass: u64,
-    /// Force along the cable after it.
-    pub force_profile: ForceProfile,
-    /// Friction on the cable during it.
-    pub friction: Option<FrictionProfile>,
-}
-
-/// Friction along the cable with the vehicle over the duct's middle (Kashiro et al., Figure 7).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FrictionProfile {
-    /// Place of the vehicle in the scene's list, from 0.
-    pub vehicle: usize,
-    /// Position of the vehicle's origin along the duct \[m\].
-    pub vehicle_position_m: f64,
-    /// Positions along the duct \[m\]: the nodes.
-    pub positions_m: Vec<f64>,
-    /// Friction on the cable there \[N/m\], positive toward growing x.
-    pub friction_n_per_m: Vec<f64>,
-    /// Lengths at the limit.
-    pub slip_lengths: SlipRecord,
-}
-
 /// A pass that counts where largest forces and movements are looked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExtremePass {
@@ -208,15 +183,6 @@ pub struct RestraintRecord {
     pub slipped_m: Option<f64>,
 }
 
-/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct SlipRecord {
-    /// Friction at its limit toward growing x \[m\].
-    pub forward_m: f64,
-    /// Friction at its limit toward falling x \[m\].
-    pub backward_m: f64,
-}
-
 /// Where the force levels off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Saturation {
@@ -251,17 +217,14 @@ impl Run {
     /// what one pass in twenty leaves less and more than.
     pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
         let extremes = |end: CableEnd| {
-            let of_random = self
-                .random
-                .map(|random| [random.of(end).q05_n, random.of(end).q95_n]);
+            let of_random = self.random.map(|random| random.of(end));
+            let of_random = of_random.map(|random| [random.q05_n, random.q95_n]);
             let of_period = self.range.map(|range| {
-                end.of([
-                    [range.upstream_min_n, range.upstream_max_n],
-                    [range.downstream_min_n, range.downstream_max_n],
-                ])
+                let downstream = [range.downstream_min_n, range.downstream_max_n];
+                end.of([[range.upstream_min_n, range.upstream_max_n], downstream])
             });
             let [least, most] = of_random.or(of_period)?;
-            (most - least > NOTICEABLE * most.abs().max(least.abs())).then_some((end, least, most))
+            (most - least > NOTICEABLE * larger(most, least).abs()).then_some((end, least, most))
         };
         CableEnd::ALL.into_iter().filter_map(extremes).collect()
     }
@@ -277,25 +240,18 @@ impl Run {
 impl Saturation {
     /// Whether it is noticeably larger than all of `passes` leave.
     pub fn is_beyond(&self, passes: &[PassRecord]) -> bool {
-        let reached = |record: &PassRecord| {
-            let forces = [
-                record.upstream_force_n,
-                record.downstream_force_n,
-                record.max_compression_n,
-            ];
-            forces
-                .into_iter()
-                .fold(0.0, |most: f64, force| most.max(force.abs()))
-        };
-        let reached = passes.iter().map(reached).fold(0.0, f64::max);
-        self.force_n.abs() > (1.0 + NOTICEABLE) * reached
+        let forces = passes.iter().flat_map(|record| {
+            let ends = CableEnd::ALL.map(|end| record.force_after(end));
+            [ends[0], ends[1], record.max_compression_n]
+        });
+        self.force_n.abs() > (1.0 + NOTICEABLE) * forces.fold(0.0, larger).abs()
     }
 }
 
 impl RandomSpread {
     /// That of one end.
-    pub fn of(&self, end: CableEnd) -> &Quantiles {
-        end.of([&self.upstream, &self.downstream])
+    pub fn of(&self, end: CableEnd) -> Quantiles {
+        end.of([self.upstream, self.downstream])
     }
 }
 
@@ -343,15 +299,6 @@ pub struct Cost {
     pub node_updates: u64,
 }
 
-impl From<SlipLengths> for SlipRecord {
-    fn from(lengths: SlipLengths) -> Self {
-        Self {
-            forward_m: lengths.forward,
-            backward_m: lengths.backward,
-        }
-    }
-}
-
 impl Cost {
     pub fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
         Self {
@@ -365,16 +312,12 @@ impl Cost {
 
 impl PassRecord {
     pub fn new(record: &Record, traffic: &Traffic) -> Self {
-        let Record {
-            pass,
-            outcome,
-            interpolated,
-        } = record;
+        let outcome = &record.outcome;
         // No minus before zero.
         let plain = |value: f64| value + 0.0;
         Self {
-            pass: *pass,
-            years: traffic.years_after(*pass),
+            pass: record.pass,
+            years: traffic.years_after(record.pass),
             downstream_force_n: plain(outcome.force.downstream),
             downstream_peak_n: plain(outcome.peak.downstream),
             upstream_force_n: plain(outcome.force.upstream),
@@ -385,7 +328,7 @@ impl PassRecord {
             dissipated_energy_j: Some(outcome.dissipated),
             downstream_least_n: plain(outcome.lowest.downstream),
             upstream_least_n: plain(outcome.lowest.upstream),
-            interpolated: *interpolated,
+            interpolated: record.interpolated,
         }
     }
 }

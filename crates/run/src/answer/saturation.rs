@@ -11,10 +11,11 @@ use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Beyond, Record};
 
 use super::balance;
+use super::differences::{larger, largest_force};
 use super::record::{ForceRange, Saturation};
 use crate::Scene;
 use crate::plan::Period;
-use crate::scene::End;
+use crate::scene::{CableEnd, End};
 use crate::tuning::saturation::{LARGEST_RATIO, LARGEST_REMAINDER, TELLS};
 
 /// Fewest passes from which anything can be said.
@@ -47,7 +48,7 @@ pub fn saturation(
         Order::Random { .. } => period.len().max(records.len() / WINDOW),
         _ => period.len(),
     };
-    let peaks = records.iter().map(|record| peak(&record.outcome));
+    let peaks = records.iter().map(|record| largest_force(&record.outcome));
     let course = Course {
         scene,
         period,
@@ -56,15 +57,11 @@ pub fn saturation(
         beyond,
         scale: peaks.fold(0.0, f64::max),
     };
+    let [upstream, downstream] = CableEnd::ALL.map(|end| end.held_in(scene) != End::Free);
     let leads_to = |is_held: bool, force: fn(&PassOutcome) -> f64| {
-        if is_held {
-            course.leads_to(force)
-        } else {
-            Some((0.0, 0.0))
-        }
+        let nothing = Some((0.0, 0.0));
+        if is_held { course.leads_to(force) } else { nothing }
     };
-    let ends = [scene.ends.upstream, scene.ends.downstream];
-    let [upstream, downstream] = ends.map(|end| end != End::Free);
     let (Some(upstream_n), Some(downstream_n)) = (
         leads_to(upstream, |outcome| outcome.force.upstream),
         leads_to(downstream, |outcome| outcome.force.downstream),
@@ -78,11 +75,11 @@ pub fn saturation(
         upstream_max_n: upstream_n.1,
     };
     let inside = leads_to(!upstream && !downstream, |outcome| outcome.max_compression);
-    let largest = inside.map(|inside| [downstream_n, upstream_n, inside].map(|(a, b)| larger(a, b)));
-    (
-        largest.and_then(|largest| course.levels_off(largest)),
-        Some(range),
-    )
+    let saturation = inside.and_then(|inside| {
+        let largest = [downstream_n, upstream_n, inside].map(|(a, b)| larger(a, b));
+        course.levels_off(largest)
+    });
+    (saturation, Some(range))
 }
 
 /// The course of the forces of a run.
@@ -132,8 +129,10 @@ impl Course<'_> {
     /// is negligible compared with the largest force, or if the force falls.
     fn levels_off(&self, largest: [f64; 3]) -> Option<Saturation> {
         let force_n = largest.into_iter().fold(0.0, larger);
-        let ends = [self.scene.ends.upstream, self.scene.ends.downstream];
-        let one_free = ends.contains(&End::Free) && self.scene.restraints.is_empty();
+        let one_free = CableEnd::ALL
+            .map(|end| end.held_in(self.scene))
+            .contains(&End::Free)
+            && self.scene.restraints.is_empty();
         let reached = self.records.iter().map(|record| self.shown(&record.outcome));
         let negligible = force_n.abs() < NOTHING * self.scale;
         let impossible =
@@ -178,15 +177,6 @@ impl Course<'_> {
     }
 }
 
-/// Largest force on an end in a pass, or inside the cable after it, in size.
-fn peak(outcome: &PassOutcome) -> f64 {
-    let during = [outcome.peak, outcome.lowest];
-    let during = during
-        .into_iter()
-        .flat_map(|force| [force.upstream, force.downstream]);
-    during.fold(outcome.max_compression, larger).abs()
-}
-
 fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
     values.fold(None, |range: Option<Range>, value| {
         let (least, most) = range.unwrap_or((value, value));
@@ -219,11 +209,6 @@ fn extrapolate(forces: &[f64], period: usize, scale: f64) -> Option<Range> {
         return None;
     }
     range(forces[count - period..].iter().map(|force| force + remainder))
-}
-
-/// The larger in size of two forces.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if b.abs() > a.abs() { b } else { a }
 }
 
 #[cfg(test)]

@@ -42,22 +42,19 @@ pub fn in_rows(
     if scene.vehicles.len() == 1 || are_means {
         return None;
     }
-    let last = rows.last().map_or(0, |record| record.pass);
     let own = Period::own(scene).ok()?;
-    let known = if own.is_some() {
-        0
-    } else {
-        last.min(known_order(scene))
-    };
+    let last = rows
+        .last()
+        .filter(|_| own.is_none())
+        .map_or(0, |record| record.pass);
     let order = traffic(scene, scene.order()).ok()?;
-    let first: Vec<usize> = order.take(known as usize).collect();
+    let first: Vec<usize> = order.take(last.min(known_order(scene)) as usize).collect();
     let name = |record: &&PassRecord| {
         let place = record.pass as usize - 1;
         let vehicle = match &own {
             Some(period) => period.get(place % period.len()),
             // Between jumps over other vehicles than the scene's rows are means.
-            None if record.interpolated => None,
-            None => first.get(place),
+            None => first.get(place).filter(|_| !record.interpolated),
         };
         vehicle.map_or("mean".to_owned(), |vehicle| scene.vehicles[*vehicle].name.clone())
     };

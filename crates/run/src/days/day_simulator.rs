@@ -2,17 +2,17 @@
 
 use cable_dem::{CableState, EndForces};
 use cycle_jump::days::{DailyHeat, Day, DaysRequest, Extremes, evolve_days};
-use cycle_jump::{Guide, Jumps, Next, Record};
+use cycle_jump::{Guide, Jumps, Next};
 
 use super::locked_law::locked_law;
-use crate::answer::differences::{Scale, Shares, largest_force};
+use crate::answer::differences::{Scale, Shares};
 use crate::answer::listed;
 use crate::cable::traffic;
 use crate::passes::{Passes, Simulation, Task, listed_passes};
-use crate::plan::{Period, Plan};
+use crate::plan::Plan;
 use crate::refine::OnMeshes;
 use crate::scene::{Heat, Scene};
-use crate::tuning::days::{COARSEST, FEW, JUMPS_SHARE, MOST, RESOLVED, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
+use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use crate::{Error, Progress};
 
 /// Days simulated after the first one, before any is jumped over.
@@ -26,8 +26,8 @@ const SECONDS_A_DAY: f64 = 86_400.0;
 #[derive(Clone, Copy)]
 pub struct DaySimulator<'a> {
     pub plan: &'a Plan<'a>,
-    /// The plan's, or one to compare it with.
-    pub period: &'a Period,
+    /// Of the plan's period, or others to compare them with.
+    pub vehicles: &'a [usize],
     pub heat: &'a Heat,
     pub every_pass: bool,
     /// Place in the period of the traffic with which days begin.
@@ -48,8 +48,7 @@ impl DaySimulator<'_> {
     /// A day of the plan.
     pub fn day(&self) -> Result<Day, Error> {
         let passes = a_day(self.plan.scene);
-        let per_kelvin = self.per_kelvin();
-        let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
+        let force = |kelvin: f64| self.per_kelvin() * (self.heat.offset + kelvin);
         let heat = if let Some(points) = &self.heat.profile {
             let point = |(seconds, kelvin): &(f64, f64)| (seconds / SECONDS_A_DAY, force(*kelvin));
             DailyHeat::Profile(points.iter().map(point).collect())
@@ -57,7 +56,7 @@ impl DaySimulator<'_> {
             let (lowest, highest) = (force(0.0), force(self.heat.daily_swing.unwrap_or(0.0)));
             DailyHeat::Cosine { lowest, highest }
         };
-        let few = passes <= FEW.max(self.period.len() as u64) || self.every_pass;
+        let few = passes <= FEW.max(self.vehicles.len() as u64) || self.every_pass;
         let periods = if few { passes } else { self.periods_a_day };
         Ok(Day::new(passes, self.sequence_of_a_day(), heat, periods)?)
     }
@@ -68,7 +67,7 @@ impl DaySimulator<'_> {
         if self.every_pass {
             1
         } else {
-            self.period.len().min(a_day(self.plan.scene) as usize)
+            self.vehicles.len().min(a_day(self.plan.scene) as usize)
         }
     }
 
@@ -76,19 +75,20 @@ impl DaySimulator<'_> {
     /// same vehicle as every day here does.
     pub fn broken_sequence(&self) -> Option<usize> {
         let passes = a_day(self.plan.scene);
-        let left = (passes % self.period.len() as u64) as usize;
+        let left = (passes % self.vehicles.len() as u64) as usize;
         let several = self.plan.scene.traffic.passes > passes;
-        (several && !self.every_pass && !self.period.reordered && left > 0).then_some(left)
+        (several && !self.every_pass && !self.plan.period.reordered && left > 0).then_some(left)
     }
 
     /// The warning of that.
     pub fn warning(&self) -> Option<String> {
-        let (passes, period) = (a_day(self.plan.scene), self.period.len() as u64);
+        let (passes, period) = (a_day(self.plan.scene), self.vehicles.len() as u64);
+        let whole = (passes / period * period).max(period);
         self.broken_sequence().map(|_| {
             format!(
                 "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
-                 began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {} has none of that",
-                (passes / period * period).max(period)
+                 began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {whole} has none of \
+                 that"
             )
         })
     }
@@ -101,7 +101,7 @@ impl DaySimulator<'_> {
     /// The jumps of cycle-jump.
     fn jumps(&self) -> Result<Jumps, Error> {
         let (scale, levels) = (self.scale(), &self.plan.levels);
-        let tolerance = (JUMPS_SHARE * self.plan.scene.solver.tolerance).min(MOST);
+        let tolerance = (SHARE * self.plan.scene.solver.tolerance).min(MOST);
         let (finer, first_jump) = if self.finer { (0.25, 0.25) } else { (1.0, 0.5) };
         let least = (scale.force, scale.movement);
         let jumps =
@@ -112,16 +112,14 @@ impl DaySimulator<'_> {
     /// Largest difference on any listed day.
     pub fn difference_of_days(&self, one: &Passes, other: &Passes) -> Shares {
         let scale = self.scale();
+        let days = one.days.iter().zip(&other.days);
+        let days = days.flat_map(|(one, other)| one.days.iter().zip(&other.days));
         let of_day = |((_, a), (_, b)): (&(u64, Extremes), &(u64, Extremes))| {
-            let places = a.displacement.as_flattened();
-            let moved = places
-                .iter()
-                .fold(scale.movement, |most, place| most.max(place.abs()));
+            let moved = a.displacement.as_flattened().iter();
+            let moved = moved.fold(scale.movement, |most, place| most.max(place.abs()));
             let (force, movement) = a.difference(b, (scale.force, moved));
             Shares { force, movement }
         };
-        let days = one.days.iter().zip(&other.days);
-        let days = days.flat_map(|(one, other)| one.days.iter().zip(&other.days));
         days.map(of_day).collect()
     }
 }
@@ -137,27 +135,26 @@ impl OnMeshes for DaySimulator<'_> {
         progress: Progress<'_>,
         _: bool,
     ) -> Result<Passes, Error> {
-        let period = self.period;
-        let mesh = self.plan.levels.mesh(level)?;
+        let Self { plan, vehicles, .. } = *self;
+        let mesh = plan.levels.mesh(level)?;
         let task = Task {
             progress,
-            ..self.plan.task(scene, mesh)
+            ..plan.task(scene, mesh)
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day()?;
-        let (law, of_law) = locked_law(&task, period, self.sequence_of_a_day())?;
+        let (law, of_law) = locked_law(&task, vehicles, self.sequence_of_a_day())?;
         let count = scene.traffic.passes;
         let (cable, start) = (task.cable()?, task.begin()?);
         let schedule = other.and_then(|other| other.days.as_ref());
         let request = DaysRequest {
             passes: count,
-            wanted: &listed_passes(scene, period),
+            wanted: &listed_passes(scene, &plan.period),
             wanted_days: &listed(count.div_ceil(day.passes())),
             every_day: self.every_pass,
             start: start.as_ref(),
             guide: schedule.map_or(Guide::Free, |days| Guide::Follow(&days.schedule)),
         };
-        let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.
         let mut order = traffic(scene, scene.order())?;
         let pass = |next: Next, state: &mut CableState| {
@@ -169,49 +166,48 @@ impl OnMeshes for DaySimulator<'_> {
             simulation.pass(own.unwrap_or(vehicles[place as usize]), next.number, state)
         };
         let days = evolve_days(&cable, &mesh, (&day, law), &self.jumps()?, &request, pass)?;
-        let mut passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
-        passes.peaks.clone_from(&days.peaks);
-        passes.statistics += of_law;
-        passes.statistics.sweeps += days.sweeps as usize;
-        passes.statistics.node_updates += days.sweeps as usize * mesh.nodes();
-        passes.schedule.clone_from(&days.schedule);
-        passes.days = Some(days);
-        Ok(passes)
+        simulation.statistics += of_law;
+        simulation.statistics.sweeps += days.sweeps as usize;
+        simulation.statistics.node_updates += days.sweeps as usize * mesh.nodes();
+        let passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
+        Ok(Passes {
+            peaks: days.peaks.clone(),
+            schedule: days.schedule.clone(),
+            days: Some(days),
+            ..passes
+        })
     }
 
     fn levels_below(&self) -> usize {
         1
     }
 
-    /// Largest difference on any listed day or pass: of a force after a pass or on a day as a share
-    /// of the largest that day, of one during a simulated pass as a share of the largest in any
-    /// pass, of a movement as a share of the day's range or, where that is larger, of the movement
+    /// Largest difference on any listed day or pass: of a force as a share of the largest of all
+    /// days, of a movement as a share of the day's range or, where that is larger, of the movement
     /// since laying.
     fn difference(&self, one: &Passes, other: &Passes) -> Shares {
         let of_all = one
             .days
             .as_ref()
             .map_or(0.0, |days| days.extremes.largest_force());
-        let largest = of_all.max(self.scale().force);
-        let mut worst = self.difference_of_days(one, other);
         let apart = |a: EndForces, b: EndForces| {
             let apart = [a.upstream - b.upstream, a.downstream - b.downstream];
             apart[0].abs().max(apart[1].abs())
         };
-        let records = || one.records.iter().zip(&other.records);
-        // Passes between simulated ones have the peaks of others.
-        let simulated = || records().filter(|(a, b)| !a.interpolated && !b.interpolated);
-        let largest_peak = simulated()
-            .map(|(a, _)| largest_force(&a.outcome))
-            .fold(largest, f64::max);
-        for (a, b) in records() {
-            worst.force = worst.force.max(apart(a.outcome.force, b.outcome.force) / largest);
+        let mut worst = 0.0_f64;
+        for (a, b) in one.records.iter().zip(&other.records) {
+            worst = worst.max(apart(a.outcome.force, b.outcome.force));
+            // Passes between simulated ones have the peaks of others.
+            if !a.interpolated && !b.interpolated {
+                let (a, b) = (&a.outcome, &b.outcome);
+                worst = worst.max(apart(a.peak, b.peak)).max(apart(a.lowest, b.lowest));
+            }
         }
-        for (Record { outcome: a, .. }, Record { outcome: b, .. }) in simulated() {
-            let during = apart(a.peak, b.peak).max(apart(a.lowest, b.lowest));
-            worst.force = worst.force.max(during / largest_peak);
+        let days = self.difference_of_days(one, other);
+        Shares {
+            force: days.force.max(worst / of_all.max(self.scale().force)),
+            ..days
         }
-        worst
     }
 
     fn mesh_error(&self, level: usize, meshes: &[Passes]) -> Shares {
@@ -219,9 +215,7 @@ impl OnMeshes for DaySimulator<'_> {
             return Shares::default();
         };
         // Place of the mesh among those with typical errors.
-        let (spacing, _) = self.plan.levels.spacing(level);
-        let nodes = 1.001 * self.plan.levels.length_scale / spacing;
-        let fineness = ((nodes / COARSEST).log2() as usize).min(TYPICAL.len() - 1);
+        let fineness = self.plan.levels.fineness(level).min(TYPICAL.len() - 1);
         let weight = if fineness < RESOLVED {
             WEIGHT_UNRESOLVED
         } else {

@@ -12,34 +12,34 @@ use super::day_simulator::DaySimulator;
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::ErrorParts;
 use crate::passes::{Passes, RunOptions};
-use crate::plan::{PassMethod, Period, Plan};
+use crate::plan::Plan;
 use crate::refine::{MeshLoop, OnMeshes, Solved, on_coarse_level};
-use crate::scene::Heat;
+use crate::scene::{Heat, SolverMethod};
 use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, SHARE, TYPICAL};
 use crate::tuning::meshes::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST};
-use crate::{Error, ErrorSource, Progress};
+use crate::{Error, Progress};
 
 /// Carries `plan`, whose scene has `heat`, out, where `error` has what no mesh makes smaller.
 pub fn solve(
     plan: &Plan<'_>,
     heat: &Heat,
-    method: PassMethod,
+    method: SolverMethod,
     options: &RunOptions<'_>,
     mut error: ErrorParts,
 ) -> Result<Solved, Error> {
     let mut statistics = Statistics::default();
     let mut days = DaySimulator {
         plan,
-        period: &plan.period,
+        vehicles: &plan.period.vehicles,
         heat,
-        every_pass: matches!(method, PassMethod::EveryPass(_)),
+        every_pass: method != SolverMethod::PassLaw,
         begin: 0,
         periods_a_day: FIRST_PERIODS,
         finer: false,
     };
     let first = first_level(plan);
     let progress = options.progress.part(0.0, FINDING);
-    error[ErrorSource::Days] = find_periods(&mut days, first, progress, &mut statistics)?;
+    error.days = find_periods(&mut days, first, progress, &mut statistics)?;
     let meshes = MeshLoop {
         plan,
         options,
@@ -48,12 +48,12 @@ pub fn solve(
     };
     let mut solved = meshes.refine(first, options.progress.part(FINDING, 1.0), error)?;
     let of_days = error_of_days(&days, solved.level, &solved.passes, &mut statistics)?;
-    solved.error[ErrorSource::Days] = error[ErrorSource::Days] + of_days;
+    solved.error.days = error.days + of_days;
     solved.statistics += statistics;
     solved.warnings.extend(days.warning());
     let known = solved.passes.days.as_ref().ok_or(Error::NoPass)?;
     solved.reasons.push(days.reason(known)?);
-    solved.heat = Some(days.record(&solved.passes, known)?);
+    solved.heat = Some(days.record(solved.mesh, known)?);
     Ok(solved)
 }
 
@@ -92,20 +92,15 @@ fn find_periods(
     let mut parts = progress.parts(0.5);
     loop {
         days.periods_a_day *= 2;
+        if days.day()?.is_simulated() {
+            return Ok(Shares::default());
+        }
         let more = days.simulate(scene, level, Some(&fewer), parts(), false)?;
         *statistics += more.statistics;
         let error = days.difference(&more, &fewer).times(CAUTION);
         let next = REFINEMENT_COST.saturating_mul(more.statistics.node_updates);
         if error.is_within(allowed) || 4 * next > MAX_NODE_UPDATES {
             return Ok(error);
-        }
-        let twice = DaySimulator {
-            periods_a_day: 2 * days.periods_a_day,
-            ..*days
-        };
-        if twice.day()?.is_simulated() {
-            days.periods_a_day = twice.periods_a_day;
-            return Ok(Shares::default());
         }
         fewer = more;
     }
@@ -120,29 +115,12 @@ fn error_of_days(
     finest: &Passes,
     statistics: &mut Statistics,
 ) -> Result<Shares, Error> {
-    let others = if days.every_pass {
-        &[][..]
-    } else {
-        &days.period.others
-    };
-    let periods: Vec<(Period, f64)> = others
-        .iter()
-        .map(|(vehicles, share)| {
-            let vehicles = vehicles.clone();
-            let period = Period {
-                vehicles,
-                ..days.period.clone()
-            };
-            (period, *share)
-        })
-        .collect();
-    let others = periods
-        .iter()
-        .map(|(period, share)| (DaySimulator { period, ..*days }, *share));
+    let others = days.plan.period.others.iter().filter(|_| !days.every_pass);
+    let others = others.map(|(vehicles, share)| (DaySimulator { vehicles, ..*days }, *share));
     let mut others: Vec<(DaySimulator<'_>, f64)> = others.collect();
     // Where the sequence goes on the next day; nor does the traffic keep the hours at which the
     // seldom vehicles of stand-ins come.
-    let half = (!others.is_empty()).then(|| days.period.len() / 2);
+    let half = (!others.is_empty()).then_some(days.vehicles.len() / 2);
     let begun_later = days.broken_sequence().or(half);
     others.extend(begun_later.map(|begin| (DaySimulator { begin, ..*days }, 1.0)));
     let are_jumped = finest.schedule.iter().any(|length| *length > 0);

@@ -9,36 +9,29 @@ use crate::Error;
 use crate::cable::cable;
 use crate::ground::{length_scale, road};
 use crate::passes::Task;
-use crate::plan::Period;
 use crate::tuning::days::FINEST;
 use crate::tuning::ground::LAW_LENGTH;
 
 /// Periods that it takes: the first one brings the cable into the state that lasts.
 const PERIODS: usize = 2;
 
-/// The law for `passes` of `traffic` on the mesh of `task`, or a coarser one: both ends free, a
+/// The law for `passes` of `vehicles` on the mesh of `task`, or a coarser one: both ends free, a
 /// body force that balances the locked friction. And what it costs.
 pub fn locked_law(
     task: &Task<'_>,
-    traffic: &Period,
+    vehicles: &[usize],
     passes: usize,
 ) -> Result<(LockedLaw, Statistics), Error> {
-    let Task {
-        scene, motions, mesh, ..
-    } = task;
+    let (scene, motions, mesh) = (task.scene, task.motions, task.mesh);
     let limit = scene.friction_limit();
     let scale = length_scale(motions, scene.duct.depth);
     let coarser = (scale / FINEST / mesh.spacing()).max(1.0);
     let spacing = coarser * mesh.spacing();
     let approach = road::needed(scene, motions)?;
     // Vehicles are to stay within the reach of the motions.
-    let reach = motions
-        .iter()
-        .map(DuctMotion::reach)
-        .fold(f64::INFINITY, f64::min);
-    let length = (LAW_LENGTH * scale).min(reach - approach);
-    let elements = (length / spacing).floor();
-    let length = elements * spacing;
+    let reaches = motions.iter().map(DuctMotion::reach);
+    let length = (LAW_LENGTH * scale).min(reaches.fold(f64::INFINITY, f64::min) - approach);
+    let length = (length / spacing).floor() * spacing;
     let mesh = Mesh::new(length, spacing, coarser * mesh.vehicle_step())?;
     let whole = cable(scene)?;
     let short = |body_force: f64| {
@@ -46,10 +39,8 @@ pub fn locked_law(
             .and_then(|cable| cable.with_body_force(body_force))
     };
     let solver = QuasiStatic::new(short(0.0)?, mesh)?;
-    let passages = motions
-        .iter()
-        .map(|motion| solver.passage(motion, approach))
-        .collect::<Result<Vec<_>, _>>()?;
+    let passages = motions.iter().map(|motion| solver.passage(motion, approach));
+    let passages = passages.collect::<Result<Vec<_>, _>>()?;
     let (nodes, middle) = (mesh.nodes(), mesh.nodes() / 2);
     let mut advances = [0.0; LockedLaw::SHARES.len()];
     let mut statistics = Statistics::default();
@@ -59,12 +50,12 @@ pub fn locked_law(
         let mut before = 0.0;
         for _ in 0..PERIODS {
             before = state.displacement()[middle];
-            for &vehicle in &traffic.vehicles {
+            for &vehicle in vehicles {
                 statistics += solver.pass(&passages[vehicle], &mut state)?.statistics;
             }
         }
         let moved = state.displacement()[middle] - before;
-        *advance = moved * passes as f64 / traffic.len() as f64;
+        *advance = moved * passes as f64 / vehicles.len() as f64;
     }
     Ok((LockedLaw::new(advances, limit), statistics))
 }

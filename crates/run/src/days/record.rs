@@ -1,11 +1,11 @@
 //! What days of heat show a reader.
 
+use cable_dem::Mesh;
 use cycle_jump::days::Days;
 
 use super::day_simulator::{DaySimulator, a_day};
 use crate::Error;
-use crate::answer::{DayExtremes, DayPoint, HeatRecord};
-use crate::passes::{Passes, force_profile};
+use crate::answer::{DayExtremes, DayPoint, ForceProfile, HeatRecord};
 use crate::scene::DAYS_PER_YEAR;
 use crate::shown::words_if;
 
@@ -29,7 +29,8 @@ impl DaySimulator<'_> {
     }
 
     /// The extremes of the listed days and of all.
-    pub fn record(&self, passes: &Passes, days: &Days) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
+    pub fn record(&self, mesh: Mesh, days: &Days) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
+        let cable = self.plan.task(self.plan.scene, mesh).cable()?;
         let passes_per_day = a_day(self.plan.scene);
         let of_day = |(day, extremes): &(u64, _)| DayExtremes::new(*day, extremes);
         let per_kelvin = self.per_kelvin();
@@ -52,8 +53,8 @@ impl DaySimulator<'_> {
             periodic_from_day: days.periodic_from,
             drift_per_day_m: drift,
             drift_per_year_m: drift.map(|drift| DAYS_PER_YEAR * drift),
-            hot_profile: force_profile(&passes.cable, &days.hot)?,
-            cold_profile: force_profile(&passes.cable, &days.cold)?,
+            hot_profile: ForceProfile::new(&cable, &days.hot)?,
+            cold_profile: ForceProfile::new(&cable, &days.cold)?,
         };
         Ok((days.days.iter().map(of_day).collect(), record))
     }

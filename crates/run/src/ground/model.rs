@@ -44,113 +44,85 @@ pub struct Ground {
 impl Ground {
     /// The ground of `scene`, or a model that the caller brings along, for |ξ| up to `reach` \[m\].
     pub fn new(scene: &Scene, own: Option<&dyn GroundField>, reach: f64) -> Result<Self, Error> {
-        let named = "the scene asks for it";
-        if let Some(field) = own {
-            let reason = "the caller's own model";
-            return Self::of_field(scene, "own", field, OWN_ACCURACY, reason, reach);
-        }
         let profile = &scene.ground.profile()?;
-        match scene.ground.model {
-            GroundModel::Auto => match profile.homogeneous() {
-                Some(soil) => {
-                    let reason = "the ground is one half-space, whose displacement has a closed form";
-                    let field = HalfSpace::new(soil);
-                    Self::of_field(scene, "boussinesq", &field, CLOSED_FORM_ACCURACY, reason, reach)
-                }
-                None if is_graded(profile) => Self::graded(scene, reach),
-                None => {
-                    let reason = "the Hankel transform is exact for uniform layers";
-                    Self::layered(scene, profile, reason, reach)
-                }
-            },
-            GroundModel::Boussinesq => {
-                let soil = profile.homogeneous().ok_or(Error::Unfit {
-                    key: "ground.model",
-                    found: "boussinesq",
-                    reason: "its ground has layers or a rigid base, and this closed form knows one half-space only"
-                        .into(),
-                })?;
-                let field = HalfSpace::new(soil);
-                Self::of_field(scene, "boussinesq", &field, CLOSED_FORM_ACCURACY, named, reach)
+        let is_graded = profile.layers().iter().any(|layer| layer.soil().is_none());
+        let automatic = scene.ground.model == GroundModel::Auto;
+        let (name, field, accuracy, reason): (_, &dyn GroundField, _, _) = match (
+            own,
+            scene.ground.model,
+            profile.homogeneous(),
+        ) {
+            (Some(own), _, _) => ("own", own, OWN_ACCURACY, "the caller's own model"),
+            (_, GroundModel::Auto | GroundModel::Boussinesq, Some(soil)) => (
+                "boussinesq",
+                &HalfSpace::new(soil),
+                CLOSED_FORM_ACCURACY,
+                "the ground is one half-space, whose displacement has a closed form",
+            ),
+            (_, GroundModel::Boussinesq, None) => {
+                let reason =
+                    "its ground has layers or a rigid base, and this closed form knows one half-space only";
+                return Err(Error::unfit("ground.model", "boussinesq", reason));
             }
-            GroundModel::Burmister => Self::layered(scene, profile, named, reach),
-            GroundModel::FiniteElements => Self::elements(scene, named, reach),
-        }
-    }
-
-    #[cfg(feature = "fem")]
-    fn elements(scene: &Scene, reason: &'static str, reach: f64) -> Result<Self, Error> {
-        // A quarter of the tolerance is for the ground.
-        let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
-        let field = layered_fem::LayeredFem::new(&scene.ground.profile()?, accuracy)?;
-        Self::of_field(scene, "fem", &field, accuracy, reason, reach)
-    }
-
-    #[cfg(not(feature = "fem"))]
-    fn elements(_: &Scene, _: &'static str, _: f64) -> Result<Self, Error> {
-        Err(Error::Unfit {
-            key: "ground.model",
-            found: "fem",
-            reason: "this program was built without finite elements (feature `fem`)".into(),
-        })
-    }
-
-    fn of_field(
-        scene: &Scene,
-        name: &'static str,
-        field: &dyn GroundField,
-        accuracy: f64,
-        reason: &'static str,
-        reach: f64,
-    ) -> Result<Self, Error> {
+            (_, GroundModel::Auto, None) if is_graded => return Self::graded(scene, profile, reach),
+            (_, GroundModel::Auto | GroundModel::Burmister, _) => (
+                "burmister",
+                &layered(profile)?,
+                TRANSFORM_ACCURACY,
+                "the Hankel transform is exact for uniform layers",
+            ),
+            (_, GroundModel::FiniteElements, _) => {
+                // A quarter of the tolerance is for the ground.
+                let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
+                ("fem", &elements(profile, accuracy)?, accuracy, "")
+            }
+        };
+        let named = own.is_none() && !automatic;
         Ok(Self {
             name,
-            reason,
+            reason: if named { "the scene asks for it" } else { reason },
             accuracy,
             motions: motions(scene, field, accuracy, reach)?,
         })
     }
 
-    fn layered(
-        scene: &Scene,
-        profile: &SoilProfile,
-        reason: &'static str,
-        reach: f64,
-    ) -> Result<Self, Error> {
-        let field = LayeredHalfSpace::new(profile)?.with_accuracy(0.1 * TRANSFORM_ACCURACY)?;
-        Self::of_field(scene, "burmister", &field, TRANSFORM_ACCURACY, reason, reach)
-    }
-
     /// Uniform sublayers in the place of a modulus that varies.
-    fn graded(scene: &Scene, reach: f64) -> Result<Self, Error> {
-        let reason = "the Hankel transform on uniform sublayers, twice as many until the motion is steady";
-        let profile = &scene.ground.profile()?;
+    fn graded(scene: &Scene, profile: &SoilProfile, reach: f64) -> Result<Self, Error> {
         let sliced = |count| {
-            Self::layered(
-                scene,
-                &profile.sublayered(count, scene.duct.depth)?,
-                reason,
-                reach,
-            )
+            let field = layered(&profile.sublayered(count, scene.duct.depth)?)?;
+            motions(scene, &field, TRANSFORM_ACCURACY, reach)
         };
         let mut count = FEWEST_SUBLAYERS;
-        let mut ground = sliced(count)?;
+        let mut motions = sliced(count)?;
         loop {
             count *= 2;
             let finer = sliced(count)?;
-            let error = difference(&ground.motions, &finer.motions, scene.duct.depth) / SECOND_ORDER;
-            ground = Self {
-                accuracy: error.max(TRANSFORM_ACCURACY),
-                ..finer
-            };
+            let error = difference(&motions, &finer, scene.duct.depth) / SECOND_ORDER;
+            motions = finer;
             let most = 2 * count * profile.layers().len();
             if error <= SUBLAYERS_SHARE * scene.solver.tolerance || most > MOST_LAYERS {
-                return Ok(ground);
+                return Ok(Self {
+                    name: "burmister",
+                    reason: "the Hankel transform on uniform sublayers, twice as many until the motion is steady",
+                    accuracy: error.max(TRANSFORM_ACCURACY),
+                    motions,
+                });
             }
         }
     }
 }
 
-fn is_graded(profile: &SoilProfile) -> bool {
-    profile.layers().iter().any(|layer| layer.soil().is_none())
+fn layered(profile: &SoilProfile) -> Result<LayeredHalfSpace, Error> {
+    Ok(LayeredHalfSpace::new(profile)?.with_accuracy(0.1 * TRANSFORM_ACCURACY)?)
+}
+
+#[cfg(feature = "fem")]
+fn elements(profile: &SoilProfile, accuracy: f64) -> Result<layered_fem::LayeredFem, Error> {
+    Ok(layered_fem::LayeredFem::new(profile, accuracy)?)
+}
+
+#[cfg(not(feature = "fem"))]
+fn elements(_: &SoilProfile, _: f64) -> Result<HalfSpace, Error> {
+    let reason = "this program was built without finite elements (feature `fem`)";
+    Err(Error::unfit("ground.model", "fem", reason))
 }

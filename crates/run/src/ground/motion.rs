@@ -84,11 +84,8 @@ fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Err
         if factor.is_finite() {
             return Ok(motion.scaled(factor)?);
         }
-        Err(Error::Unfit {
-            key,
-            found: "a peak",
-            reason: "the vehicle does not move the duct, so there is nothing to scale".into(),
-        })
+        let reason = "the vehicle does not move the duct, so there is nothing to scale";
+        Err(Error::unfit(key, "a peak", reason))
     };
     motions.into_iter().map(scaled).collect()
 }

@@ -3,21 +3,19 @@
 use cable_dem::CableError;
 use ground_field::DuctMotion;
 
-use crate::scene::{Scene, TrafficVehicle};
+use crate::scene::Scene;
 use crate::tuning::ground::{
     BEYOND_THE_TURN, FARTHEST, FARTHEST_DISTANCES, FARTHEST_THICKNESSES, LAW_LENGTH,
 };
 
 /// How far the road is looked at \[m\], measured from a vehicle's origin.
 pub fn farthest(scene: &Scene) -> f64 {
-    let wheels = || scene.vehicles.iter().flat_map(TrafficVehicle::wheels);
-    let ahead = wheels().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
-    let aside = scene.vehicles.iter().flat_map(|traffic| {
+    let wheels = scene.vehicles.iter().flat_map(|traffic| {
         let offset = scene.offset_from(traffic).abs();
         let wheels = traffic.wheels().into_iter();
-        wheels.map(move |wheel| wheel.y.abs() + offset)
+        wheels.map(move |wheel| [wheel.x.abs(), wheel.y.abs() + offset])
     });
-    let aside = aside.fold(0.0, f64::max);
+    let [ahead, aside] = wheels.fold([0.0, 0.0], |[a, b], [x, y]| [x.max(a), y.max(b)]);
     let thickness = scene.ground.thickness();
     let far = (FARTHEST_DISTANCES * scene.duct.depth.hypot(aside)).max(FARTHEST_THICKNESSES * thickness);
     ahead + far.min(FARTHEST)
@@ -37,19 +35,12 @@ pub fn reach(scene: &Scene) -> f64 {
 /// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or as far as they
 /// have to be.
 pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
-    match scene.solver.approach {
-        Some(approach) => Ok(approach),
-        None => needed(scene, motions),
-    }
+    scene.solver.approach.map_or_else(|| needed(scene, motions), Ok)
 }
 
-/// Whether the approach that the scene names, if it names one, is as far as vehicles have to be
-/// followed.
+/// Whether that is as far as they have to be followed.
 pub fn is_followed_enough(scene: &Scene, motions: &[DuctMotion]) -> Result<bool, CableError> {
-    match scene.solver.approach {
-        Some(approach) => Ok(approach >= needed(scene, motions)?),
-        None => Ok(true),
-    }
+    Ok(approach(scene, motions)? >= needed(scene, motions)?)
 }
 
 /// How far beyond the duct's ends vehicles have to be followed \[m\].

@@ -20,10 +20,9 @@ use crate::passes::{Passes, mean, record_of};
 /// Standard errors that are stated as the error.
 const STATED: f64 = 2.0;
 
-/// What random orders of a period's vehicles leave in the mean, relative to an even one.
+/// What random orders of a period's vehicles change in the mean, beside an even one.
 pub struct Draws {
-    even: Vec<Record>,
-    mean: Vec<Record>,
+    changes: Vec<Record>,
     /// Error of the mean.
     pub error: Shares,
 }
@@ -40,7 +39,7 @@ impl Draws {
             })
         };
         let later = even.iter().filter(|record| record.pass > first);
-        let mean: Vec<Record> = later.filter_map(of_draws).collect();
+        let mut mean: Vec<Record> = later.filter_map(of_draws).collect();
         let mut squares = vec![Shares::default(); mean.len()];
         for draw in draws {
             for (sum, off) in squares.iter_mut().zip(differences(&mean, draw, scale)) {
@@ -50,9 +49,13 @@ impl Draws {
         let count = draws.len() as f64;
         let square: Shares = squares.into_iter().collect();
         let standard_error = |square: f64, _| (square / (count - 1.0) / count).sqrt();
+        for record in &mut mean {
+            if let Some(even) = record_of(even, record.pass) {
+                record.outcome = PassOutcome::combined(&[(1.0, &record.outcome), (-1.0, &even.outcome)]);
+            }
+        }
         Self {
-            even: even.to_vec(),
-            mean,
+            changes: mean,
             error: square.map(square, standard_error).times(STATED),
         }
     }
@@ -60,28 +63,23 @@ impl Draws {
     /// Makes the `passes` of the even order on another mesh those of a random one in the mean.
     pub fn correct(&self, passes: &mut Passes) {
         for record in &mut passes.records {
-            if let (Some(even), Some(mean)) = (
-                record_of(&self.even, record.pass),
-                record_of(&self.mean, record.pass),
-            ) {
-                record.outcome = moved(&record.outcome, even, mean);
+            if let Some(change) = record_of(&self.changes, record.pass) {
+                record.outcome = moved(&record.outcome, change);
                 record.interpolated = true;
             }
         }
-        if let (Some(Beyond { records, period }), Some(even), Some(mean)) =
-            (&mut passes.beyond, self.even.last(), self.mean.last())
-        {
+        if let (Some(Beyond { records, period }), Some(change)) = (&mut passes.beyond, self.changes.last()) {
             let later = records.iter_mut().map(|record| &mut record.outcome);
             for outcome in later.chain(period) {
-                *outcome = moved(outcome, even, mean);
+                *outcome = moved(outcome, change);
             }
         }
     }
 }
 
 /// The `outcome` of the even order as that of random ones.
-fn moved(outcome: &PassOutcome, even: &Record, mean: &Record) -> PassOutcome {
-    let mut moved = PassOutcome::combined(&[(1.0, outcome), (-1.0, &even.outcome), (1.0, &mean.outcome)]);
+fn moved(outcome: &PassOutcome, change: &Record) -> PassOutcome {
+    let mut moved = PassOutcome::combined(&[(1.0, outcome), (1.0, &change.outcome)]);
     for positive in [
         &mut moved.max_compression,
         &mut moved.max_tension,

@@ -30,15 +30,13 @@ pub struct Found {
     pub known: KnownJumps,
     /// What a random order changes.
     pub draws: Option<Draws>,
+    /// The work of all runs.
+    pub statistics: Statistics,
 }
 
 /// Finds jumps for `plan` that take at most their share of its tolerance, or the best that are
-/// affordable. Returned with them: the work of all runs.
-pub fn find<'a>(
-    plan: &'a Plan<'a>,
-    scale: Scale,
-    progress: Progress<'a>,
-) -> Result<(Found, Statistics), Error> {
+/// affordable.
+pub fn find<'a>(plan: &'a Plan<'a>, scale: Scale, progress: Progress<'a>) -> Result<Found, Error> {
     let mut search = Search {
         plan,
         scale,
@@ -49,25 +47,26 @@ pub fn find<'a>(
     };
     let mut found = search.jumps()?;
     found.known.error = found.known.error + search.mix_error(&found)?;
-    if !plan.period.drawn.is_empty() {
+    if plan.period.is_drawn {
         let draws = search.draws(&found)?;
         found.known.error = found.known.error + draws.error;
         found.draws = Some(draws);
     }
-    Ok((found, search.statistics))
-}
-
-/// The largest jumps over the passes of `plan` that are tried.
-fn largest(plan: &Plan<'_>) -> JumpSize {
-    let periods = (FIRST_PASSES / plan.period.len()) as u64;
-    JumpSize {
-        tolerance: (FIRST.0 * plan.scene.solver.tolerance).min(LARGEST),
-        first_periods: periods.clamp(FEWEST_FIRST_PERIODS, MOST_FIRST_PERIODS),
-        first_jump: FIRST.1,
-    }
+    found.statistics = search.statistics;
+    Ok(found)
 }
 
 impl JumpSize {
+    /// The largest jumps over the passes of `plan` that are tried.
+    fn largest(plan: &Plan<'_>) -> Self {
+        let periods = (FIRST_PASSES / plan.period.len()) as u64;
+        Self {
+            tolerance: (FIRST.0 * plan.scene.solver.tolerance).min(LARGEST),
+            first_periods: periods.clamp(FEWEST_FIRST_PERIODS, MOST_FIRST_PERIODS),
+            first_jump: FIRST.1,
+        }
+    }
+
     /// With half the error of a jump and a first jump half as long.
     fn finer(self) -> Self {
         Self {
@@ -92,7 +91,6 @@ struct Search<'a> {
     /// Error that jumps may leave.
     allowed: Shares,
     parts: Box<dyn FnMut() -> Progress<'a> + 'a>,
-    /// Work of all runs.
     statistics: Statistics,
 }
 
@@ -124,7 +122,7 @@ impl Search<'_> {
             levels,
             ..
         } = self.plan;
-        let mut size = largest(self.plan);
+        let mut size = JumpSize::largest(self.plan);
         // A short duct costs little, and the few nodes of a coarser mesh behave differently.
         let below = usize::from(scene.duct.length > SHORT * scene.duct.depth);
         let first = levels.first;
@@ -158,6 +156,7 @@ impl Search<'_> {
             passes,
             known: KnownJumps { size, error },
             draws: None,
+            statistics: self.statistics,
         })
     }
 
@@ -166,15 +165,19 @@ impl Search<'_> {
     fn in_place(&mut self, found: &Found, vehicles: Vec<usize>) -> Result<Passes, Error> {
         let size = found.known.size;
         let first = size.first_periods * self.plan.period.len() as u64;
-        let size = JumpSize {
-            first_periods: first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS),
-            ..size
-        };
+        let first_periods = first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS);
         let period = Period {
             vehicles,
             ..self.plan.period.clone()
         };
-        self.simulate(found.level, size, &period)
+        self.simulate(
+            found.level,
+            JumpSize {
+                first_periods,
+                ..size
+            },
+            &period,
+        )
     }
 
     /// What random orders of the period leave in the mean, from as many draws as the tolerance
@@ -183,7 +186,7 @@ impl Search<'_> {
         let mut all = Vec::new();
         let mut work = 0;
         loop {
-            let passes = self.in_place(found, self.plan.period.draw(all.len() as u64))?;
+            let passes = self.in_place(found, self.plan.period.shuffled(all.len() as u64))?;
             work += passes.statistics.node_updates;
             all.push(passes.records);
             if all.len() >= FEWEST_DRAWS {
@@ -201,21 +204,23 @@ impl Search<'_> {
     fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
         let Plan { period, .. } = self.plan;
         let first = first_passes(self.plan);
-        let later = |passes: &Passes| -> Vec<Record> {
+        let later = |passes: &Passes| -> [Vec<Record>; 2] {
             let later = passes.records.iter().filter(|record| record.pass > first);
-            later.cloned().collect()
+            let rows: Vec<Record> = later.cloned().collect();
+            let all = [&rows[..], &passes.peaks].concat();
+            [rows, all]
         };
-        let all = |passes: &Passes| -> Vec<Record> { [&later(passes)[..], &passes.peaks].concat() };
+        let [rows, all] = later(&found.passes);
         let mut error = Shares::default();
         for (vehicles, share) in &period.others {
-            let other = self.in_place(found, vehicles.clone())?;
-            let rows = difference(&later(&found.passes), &later(&other), self.scale);
-            let extremes = extremes_difference(&all(&found.passes), &all(&other), self.scale);
+            let [other_rows, all_other] = later(&self.in_place(found, vehicles.clone())?);
             // The largest of all passes are not between those of two mixes; of absent vehicles
             // single passes show them.
             let is_absent = vehicles.iter().any(|vehicle| period.absent.contains(vehicle));
             let weight = if is_absent { *share } else { 1.0 };
-            error = error + rows.times(*share).max(extremes.times(weight));
+            let extremes = extremes_difference(&all, &all_other, self.scale).times(weight);
+            let of_rows = difference(&rows, &other_rows, self.scale).times(*share);
+            error = error + of_rows.max(extremes);
         }
         Ok(error)
     }

@@ -1,7 +1,6 @@
 //! The passes of a plan, every one simulated or few with jumps between them, on one mesh after the
 //! other.
 
-use cable_dem::Statistics;
 use cycle_jump::Guide;
 
 use super::jump_search::{self, Found};
@@ -9,10 +8,11 @@ use super::random_spread;
 use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::{ErrorParts, mesh_error};
 use crate::passes::{FixedMesh, Jumping, KnownJumps, Passes, RunOptions, Task};
-use crate::plan::{Levels, PassMethod, Plan};
+use crate::plan::{Levels, Plan};
 use crate::refine::{MeshLoop, OnMeshes, Solved};
+use crate::scene::SolverMethod;
 use crate::tuning::meshes::FINDING;
-use crate::{Error, ErrorSource, Progress, Scene};
+use crate::{Error, Progress, Scene};
 
 /// A plan's passes, on whatever level.
 struct PassesOnMeshes<'a> {
@@ -28,7 +28,7 @@ struct PassesOnMeshes<'a> {
 /// Carries `plan` out by `method`, where `error` has what no mesh makes smaller.
 pub fn solve(
     plan: &Plan<'_>,
-    method: PassMethod,
+    method: SolverMethod,
     options: &RunOptions<'_>,
     mut error: ErrorParts,
 ) -> Result<Solved, Error> {
@@ -39,21 +39,21 @@ pub fn solve(
         found: None,
         known: None,
     };
-    let jumps = matches!(method, PassMethod::Jumps(_));
+    let jumps = method == SolverMethod::PassLaw;
     // The scatter of random orders is every run's own.
     let fits = |known: &FixedMesh| !jumps || known.jumps.is_some() && !plan.period.reordered;
     let known = options.mesh.filter(|_| plan.levels.named).filter(fits);
-    let (mut begin, mut search) = (0.0, Statistics::default());
-    if jumps {
-        passes.known = known.and_then(|known| known.jumps);
-        if known.is_none() {
-            begin = FINDING;
-            let progress = options.progress.part(0.0, begin);
-            let (found, work) = jump_search::find(plan, passes.scale, progress)?;
-            (passes.known, passes.found, search) = (Some(found.known), Some(found), work);
-        }
+    let mut begin = 0.0;
+    if jumps && known.is_none() {
+        begin = FINDING;
+        let progress = options.progress.part(0.0, begin);
+        passes.found = Some(jump_search::find(plan, passes.scale, progress)?);
     }
-    error[ErrorSource::Passes] = passes.known.map_or(Shares::default(), |jumps| jumps.error);
+    if jumps {
+        let found = passes.found.as_ref().map(|found| found.known);
+        passes.known = found.or(known.and_then(|known| known.jumps));
+    }
+    error.passes = passes.known.map_or(Shares::default(), |jumps| jumps.error);
     let meshes = MeshLoop {
         plan,
         options,
@@ -61,9 +61,8 @@ pub fn solve(
         known_error: known.map(|known| known.error),
     };
     let mut solved = meshes.refine(plan.levels.first, options.progress.part(begin, 1.0), error)?;
-    solved.statistics += search;
     solved.shown = Some(FixedMesh {
-        error: solved.error[ErrorSource::Mesh],
+        error: solved.error.mesh,
         jumps: passes.known,
     });
     if let Some(found) = &passes.found {
@@ -73,6 +72,7 @@ pub fn solve(
         let task = plan.task(plan.scene, plan.levels.mesh(found.level)?);
         let (spread, work) = random_spread::spread(&task, &found.passes.state, &solved.passes)?;
         solved.random = spread;
+        solved.statistics += found.statistics;
         solved.statistics += work;
     }
     Ok(solved)

@@ -24,44 +24,40 @@ pub fn spread(
     state: &CableState,
     answer: &Passes,
 ) -> Result<(Option<RandomSpread>, Statistics), Error> {
-    let Order::Random { seed } = task.scene.order() else {
+    let (Order::Random { seed }, Some(last)) = (task.scene.order(), answer.records.last()) else {
         return Ok((None, Statistics::default()));
     };
     let mut simulation = Simulation::new(task)?;
-    let (mut downstream, mut upstream) = (Vec::new(), Vec::new());
+    let mut forces = [Vec::new(), Vec::new()];
     for run in 0..RUNS {
         let mut state = state.clone();
-        let order = Order::Random {
-            seed: seed.wrapping_add(run),
-        };
-        for (number, vehicle) in traffic(task.scene, order)?.take(PASSES).enumerate() {
+        let seed = seed.wrapping_add(run);
+        let order = traffic(task.scene, Order::Random { seed })?;
+        for (number, vehicle) in order.take(PASSES).enumerate() {
             let force = simulation.pass(vehicle, None, &mut state)?.force;
             if number >= FORGOTTEN {
-                downstream.push(force.downstream);
-                upstream.push(force.upstream);
+                forces[0].push(force.downstream);
+                forces[1].push(force.upstream);
             }
         }
     }
-    let last = answer.records.last().map(|record| &record.outcome.force);
-    let spread = last.map(|last| RandomSpread {
-        downstream: quantiles(downstream, last.downstream),
-        upstream: quantiles(upstream, last.upstream),
-    });
-    Ok((spread, simulation.statistics()))
+    let ([downstream, upstream], mean) = (forces, last.outcome.force);
+    let spread = RandomSpread {
+        downstream: quantiles(downstream, mean.downstream),
+        upstream: quantiles(upstream, mean.upstream),
+    };
+    Ok((Some(spread), simulation.statistics))
 }
 
 /// Of `forces`, moved so that their mean is `mean`.
 fn quantiles(mut forces: Vec<f64>, mean: f64) -> Quantiles {
     let off = mean - forces.iter().sum::<f64>() / forces.len() as f64;
-    for force in &mut forces {
-        *force += off;
-    }
     forces.sort_by(f64::total_cmp);
-    let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize];
+    let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize] + off;
     Quantiles {
         q05_n: at(0.05),
         q50_n: at(0.5),
         q95_n: at(0.95),
-        max_n: forces.iter().copied().fold(0.0, larger),
+        max_n: larger(at(0.0), at(1.0)),
     }
 }

@@ -20,7 +20,7 @@ pub struct Listing(Vec<(u64, Vec<u64>)>);
 
 impl Listing {
     /// Of `count` passes in all.
-    pub fn new(period: &Period, listed: &[u64], count: u64) -> Self {
+    pub fn new(period: &Period, listed: impl IntoIterator<Item = u64>, count: u64) -> Self {
         let length = period.len() as u64;
         let shown = |pass: u64| match () {
             () if period.is_own() || pass <= period.first.len() as u64 => vec![pass],
@@ -28,7 +28,7 @@ impl Listing {
             // The last passes are the mean of a whole period too: the last vehicle says nothing.
             () => ((count + 1).saturating_sub(length).max(1)..=count).collect(),
         };
-        Self(listed.iter().map(|&pass| (pass, shown(pass))).collect())
+        Self(listed.into_iter().map(|pass| (pass, shown(pass))).collect())
     }
 
     /// The passes that have to be known.
@@ -102,7 +102,7 @@ mod tests {
                 reordered,
                 ..Period::default()
             };
-            Listing::new(&period, &[200], 200).wanted().collect()
+            Listing::new(&period, [200], 200).wanted().collect()
         };
         assert_eq!(wanted(true), (191..=200).collect::<Vec<u64>>());
         assert_eq!(wanted(false), [200]);

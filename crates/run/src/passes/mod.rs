@@ -7,6 +7,7 @@ mod solver;
 mod task;
 
 pub use listing::{listed_passes, mean, record_of};
-pub use options::{FixedMesh, KnownJumps, RunOptions};
-pub use simulation::{JumpSize, Jumping, Passes, Simulation, force_profile, seldom_passes};
+pub use options::{FixedMesh, JumpSize, Jumping, KnownJumps, RunOptions};
+pub use simulation::{Passes, Simulation};
+pub use solver::PassSolver;
 pub use task::Task;

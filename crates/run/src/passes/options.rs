@@ -1,9 +1,10 @@
 //! How a run is to be carried out.
 
+use cycle_jump::Guide;
 use ground_field::GroundField;
 
-use super::simulation::JumpSize;
 use crate::answer::differences::Shares;
+use crate::plan::Period;
 use crate::{Progress, SavedState};
 
 /// How to run.
@@ -39,4 +40,26 @@ pub struct FixedMesh {
 pub struct KnownJumps {
     pub size: JumpSize,
     pub error: Shares,
+}
+
+/// How large jumps are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JumpSize {
+    /// Error of a single jump.
+    pub tolerance: f64,
+    /// Periods simulated at the start, and length of the first jump beside them.
+    pub first_periods: u64,
+    pub first_jump: f64,
+}
+
+/// How jumps are taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Jumping<'a> {
+    pub period: &'a Period,
+    pub size: JumpSize,
+    /// Passes after which it is given up.
+    pub most_passes: u64,
+    pub guide: Guide<'a>,
+    /// Whether it is followed where the forces lead.
+    pub beyond: bool,
 }

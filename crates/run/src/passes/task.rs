@@ -1,17 +1,18 @@
 //! What is to be simulated on one mesh.
 
-use cable_dem::Mesh;
+use cable_dem::{CableError, CableState, DuctedCable, Mesh};
 use ground_field::DuctMotion;
 
-use crate::plan::{CableMethod, Plan};
-use crate::scene::Scene;
+use crate::cable::cable;
+use crate::plan::Plan;
+use crate::scene::{Scene, SolverMethod};
 use crate::{Progress, SavedState};
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
 pub struct Task<'a> {
     pub scene: &'a Scene,
-    pub method: CableMethod,
+    pub method: SolverMethod,
     pub motions: &'a [DuctMotion],
     pub mesh: Mesh,
     /// The state that the passes begin with, if not as laid.
@@ -21,13 +22,28 @@ pub struct Task<'a> {
     pub progress: Progress<'a>,
 }
 
+impl Task<'_> {
+    /// The cable, held where the passes begin.
+    pub fn cable(&self) -> Result<DuctedCable, CableError> {
+        self.start
+            .map_or_else(|| cable(self.scene), |start| start.cable(self.scene))
+    }
+
+    /// The cable before the first pass, if not as laid.
+    pub fn begin(&self) -> Result<Option<CableState>, CableError> {
+        self.start
+            .map(|start| start.on(self.scene, &self.mesh))
+            .transpose()
+    }
+}
+
 impl Plan<'_> {
     /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and
     /// progress.
     pub fn task<'a>(&'a self, scene: &'a Scene, mesh: Mesh) -> Task<'a> {
         Task {
             scene,
-            method: self.choice.method.cable_method(),
+            method: self.method,
             motions: &self.ground.motions,
             mesh,
             start: self.start,

@@ -112,6 +112,12 @@ impl Levels {
         (share * self.spacing, step)
     }
 
+    /// The level with as many nodes per length scale of a scene that leaves the mesh to the plan.
+    pub fn fineness(&self, level: usize) -> usize {
+        let nodes = 1.001 * self.length_scale / self.spacing(level).0;
+        (nodes / COARSEST).log2() as usize
+    }
+
     /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the
     /// scene asks for is out of range.
     pub fn mesh(&self, level: usize) -> Result<Mesh, Error> {

@@ -3,7 +3,7 @@
 use cable_dem::{Order, Traffic};
 
 use crate::Error;
-use crate::tuning::periods::{EXACT, LEAST, LONGER, NEAR, SHORT};
+use crate::tuning::periods::{LEAST, NEAR, SHORT};
 
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
@@ -34,23 +34,18 @@ impl Mix {
     }
 
     /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has
-    /// them exactly, or one that is near.
+    /// them exactly, or the first that is near, or the nearest.
     pub fn best(shares: &[f64], most: usize) -> Self {
-        let all = (1..=most)
-            .map(|length| Self::nearest(shares, length))
-            .filter(|mix| mix.len() <= most);
-        let exact = all.clone().find(|mix| mix.is_exact);
-        if let Some(exact) = exact.as_ref().filter(|exact| exact.len() <= SHORT) {
-            return exact.clone();
-        }
-        let near = all.clone().find(|mix| mix.distance() <= NEAR);
-        let shortest = near.map_or(most, |mix| mix.len()).max(LEAST.min(most));
-        let exact = exact.filter(|exact| exact.len() <= EXACT * shortest);
-        exact.unwrap_or_else(|| {
-            let longest = ((LONGER * shortest as f64) as usize).min(most);
-            let candidates = all.take(longest).filter(|mix| mix.len() >= shortest);
-            nearest_of(candidates).unwrap_or_else(|| Self::nearest(shares, most))
-        })
+        let all = (1..=most).map(|length| Self::nearest(shares, length));
+        let all = all.filter(|mix| mix.len() <= most);
+        let exact = all.clone().take(SHORT).find(|mix| mix.is_exact);
+        let is_near = |mix: &Self| mix.distance() <= NEAR && mix.len() >= LEAST;
+        let near = || all.clone().find(is_near);
+        let nearest = || nearest_of(all.clone());
+        exact
+            .or_else(near)
+            .or_else(nearest)
+            .unwrap_or_else(|| Self::nearest(shares, most))
     }
 
     /// A mix of at most `most` vehicles on the other side of the wanted shares, or at least another

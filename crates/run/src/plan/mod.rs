@@ -10,7 +10,6 @@ mod mesh;
 mod method;
 mod mix;
 pub mod occurrence;
-mod pass_method;
 mod period;
 mod report;
 mod representatives;
@@ -22,10 +21,12 @@ use ground_field::GroundField;
 
 use crate::SavedState;
 use crate::ground::{Ground, road};
+use crate::scene::SolverMethod;
 use crate::{Error, Scene};
+pub use cost::Estimates;
 pub use mesh::Levels;
-pub use method::{MOST_PASSES, MethodChoice};
-pub use pass_method::{CableMethod, PassMethod};
+use method::LONGEST_EVERY_PASS;
+pub use method::MOST_PASSES;
 pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
 
@@ -35,7 +36,11 @@ pub struct Plan<'a> {
     pub scene: &'a Scene,
     pub ground: Arc<Ground>,
     pub period: Period,
-    pub choice: MethodChoice,
+    /// How the passes are computed, and why.
+    pub method: SolverMethod,
+    pub reason: String,
+    /// What every method would cost.
+    pub estimates: Estimates,
     pub levels: Levels,
     pub warnings: Vec<String>,
     /// The state that the passes begin with, if not as laid.
@@ -69,14 +74,36 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
     let period = Period::new(scene, &ground.motions)?;
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first)?;
-    let choice = method::choose(scene, &levels, &period)?;
-    Ok(Plan {
-        warnings: warnings::warnings(scene, choice.inertia)?,
+    let estimates = Estimates::new(scene, &levels, &period)?;
+    let (method, reason) = method::choose(scene, &period, &estimates)?;
+    let mut plan = Plan {
         scene,
         ground,
         period,
-        choice,
+        method,
+        reason,
+        estimates,
         levels,
+        warnings: Vec::new(),
         start: None,
-    })
+    };
+    plan.warnings = warnings::warnings(scene, plan.inertia())?;
+    Ok(plan)
+}
+
+impl Plan<'_> {
+    /// By what share of the force leaving inertia out is off at most, where it is left out.
+    pub fn inertia(&self) -> f64 {
+        match self.method {
+            SolverMethod::Explicit => 0.0,
+            _ => self.estimates.inertia,
+        }
+    }
+
+    /// Whether every pass may be simulated where jumps do not get on.
+    pub fn may_simulate_all(&self) -> bool {
+        self.method == SolverMethod::PassLaw
+            && self.scene.traffic.passes <= MOST_PASSES
+            && self.estimates.every_pass(self.method) <= LONGEST_EVERY_PASS
+    }
 }

@@ -137,19 +137,13 @@ impl Occurrence {
 /// One concentrated load right above the duct, one way, on a half-space with the table's Poisson's
 /// ratio, no clamps.
 fn is_of_the_table(scene: &Scene) -> bool {
-    let soil = scene
-        .ground
-        .profile()
-        .ok()
-        .and_then(|profile| profile.homogeneous());
-    let alike = |ratio: f64| (ratio - POISSON_RATIO.0).abs() <= POISSON_RATIO.1;
-    let [traffic] = &scene.vehicles[..] else {
+    let (Ok(profile), [traffic]) = (scene.ground.profile(), &scene.vehicles[..]) else {
         return false;
     };
-    let [wheel] = traffic.wheels()[..] else {
+    let (Some(soil), [wheel]) = (profile.homogeneous(), &traffic.wheels()[..]) else {
         return false;
     };
-    soil.is_some_and(|soil| alike(soil.poisson_ratio()))
+    (soil.poisson_ratio() - POISSON_RATIO.0).abs() <= POISSON_RATIO.1
         && wheel.contact_radius == 0.0
         && wheel.y == 0.0
         && scene.offset_from(traffic) == 0.0

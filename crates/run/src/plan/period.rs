@@ -15,7 +15,7 @@ use super::representatives;
 use crate::Error;
 use crate::cable::{known_order, traffic};
 use crate::scene::Scene;
-use crate::tuning::periods::{FEW, KINDS, STAND_INS};
+use crate::tuning::periods::{FEW, STAND_INS};
 
 /// Most vehicles in a period that is chosen here.
 const LONGEST: usize = 2000;
@@ -34,8 +34,8 @@ pub struct Period {
     /// Whether the traffic is in another order than that of its period: at random, or in a sequence
     /// that is longer than a day of heat.
     pub reordered: bool,
-    /// Vehicles and their shares of which draws show what a random order changes, if it does.
-    pub drawn: Vec<(usize, f64)>,
+    /// Whether draws show what a random order changes.
+    pub is_drawn: bool,
     /// Vehicles that come within the passes of the scene, but not in the period.
     pub absent: Vec<usize>,
 }
@@ -51,37 +51,30 @@ impl Period {
         }
         let shares = shares(scene)?;
         let kinds = shares.iter().filter(|share| **share > 0.0).count();
-        let (mix, others, weights) = match representatives::advances(scene, motions) {
-            Some(advances) if kinds > KINDS => {
+        let (mix, others) = match representatives::advances(scene, motions) {
+            Some(advances) if kinds > FEW => {
                 let of = |length| Mix::new(representatives::counts(&shares, &advances, length), &shares);
-                let mix = of(STAND_INS);
-                let weights = mix.counts.iter().map(|&count| count as f64).collect();
-                (mix, vec![(of(STAND_INS / 2), 1.0)], weights)
+                (of(STAND_INS), vec![(of(STAND_INS / 2), 1.0)])
             }
-            _ => near(scene, shares.clone()),
+            _ => near(scene, &shares),
         };
-        let vehicles = mix.interleaved()?;
         let others = others.iter().map(|(mix, share)| Ok((mix.interleaved()?, *share)));
-        let mut others = others.collect::<Result<Vec<_>, Error>>()?;
-        let mut drawn: Vec<(usize, f64)> = weights.into_iter().enumerate().collect();
-        drawn.retain(|(vehicle, _)| is_drawn(scene, &mix) && mix.counts[*vehicle] > 0);
-        let reordered = scene.order() != Order::Interleaved;
+        let vehicles = mix.interleaved()?;
         let at_random = matches!(scene.order(), Order::Random { .. });
-        if reordered && drawn.is_empty() && (vehicles.len() > FEW || !at_random) {
-            let mut shuffled = vehicles.clone();
-            fastrand::Rng::with_seed(0).shuffle(&mut shuffled);
-            others.push((shuffled, 1.0));
-        }
         let first = if at_random { 0 } else { vehicles.len() };
         let is_absent = |vehicle: &usize| shares[*vehicle] > 0.0 && mix.counts[*vehicle] == 0;
-        Ok(Self {
+        let mut period = Self {
             first: traffic(scene, scene.order())?.take(first).collect(),
             absent: (0..shares.len()).filter(is_absent).collect(),
+            others: others.collect::<Result<_, Error>>()?,
+            reordered: scene.order() != Order::Interleaved,
+            is_drawn: at_random && scene.warming().is_none() && vehicles.len() > FEW,
             vehicles,
-            others,
-            reordered,
-            drawn,
-        })
+        };
+        if period.reordered && !period.is_drawn && (period.len() > FEW || !at_random) {
+            period.others.push((period.shuffled(0), 1.0));
+        }
+        Ok(period)
     }
 
     /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it
@@ -105,29 +98,16 @@ impl Period {
         self.vehicles.len()
     }
 
-    /// As many vehicles by their shares, in an order that is drawn with this seed: of each kind the
-    /// whole number below or above its part.
-    pub fn draw(&self, seed: u64) -> Vec<usize> {
-        let mut random = fastrand::Rng::with_seed(seed);
-        let begin = random.f64();
-        let all: f64 = self.drawn.iter().map(|(_, share)| share).sum();
-        let mut kinds = self.drawn.iter();
-        let (mut vehicle, mut upto) = (0, 0.0);
-        let mut vehicles = Vec::with_capacity(self.len());
-        for place in 0..self.len() {
-            while (place as f64 + begin) / self.len() as f64 >= upto / all {
-                let Some((next, share)) = kinds.next() else { break };
-                (vehicle, upto) = (*next, upto + share);
-            }
-            vehicles.push(vehicle);
-        }
-        random.shuffle(&mut vehicles);
+    /// Its vehicles in an order that is drawn with this seed.
+    pub fn shuffled(&self, seed: u64) -> Vec<usize> {
+        let mut vehicles = self.vehicles.clone();
+        fastrand::Rng::with_seed(seed).shuffle(&mut vehicles);
         vehicles
     }
 
     /// Whether it stands in for the traffic, and others are compared with it.
     pub fn stands_in(&self) -> bool {
-        !self.drawn.is_empty() || !self.others.is_empty()
+        self.is_drawn || !self.others.is_empty()
     }
 
     /// Whether its passes are those of the scene's traffic.
@@ -136,11 +116,10 @@ impl Period {
     }
 }
 
-/// The mix that is taken for these shares, without the vehicles that are too seldom for it; others
-/// to compare it with, each with the share of the difference that is wrong; and the shares.
-fn near(scene: &Scene, shares: Vec<f64>) -> (Mix, Vec<(Mix, f64)>, Vec<f64>) {
+/// The mix that is taken for these shares, without the vehicles that are too seldom for it; and
+/// others to compare it with, each with the share of the difference that is wrong.
+fn near(scene: &Scene, shares: &[f64]) -> (Mix, Vec<(Mix, f64)>) {
     let most = longest(scene);
-    let mut others = Vec::new();
     // On a day of heat every vehicle comes: its largest forces do not depend on how many days it
     // does.
     let daily = scene.warming().is_some();
@@ -150,16 +129,14 @@ fn near(scene: &Scene, shares: Vec<f64>) -> (Mix, Vec<(Mix, f64)>, Vec<f64>) {
         .map(|&share| if is_held(share) { share } else { 0.0 });
     let held = normal(held.collect());
     let mix = Mix::best(&held, most);
-    if !mix.is_exact && !is_drawn(scene, &mix) {
-        others.push(mix.opposite(&held, most));
-    }
+    let opposite = (!mix.is_exact).then(|| mix.opposite(&held, most));
     let seldom: f64 = shares.iter().filter(|share| !is_held(**share)).sum();
-    if seldom > 0.0 {
+    let with_seldom = (seldom > 0.0).then(|| {
         let count = |&share: &f64| ((share * most as f64) as usize).max(usize::from(share > 0.0));
         let counts = shares.iter().map(count).collect();
-        others.push((Mix::new(counts, &shares), (seldom * most as f64).min(1.0)));
-    }
-    (mix, others, shares)
+        (Mix::new(counts, shares), (seldom * most as f64).min(1.0))
+    });
+    (mix, opposite.into_iter().chain(with_seldom).collect())
 }
 
 /// Most vehicles in a period: with heat they begin anew every day.
@@ -206,10 +183,4 @@ fn shares(scene: &Scene) -> Result<Vec<f64>, Error> {
 fn normal(weights: Vec<f64>) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     weights.into_iter().map(|weight| weight / total).collect()
-}
-
-/// Whether draws show what a random order of this mix changes.
-fn is_drawn(scene: &Scene, mix: &Mix) -> bool {
-    let at_random = matches!(scene.order(), Order::Random { .. });
-    at_random && scene.warming().is_none() && mix.len() > FEW
 }

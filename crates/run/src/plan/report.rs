@@ -5,9 +5,9 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 
 use super::Plan;
+use super::cost::Estimates;
 use super::method::NO_REST;
 use super::occurrence::Occurrence;
-use super::pass_method::{CableMethod, PassMethod};
 use crate::scene::SolverMethod;
 use crate::shown::spacing;
 
@@ -83,19 +83,19 @@ impl Plan<'_> {
     pub fn reasons(&self, method: &str) -> Vec<String> {
         vec![
             format!("ground {}: {}", self.ground.name, self.ground.reason),
-            format!("cable {}: {method}", self.choice.method.name()),
+            format!("cable {}: {method}", self.method),
         ]
     }
 
     /// Why the method was chosen, and how many passes it is expected to simulate.
     fn foreseen(&self) -> String {
-        let (reason, estimates) = (&self.choice.reason, &self.choice.estimates);
-        match self.choice.method {
-            PassMethod::Jumps(_) => format!(
+        let (reason, estimates) = (&self.reason, &self.estimates);
+        match self.method {
+            SolverMethod::PassLaw => format!(
                 "about {:.0} of {} passes are simulated, with jumps between them; {reason}",
                 estimates.typical, estimates.passes
             ),
-            PassMethod::EveryPass(_) => reason.clone(),
+            _ => reason.clone(),
         }
     }
 
@@ -104,12 +104,10 @@ impl Plan<'_> {
         let Self {
             scene,
             ground,
-            choice,
             levels,
             ..
         } = self;
-        let first = levels.first;
-        let (node_spacing_m, vehicle_step_m) = levels.spacing(first);
+        let (node_spacing_m, vehicle_step_m) = levels.spacing(levels.first);
         let chosen = Candidate {
             part: Part::Ground,
             name: ground.name.into(),
@@ -118,71 +116,60 @@ impl Plan<'_> {
             estimated_seconds: None,
             reason: ground.reason.into(),
         };
-        let candidates = [chosen].into_iter().chain(self.methods()).chain(self.meshes());
-        let mesh_error = levels.expected_error(first);
+        let methods = [
+            SolverMethod::PassLaw,
+            SolverMethod::QuasiStatic,
+            SolverMethod::Explicit,
+        ];
+        let methods = methods.map(|method| self.method(method));
+        let meshes = (0..=levels.finest).filter(|&level| levels.mesh(level).is_ok());
+        let meshes = meshes.take(LISTED).map(|level| self.mesh(level));
+        let mesh_error = levels.expected_error(levels.first);
         PlanReport {
             title: scene.title.clone(),
             ground: ground.name.into(),
-            cable: choice.method.name().into(),
+            cable: self.method.to_string(),
             node_spacing_m,
             vehicle_step_m,
             reasons: self.reasons(&self.foreseen()),
-            estimated_error: mesh_error.map(|error| error + choice.inertia + ground.accuracy),
-            estimated_seconds: choice.estimates.seconds(choice.method),
+            estimated_error: mesh_error.map(|error| error + self.inertia() + ground.accuracy),
+            estimated_seconds: self.estimates.seconds(self.method),
             occurrence: Occurrence::new(scene, &ground.motions),
-            candidates: candidates.collect(),
+            candidates: [chosen].into_iter().chain(methods).chain(meshes).collect(),
             warnings: self.warnings.clone(),
         }
     }
 
-    fn methods(&self) -> Vec<Candidate> {
-        let (scene, estimates) = (self.scene, &self.choice.estimates);
-        let (passes, most) = (estimates.passes, estimates.most);
-        let has_rest = scene.friction.law().has_memory();
-        let all = [
-            (
-                PassMethod::Jumps(self.choice.method.cable_method()),
-                format!("jumps might leave {most:.0} of {passes} passes to be simulated"),
-            ),
-            (
-                PassMethod::EveryPass(CableMethod::QuasiStatic),
-                format!("all {passes} passes would be simulated"),
-            ),
-            (
-                PassMethod::EveryPass(CableMethod::Explicit),
-                "only where the scene names it".into(),
-            ),
-        ];
-        let candidate = |(method, against): (PassMethod, String)| {
-            let chosen = method == self.choice.method;
-            let without_inertia = has_rest.then_some(estimates.inertia);
-            let inertia = if method.has_inertia() {
-                Some(0.0)
-            } else {
-                without_inertia
-            };
-            Candidate {
-                part: Part::Cable,
-                name: method.name().into(),
-                chosen,
-                estimated_error: inertia,
-                estimated_seconds: Some(estimates.seconds(method)),
-                reason: match () {
-                    () if chosen => self.foreseen(),
-                    () if inertia.is_none() => NO_REST.into(),
-                    () if scene.solver.method != SolverMethod::Auto => {
-                        "the scene names another method".into()
-                    }
-                    () => against,
-                },
-            }
+    fn method(&self, method: SolverMethod) -> Candidate {
+        let (scene, estimates) = (self.scene, &self.estimates);
+        let chosen = method == self.method;
+        let inertia = match method {
+            SolverMethod::Explicit => Some(0.0),
+            _ => scene.friction.law().has_memory().then_some(estimates.inertia),
         };
-        all.map(candidate).into()
+        let Estimates { passes, most, .. } = estimates;
+        Candidate {
+            part: Part::Cable,
+            name: method.to_string(),
+            chosen,
+            estimated_error: inertia,
+            estimated_seconds: Some(estimates.seconds(method)),
+            reason: match method {
+                _ if chosen => self.foreseen(),
+                _ if inertia.is_none() => NO_REST.into(),
+                _ if scene.solver.method != SolverMethod::Auto => "the scene names another method".into(),
+                SolverMethod::PassLaw => {
+                    format!("jumps might leave {most:.0} of {passes} passes to be simulated")
+                }
+                SolverMethod::Explicit => "only where the scene names it".into(),
+                _ => format!("all {passes} passes would be simulated"),
+            },
+        }
     }
 
-    fn meshes(&self) -> Vec<Candidate> {
+    fn mesh(&self, level: usize) -> Candidate {
         let levels = &self.levels;
-        let candidate = |level: usize| Candidate {
+        Candidate {
             part: Part::Mesh,
             name: format!("{} m", spacing(levels.spacing(level).0)),
             chosen: level == levels.first,
@@ -194,11 +181,6 @@ impl Plan<'_> {
                 Ordering::Equal => "the coarsest that should keep the tolerance".into(),
                 Ordering::Greater => "only if the one before proves too coarse".into(),
             },
-        };
-        (0..=levels.finest)
-            .filter(|&level| levels.mesh(level).is_ok())
-            .take(LISTED)
-            .map(candidate)
-            .collect()
+        }
     }
 }

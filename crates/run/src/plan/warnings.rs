@@ -18,23 +18,45 @@ const FAST: f64 = 0.3;
 pub fn warnings(scene: &Scene, inertia: f64) -> Result<Vec<String>, Error> {
     let mut warnings = unusual(scene);
     warnings.extend(fast(scene));
-    warnings.extend(warm(scene));
-    warnings.extend(bends(scene));
-    warnings.extend(absent(scene)?);
-    warnings.extend(left_out(scene, inertia));
+    if scene.warming().is_some() {
+        warnings.extend(warm(scene));
+    }
+    if scene.route.iter().any(|section| section.bend_radius.is_some()) {
+        warnings.push(
+            "friction in a bend grows with the force in the cable: the state that traffic leads to may depend on what came first"
+                .to_owned(),
+        );
+    }
+    let coming = coming(scene)?;
+    let absent = (0..scene.vehicles.len()).filter(|vehicle| !coming.contains(vehicle));
+    let absent: Vec<String> = absent
+        .map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].name))
+        .collect();
+    if !absent.is_empty() {
+        let passes = scene.traffic.passes;
+        warnings.push(format!(
+            "no pass among the {passes} is one of {}",
+            absent.join(", ")
+        ));
+    }
+    if inertia > scene.solver.tolerance {
+        let remedy = match scene.warming() {
+            None => ErrorSource::Inertia.remedy(),
+            Some(_) => "days of heat are computed without it",
+        };
+        let (tolerance, most) = (exact_percent(scene.solver.tolerance), percent(inertia));
+        warnings.push(format!(
+            "leaving the cable's inertia out changes the force by up to {most}, more than the tolerance of {tolerance}: {remedy}"
+        ));
+    }
     Ok(warnings)
 }
 
 /// What forces of heat leave out, and what a day's traffic is taken to be.
 fn warm(scene: &Scene) -> Vec<String> {
-    if scene.warming().is_none() {
-        return Vec::new();
-    }
-    let mut warnings = vec![
-        "forces of heat are upper bounds: a cable snakes in its duct as it expands, its stiffness falls as it warms, and its insulation \
-         relaxes"
-            .to_owned(),
-    ];
+    let bound = "forces of heat are upper bounds: a cable snakes in its duct as it expands, its stiffness falls as it warms, and its \
+                 insulation relaxes";
+    let mut warnings = vec![bound.to_owned()];
     let per_day = scene.traffic.per_day.unwrap_or(1.0);
     if per_day.fract() != 0.0 {
         let whole = per_day.round().max(1.0);
@@ -43,61 +65,23 @@ fn warm(scene: &Scene) -> Vec<String> {
         ));
     }
     if scene.order() != Order::Interleaved {
-        warnings.push(
-            "every day of heat has its vehicles in the same order, as evenly mixed as their shares allow"
-                .to_owned(),
-        );
+        let order =
+            "every day of heat has its vehicles in the same order, as evenly mixed as their shares allow";
+        warnings.push(order.to_owned());
     }
     warnings
 }
 
-/// That friction in a bend knows what came before.
-fn bends(scene: &Scene) -> Option<String> {
-    let is_bent = scene.route.iter().any(|section| section.bend_radius.is_some());
-    is_bent.then(|| {
-        "friction in a bend grows with the force in the cable: the state that traffic leads to may depend on what came first"
-            .to_owned()
-    })
-}
-
-/// Vehicles that do not come within the passes of the scene.
-fn absent(scene: &Scene) -> Result<Option<String>, Error> {
-    let coming = coming(scene)?;
-    let absent = (0..scene.vehicles.len()).filter(|vehicle| !coming.contains(vehicle));
-    let names: Vec<String> = absent
-        .map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].name))
-        .collect();
-    let passes = scene.traffic.passes;
-    Ok((!names.is_empty()).then(|| format!("no pass among the {passes} is one of {}", names.join(", "))))
-}
-
-/// Inertia that is left out, where that may cost more than the tolerance.
-fn left_out(scene: &Scene, inertia: f64) -> Option<String> {
-    let remedy = if scene.warming().is_none() {
-        ErrorSource::Inertia.remedy()
-    } else {
-        "days of heat are computed without it"
-    };
-    (inertia > scene.solver.tolerance).then(|| {
-        format!(
-            "leaving the cable's inertia out changes the force by up to {}, more than the tolerance of {}: {remedy}",
-            percent(inertia),
-            exact_percent(scene.solver.tolerance)
-        )
-    })
-}
-
 fn fast(scene: &Scene) -> Option<String> {
-    let profile = &scene.ground.profile().ok()?;
+    let profile = scene.ground.profile().ok()?;
     let base = match profile.base() {
-        Base::HalfSpace(soil) => Some(soil.shear_modulus()),
-        Base::Rigid => None,
+        Base::HalfSpace(soil) => soil.shear_modulus(),
+        Base::Rigid => f64::INFINITY,
     };
-    let layers = profile.layers().iter().map(|layer| {
+    let softest = profile.layers().iter().fold(base, |least, layer| {
         let ends = [0.0, layer.thickness()].map(|depth| layer.young_modulus_at(depth));
-        ends[0].min(ends[1]) / (2.0 * (1.0 + layer.poisson_ratio()))
+        least.min(ends[0].min(ends[1]) / (2.0 * (1.0 + layer.poisson_ratio())))
     });
-    let softest = layers.chain(base).fold(f64::INFINITY, f64::min);
     let wave = (softest / SOIL_DENSITY).sqrt();
     let speeds = scene.vehicles.iter().map(|traffic| traffic.speed);
     let mach = speeds.fold(0.0, f64::max) / wave;

@@ -10,12 +10,7 @@ use crate::shown::{exact_percent, percent};
 use crate::{Error, ErrorSource};
 
 /// Refuses an answer that is none, and warns of one that is not as good as asked.
-pub fn judge(
-    error: &ErrorParts,
-    plan: &Plan<'_>,
-    mesh: &Mesh,
-    warnings: &mut Vec<String>,
-) -> Result<(), Error> {
+pub fn judge(error: &ErrorParts, plan: &Plan<'_>, warnings: &mut Vec<String>) -> Result<(), Error> {
     let scene = plan.scene;
     let tolerance = scene.solver.tolerance;
     let total = error.total();
@@ -26,11 +21,20 @@ pub fn judge(
         .map(|(share, of)| format!("the estimated error{of} is {}", percent(share)));
     let exceeds: Vec<String> = exceeds.collect();
     if !exceeds.is_empty() {
+        let cause = error.largest(|_| true, Shares::worse);
+        let has_remedy = match cause {
+            ErrorSource::Inertia => scene.warming().is_none(),
+            _ => !cause.is_skipping() || scene.traffic.passes <= MOST_PASSES,
+        };
         warnings.push(format!(
-            "{}, above the tolerance of {}{}",
+            "{}, above the tolerance of {}: {}",
             exceeds.join(" and "),
             exact_percent(tolerance),
-            remedy(error, plan, mesh)
+            if has_remedy {
+                cause.remedy()
+            } else {
+                "no finer mesh makes it much smaller"
+            }
         ));
     }
     if !scene.friction.law().has_memory() {
@@ -40,31 +44,6 @@ pub fn judge(
         );
     }
     Ok(())
-}
-
-/// What makes the largest part of an error smaller.
-fn remedy(error: &ErrorParts, Plan { scene, period, .. }: &Plan<'_>, mesh: &Mesh) -> String {
-    let of_passes = match () {
-        () if scene.traffic.passes <= MOST_PASSES => "solver.method = \"quasi-static\" simulates every pass",
-        () if !period.drawn.is_empty() => "most of it is the scatter of random orders around their mean",
-        () => {
-            "most of it comes from vehicles that stand in for the traffic; shares in whole numbers, of at most 2000 vehicles in all, need \
-             none"
-        }
-    };
-    match error.largest(|_| true, Shares::worse) {
-        ErrorSource::Mesh => {
-            let spacing = 0.5 * mesh.spacing();
-            format!(
-                ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and about four times as long"
-            )
-        }
-        ErrorSource::Inertia if scene.warming().is_none() => format!(": {}", ErrorSource::Inertia.remedy()),
-        ErrorSource::Passes if scene.traffic.passes <= MOST_PASSES || period.stands_in() => {
-            format!(": {of_passes}")
-        }
-        _ => ", and no finer mesh makes it much smaller".to_owned(),
-    }
 }
 
 /// Why this mesh.

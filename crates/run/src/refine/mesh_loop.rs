@@ -2,7 +2,6 @@
 //! judge, refine.
 
 use cable_dem::{CableError, Mesh, Statistics};
-use cycle_jump::Record;
 
 use super::judge::mesh_reason;
 use crate::answer::differences::{Scale, Shares};
@@ -12,7 +11,7 @@ use crate::ground::road;
 use crate::passes::{FixedMesh, Passes, RunOptions};
 use crate::plan::{Levels, Plan};
 use crate::tuning::meshes::{LEAST_SHARE, MAX_NODE_UPDATES, REFINEMENT_COST, SHARP};
-use crate::{Error, ErrorSource, Progress, Scene};
+use crate::{Error, Progress, Scene};
 
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
@@ -56,8 +55,6 @@ pub struct Solved {
     pub reasons: Vec<String>,
     pub warnings: Vec<String>,
     pub random: Option<RandomSpread>,
-    /// One more pass of each vehicle that comes too seldom for the period.
-    pub seldom: Vec<(usize, Record)>,
     /// What it has shown of its mesh.
     pub shown: Option<FixedMesh>,
     /// Of a cable that is heated every day.
@@ -76,7 +73,6 @@ impl Solved {
             reasons: vec![reason],
             warnings: Vec::new(),
             random: None,
-            seldom: Vec::new(),
             shown: None,
             heat: None,
         }
@@ -102,75 +98,61 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         progress: Progress<'_>,
         mut error: ErrorParts,
     ) -> Result<Solved, Error> {
-        let plan = self.plan;
+        let (plan, simulation) = (self.plan, self.simulation);
         // Mostly the first mesh is good enough.
         let mut parts = progress.parts(0.8);
         let mut statistics = Statistics::default();
-        let mut simulate = |level, below: Option<&Passes>, progress, answer| {
-            let simulation = self.simulation;
-            let passes = simulation.simulate(plan.scene, level, below, progress, answer)?;
+        let mut simulate = |scene: &Scene, level, below: Option<&Passes>, progress, answer| {
+            let passes = simulation.simulate(scene, level, below, progress, answer)?;
             statistics += passes.statistics;
             Ok(passes)
         };
         let (mut level, begin, mut meshes) = (first, parts(), Vec::new());
-        let below = self.known_error.map_or(self.simulation.levels_below(), |_| 0);
+        let below = self.known_error.map_or(simulation.levels_below(), |_| 0);
         for level in plan.levels.below(first, below).chain([first]) {
             // Each level costs a quarter of the next.
             let share = |level: usize| (REFINEMENT_COST as f64).powi(level as i32 - first as i32 - 1);
             let part = begin.part(share(level), share(level + 1));
-            let passes = simulate(level, meshes.last(), part, level == first);
+            let passes = simulate(plan.scene, level, meshes.last(), part, level == first);
             meshes.extend(unless_coarse(passes, level < first)?);
         }
         loop {
-            error[ErrorSource::Mesh] = match self.known_error {
+            error.mesh = match self.known_error {
                 Some(known) => known,
-                None if meshes.len() > 1 => self.simulation.mesh_error(level, &meshes),
-                None => error[ErrorSource::Mesh],
+                None if meshes.len() > 1 => simulation.mesh_error(level, &meshes),
+                None => error.mesh,
             };
             if self.is_good_enough(level, &meshes, &error) || !self.may_refine(level, &meshes, &error) {
                 break;
             }
-            match simulate(level + 1, meshes.last(), parts(), true) {
+            match simulate(plan.scene, level + 1, meshes.last(), parts(), true) {
                 // Jumps that fail on this mesh leave the answer of the coarser one.
                 Err(Error::Jumps(_)) if self.error_is_known(&meshes) => break,
                 finer => meshes.push(finer?),
             }
             level += 1;
         }
+        // One mesh alone does not show its error; and no mesh that the scene names is refused for
+        // what coarser ones show.
         let alone = meshes.len() == 1 && self.known_error.is_none();
+        let refused = error_estimate::is_doubtful(error.total().force, plan.scene.solver.tolerance);
         let passes = meshes.pop().ok_or(Error::NoPass)?;
-        if self.is_to_measure(alone, &error) {
-            let finer = simulate(level + 1, Some(&passes), parts(), true)?;
-            error[ErrorSource::Mesh] = self.simulation.difference(&passes, &finer).times(VERIFIED);
+        if self.options.verify || alone || plan.levels.named && refused {
+            let finer = simulate(plan.scene, level + 1, Some(&passes), parts(), true)?;
+            error.mesh = simulation.difference(&passes, &finer).times(VERIFIED);
             error.measured = true;
         }
         if !road::is_followed_enough(plan.scene, &plan.ground.motions)? {
-            let farther = self.followed_farther(level, &passes)?;
-            error[ErrorSource::Road] = self.simulation.difference(&passes, &farther);
-            statistics += farther.statistics;
+            let mut far = plan.scene.clone();
+            far.solver.approach = None;
+            let farther = simulate(&far, level, Some(&passes), Progress::default(), false)?;
+            error.road = simulation.difference(&passes, &farther);
         }
         let mesh = plan.levels.mesh(level)?;
         Ok(Solved {
             statistics,
             ..Solved::new(level, mesh, passes, error, mesh_reason(plan, &mesh))
         })
-    }
-
-    /// The same `passes` on `level` without the approach that the scene names, which shows what that
-    /// leaves out.
-    fn followed_farther(&self, level: usize, passes: &Passes) -> Result<Passes, Error> {
-        let mut far = self.plan.scene.clone();
-        far.solver.approach = None;
-        self.simulation
-            .simulate(&far, level, Some(passes), Progress::default(), false)
-    }
-
-    /// Whether a finer run is to measure the error of the mesh. One mesh alone does not show it;
-    /// and no mesh that the scene names is refused for what coarser ones show.
-    fn is_to_measure(&self, alone: bool, error: &ErrorParts) -> bool {
-        let Plan { scene, levels, .. } = self.plan;
-        let refused = error_estimate::is_doubtful(error.total().force, scene.solver.tolerance);
-        self.options.verify || alone || levels.named && refused
     }
 
     /// Whether the passes on all `meshes` up to `level` leave an `error` of the last that the
@@ -182,8 +164,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let still = meshes
             .last()
             .is_some_and(|passes| scale.is_still(&passes.records));
-        let others = [ErrorSource::Passes, ErrorSource::Days, ErrorSource::Inertia].map(|of| error[of]);
-        let others = others[0] + others[1] + others[2];
+        let others = error.passes + error.days + error.inertia;
         let of_mesh = error.total().less(others);
         // What these, which no finer mesh takes away, leave of the tolerance.
         let tolerance = self.plan.scene.solver.tolerance;
@@ -197,11 +178,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let tolerance = self.plan.scene.solver.tolerance;
         // A run whose error is above 10 % is refused: spend more before that.
         let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
-        let most = if is_hard {
-            MAX_NODE_UPDATES
-        } else {
-            MAX_NODE_UPDATES / 2
-        };
+        let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 2 };
         let last = meshes.last().map_or(0, |passes| passes.statistics.node_updates);
         self.known_error.is_none()
             && REFINEMENT_COST.saturating_mul(last) <= most

@@ -1,26 +1,27 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
-use cable_dem::Restraint;
+use cable_dem::{CableState, DuctedCable, PassOutcome, Restraint};
 use cycle_jump::{Record, peaks};
 
 use crate::Error;
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
-    Cost, DuctMotionSummary, ErrorEstimate, ExtremePass, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, Start, balance, larger, listed, saturation,
+    Cost, DuctMotionSummary, ErrorEstimate, ExtremePass, ForceProfile, PassRecord, PlanSummary,
+    RestraintRecord, Run, Stage, Start, balance, larger, listed, saturation,
 };
-use crate::passes::{Passes, force_profile, listed_passes};
-use crate::plan::{PassMethod, Plan};
+use crate::passes::{Passes, Simulation, listed_passes};
+use crate::plan::Plan;
 use crate::refine::Solved;
 use crate::saved_state::{PastPass, SavedState};
-use crate::scene::{CableEnd, End, Scene};
+use crate::scene::{CableEnd, End, Scene, SolverMethod};
 
 /// The answer from passes that were simulated by `method`, for a `reason`.
-pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solved) -> Result<Run, Error> {
+pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &Solved) -> Result<Run, Error> {
     let Plan { scene, ground, .. } = plan;
     let found = &solved.passes;
+    let cable = plan.task(scene, solved.mesh).cable()?;
     let shown = shown(plan, found);
-    let restraints = restraints(plan, found, &shown)?;
+    let restraints = restraints(plan, &cable, &found.state, &shown)?;
     let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
     let passes: Vec<PassRecord> = passes.collect();
     balance::of_records(scene, &passes, &restraints)?;
@@ -30,7 +31,6 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
         None => saturation(scene, &plan.period, &found.records, found.beyond.as_ref()),
     };
     let first = &ground.motions[0];
-    let past = past(scene, &passes);
     // A free end is a spring of no stiffness.
     let spring = |end: End| end.stiffness().filter(|stiffness| *stiffness > 0.0);
     let mut run = Run {
@@ -41,7 +41,7 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
         },
         plan: PlanSummary {
             ground: ground.name.into(),
-            cable: method.name().into(),
+            cable: method.to_string(),
             node_spacing_m: solved.mesh.spacing(),
             vehicle_step_m: solved.mesh.vehicle_step(),
             reasons: reasons(plan, reason, solved, &passes),
@@ -49,13 +49,20 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
         saturation,
         range,
         random: solved.random,
+        state: Some(SavedState::new(
+            scene,
+            &cable,
+            &found.state,
+            plan.start,
+            past(scene, &passes),
+        )),
         passes,
-        extremes: extremes(plan, solved),
+        extremes: extremes(plan, method, solved)?,
         days: days.unwrap_or_default(),
         heat,
         upstream_spring_n_per_m: spring(scene.ends.upstream),
         downstream_spring_n_per_m: spring(scene.ends.downstream),
-        force_profile: force_profile(&found.cable, &found.state)?,
+        force_profile: ForceProfile::new(&cable, &found.state)?,
         restraints,
         slip_lengths: found.slip,
         stages: found.stages.clone(),
@@ -67,13 +74,6 @@ pub fn assemble(plan: &Plan<'_>, method: PassMethod, reason: &str, solved: &Solv
         start: plan.start.map(|start| Start {
             passes: start.passes(),
         }),
-        state: Some(SavedState::new(
-            scene,
-            &found.cable,
-            &found.state,
-            plan.start,
-            past,
-        )),
         cost: Cost::new(found.simulated, &solved.statistics),
         warnings: [plan.warnings.clone(), solved.warnings.clone()].concat(),
     };
@@ -98,7 +98,6 @@ fn past(scene: &Scene, passes: &[PassRecord]) -> Vec<PastPass> {
 fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]) -> Vec<String> {
     let mut reasons = plan.reasons(reason);
     reasons.extend(solved.reasons.iter().cloned());
-    reasons.extend(solved.passes.step_limits.clone());
     let interpolated = passes.iter().find(|record| record.interpolated);
     if let Some(first) = interpolated.filter(|_| solved.heat.is_none()) {
         let (simulated, passes) = (solved.passes.simulated, plan.scene.traffic.passes);
@@ -116,22 +115,38 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
 }
 
 /// The passes of a period that stands in for the traffic which show the largest forces and
-/// movements, and one more of each vehicle that is too seldom for it.
-fn extremes(plan: &Plan<'_>, solved: &Solved) -> Vec<ExtremePass> {
+/// movements; and where there are jumps over it, one more of each vehicle that is too seldom for it,
+/// as the next one over the cable as it is left.
+fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Vec<ExtremePass>, Error> {
     let Plan { scene, period, .. } = plan;
     let heat = solved.heat.as_ref();
     let a_day = heat.map_or(u64::MAX, |(_, heat)| heat.passes_per_day);
-    let place = |record: &Record| ((record.pass - 1) % a_day) as usize % period.len();
-    let of_period = solved.passes.peaks.iter().filter(|_| !period.is_own());
-    let of_period = of_period.map(|record| (period.vehicles[place(record)], record));
-    let seldom = solved.seldom.iter().map(|(vehicle, record)| (*vehicle, record));
-    let pass = |(vehicle, record): (usize, &Record)| ExtremePass {
+    let extreme = |vehicle: usize, record: &Record| ExtremePass {
         vehicle: scene.vehicles[vehicle].name.clone(),
         after: PassRecord::new(record, &scene.traffic),
         restraints_n: record.outcome.restraints.clone(),
         restraint_peaks_n: record.outcome.restraint_ranges.iter().map(peak).collect(),
     };
-    of_period.chain(seldom).map(pass).collect()
+    let of_period = solved.passes.peaks.iter().filter(|_| !period.is_own());
+    let of_period = of_period.map(|record| {
+        let place = ((record.pass - 1) % a_day) as usize % period.len();
+        extreme(period.vehicles[place], record)
+    });
+    let mut extremes: Vec<ExtremePass> = of_period.collect();
+    if method == SolverMethod::PassLaw {
+        let task = plan.task(scene, solved.mesh);
+        let mut simulation = Simulation::new(&task)?;
+        for &vehicle in &period.absent {
+            let outcome = simulation.pass(vehicle, None, &mut solved.passes.state.clone())?;
+            let record = Record {
+                pass: scene.traffic.passes + 1,
+                outcome,
+                interpolated: true,
+            };
+            extremes.push(extreme(vehicle, &record));
+        }
+    }
+    Ok(extremes)
 }
 
 /// Without friction every pass leaves the cable as the first one did: where it was laid.
@@ -140,7 +155,7 @@ pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error
     let mut scene = plan.scene.clone();
     let count = std::mem::replace(&mut scene.traffic.passes, 1);
     let mut passes = plan.task(&scene, mesh).every_pass()?;
-    let force_profile = force_profile(&passes.cable, &passes.state)?;
+    let force_profile = ForceProfile::new(&plan.task(&scene, mesh).cable()?, &passes.state)?;
     let stage = |&pass| Stage {
         pass,
         force_profile: force_profile.clone(),
@@ -167,36 +182,33 @@ fn peak([least, most]: &[f64; 2]) -> f64 {
     larger(*most, *least)
 }
 
-fn restraints(plan: &Plan<'_>, passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
-    let Passes { state, cable, .. } = passes;
-    // One may have been put on later, where the cable had moved.
-    let put_on = |clamp: &Restraint| plan.start.map_or(0.0, |start| start.put_on(clamp));
-    let forces = state
-        .restraint_forces(cable)?
-        .into_iter()
-        .zip(state.clamp_slips(cable));
-    let restraints = cable.restraints().iter().zip(forces).enumerate();
-    Ok(restraints
-        .map(|(i, (restraint, (force_n, slip)))| RestraintRecord {
-            slipped_m: plan.scene.restraints[i].holds.map(|_| slip - put_on(restraint)),
-            slipped_after_passes_m: records
-                .iter()
-                .filter(|_| plan.scene.restraints[i].holds.is_some())
-                .map(|record| record.outcome.restraint_slips[i] - put_on(restraint))
-                .collect(),
-            position_m: restraint.position,
-            stiffness_n_per_m: restraint.stiffness,
-            force_n,
-            after_passes_n: records
-                .iter()
-                .map(|record| record.outcome.restraints[i])
-                .collect(),
-            during_passes_n: records
-                .iter()
-                .map(|record| peak(&record.outcome.restraint_ranges[i]))
-                .collect(),
-        })
-        .collect())
+fn restraints(
+    plan: &Plan<'_>,
+    cable: &DuctedCable,
+    state: &CableState,
+    records: &[Record],
+) -> Result<Vec<RestraintRecord>, Error> {
+    let forces = state.restraint_forces(cable)?;
+    let slips = state.clamp_slips(cable);
+    let of_clamp = |(i, clamp): (usize, &Restraint)| {
+        let of_passes = |of: &dyn Fn(&PassOutcome) -> f64| -> Vec<f64> {
+            records.iter().map(|record| of(&record.outcome)).collect()
+        };
+        let slips_at_all = plan.scene.restraints[i].holds.is_some();
+        // One may have been put on later, where the cable had moved.
+        let put_on = plan.start.map_or(0.0, |start| start.put_on(clamp));
+        let slipped = of_passes(&|outcome| outcome.restraint_slips[i] - put_on);
+        RestraintRecord {
+            position_m: clamp.position,
+            stiffness_n_per_m: clamp.stiffness,
+            force_n: forces[i],
+            after_passes_n: of_passes(&|outcome| outcome.restraints[i]),
+            during_passes_n: of_passes(&|outcome| peak(&outcome.restraint_ranges[i])),
+            slipped_after_passes_m: if slips_at_all { slipped } else { Vec::new() },
+            slipped_m: slips_at_all.then(|| slips[i] - put_on),
+        }
+    };
+    Ok(cable.restraints().iter().enumerate().map(of_clamp).collect())
 }
 
 /// The passes that are listed; where they are the traffic's own, those beside them that show more

@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use crate::answer::error_estimate::{self, ErrorParts};
 use crate::ground::{Ground, road};
-use crate::passes::{FixedMesh, RunOptions, seldom_passes};
-use crate::plan::{PassMethod, Plan, plan, plan_over};
+use crate::passes::{FixedMesh, PassSolver, RunOptions};
+use crate::plan::{Plan, plan, plan_over};
 use crate::refine::{Solved, judge};
+use crate::scene::SolverMethod;
 use crate::{Error, Run, Scene, days, finite, jumps};
 use assemble::{assemble, without_friction};
 
@@ -78,15 +79,17 @@ fn may_help(error: &Error) -> bool {
 /// A friction law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
 
-/// Warns of a friction law that loses some of the stored force, and refuses one that loses too much.
-fn leaks(solved: &mut Solved) -> Result<(), Error> {
-    for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
+/// Says what limits the time step of an explicit solver; warns of a friction law that loses some of
+/// the stored force, and refuses one that loses too much.
+fn time_steps(plan: &Plan<'_>, solved: &mut Solved) -> Result<(), Error> {
+    let solver = PassSolver::new(&plan.task(plan.scene, solved.mesh))?;
+    let Some((limits, leaks)) = solver.time_steps() else {
+        return Ok(());
+    };
+    solved.reasons.push(limits);
+    for leak in leaks.iter().filter(|leak| leak.matters()) {
         if leak.loss_per_pass > LARGEST_LEAK {
-            return Err(Error::Unfit {
-                key: "friction.law",
-                found: "sigmoid",
-                reason: leak.to_string().into(),
-            });
+            return Err(Error::unfit("friction.law", "sigmoid", leak.to_string()));
         }
         solved.warnings.push(leak.to_string());
     }
@@ -94,42 +97,42 @@ fn leaks(solved: &mut Solved) -> Result<(), Error> {
 }
 
 fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<FixedMesh>), Error> {
-    let Plan { scene, choice, .. } = plan;
+    let scene = plan.scene;
     if let Some(start) = plan.start {
         start.check(scene)?;
     }
-    let error = ErrorParts::new(plan.ground.accuracy, choice.inertia);
+    let error = ErrorParts::new(plan.ground.accuracy, plan.inertia());
     // What no mesh makes smaller.
     error_estimate::judge(&error, scene.solver.tolerance)?;
     let solve = |method| {
+        if scene.friction_limit() == 0.0 {
+            return without_friction(plan, options.stages);
+        }
         let mut solved = match scene.warming() {
             Some(heat) => days::solve(plan, heat, method, options, error),
             None => jumps::solve(plan, method, options, error),
         }?;
-        leaks(&mut solved)?;
-        judge(&solved.error, plan, &solved.mesh, &mut solved.warnings)?;
-        if matches!(method, PassMethod::Jumps(_)) {
-            let task = plan.task(scene, solved.mesh);
-            solved.seldom = seldom_passes(&task, &plan.period.absent, &solved.passes.state)?;
+        if method == SolverMethod::Explicit {
+            time_steps(plan, &mut solved)?;
         }
+        judge(&solved.error, plan, &mut solved.warnings)?;
         Ok(solved)
     };
-    let every_pass = PassMethod::EveryPass(choice.method.cable_method());
-    let (mut method, mut reason) = (choice.method, choice.reason.clone());
-    let solved = if scene.friction_limit() == 0.0 {
-        method = every_pass;
-        without_friction(plan, options.stages)
-    } else {
-        match solve(method) {
-            Err(error) if may_help(&error) && choice.may_simulate && method != every_pass => {
-                method = every_pass;
-                reason = format!(
-                    "{reason}; jumps gave no answer here ({error}): every pass was simulated after all"
-                );
-                solve(method)
-            }
-            solved => solved,
+    let every_pass = match plan.method {
+        SolverMethod::PassLaw => SolverMethod::QuasiStatic,
+        own => own,
+    };
+    let is_free = scene.friction_limit() == 0.0;
+    let mut method = if is_free { every_pass } else { plan.method };
+    let mut reason = plan.reason.clone();
+    let solved = match solve(method) {
+        Err(error) if may_help(&error) && plan.may_simulate_all() => {
+            method = every_pass;
+            reason =
+                format!("{reason}; jumps gave no answer here ({error}): every pass was simulated after all");
+            solve(method)
         }
+        solved => solved,
     }?;
     let run = assemble(plan, method, &reason, &solved)?;
     finite::check(&run)?;
