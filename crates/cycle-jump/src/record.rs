@@ -46,3 +46,11 @@ pub struct Beyond {
     /// What each pass of a period does once the forces no longer change from period to period.
     pub period: Vec<PassOutcome>,
 }
+
+/// The cable at rest after a pass alone, without peaks and heat during it.
+pub fn left_by(outcome: &PassOutcome) -> PassOutcome {
+    let mut left = outcome.clone();
+    (left.peak, left.lowest, left.dissipated) = (left.force, left.force, 0.0);
+    left.restraint_ranges = left.restraints.iter().map(|force| [*force; 2]).collect();
+    left
+}

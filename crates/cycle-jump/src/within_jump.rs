@@ -4,11 +4,7 @@ use cable_dem::{CableError, CableState, PassOutcome, RestingCable};
 
 use crate::flow::Flow;
 use crate::period::{Period, phase_of, remove_mean};
-
-/// Passes of a vehicle within a jump are computed so far apart, as a ratio of their numbers. Forces
-/// change on the scale of that number: between two such passes they differ from a straight line by
-/// (ln 1.03)²/8 = 1e-4 of themselves. Three thousand rows take two thirds of the time.
-const ROW_RATIO: f64 = 1.03;
+use crate::record::left_by;
 
 /// A jump that was taken, from one simulated period to another.
 pub struct JumpInterval<'a> {
@@ -56,52 +52,21 @@ impl JumpInterval<'_> {
         Ok((state, whole))
     }
 
-    /// Outcomes of `passes`, in ascending order. Passes far enough apart follow from the state after
-    /// them; those between are interpolated from the two nearest of the same vehicle.
-    pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
-        let mut outcomes = vec![PassOutcome::default(); passes.len()];
-        for phase in 0..self.before.len() {
-            let is_of_phase = |row: &usize| phase_of(passes[*row], self.before.len()) == phase;
-            let rows: Vec<usize> = (0..passes.len()).filter(is_of_phase).collect();
-            let mut last = 0;
-            for (k, &row) in rows.iter().enumerate() {
-                let is_near = |next: &usize| passes[*next] as f64 <= ROW_RATIO * passes[rows[last]] as f64;
-                if k > 0 && rows.get(k + 1).is_some_and(is_near) {
-                    continue;
-                }
-                outcomes[row] = self.outcome(cable, passes[row])?;
-                let (from, to) = (outcomes[rows[last]].clone(), outcomes[row].clone());
-                for &between in rows.get(last + 1..k).unwrap_or(&[]) {
-                    let [begin, pass, end] = [rows[last], between, row].map(|row| passes[row] as f64);
-                    let share = (pass - begin) / (end - begin);
-                    outcomes[between] = PassOutcome::combined(&[(1.0 - share, &from), (share, &to)]);
-                }
-                last = k;
-            }
-        }
-        Ok(outcomes)
-    }
-
-    /// What `pass` did: the cable at rest after it, with peaks and heat between those of the same
-    /// pass of both periods.
-    fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
+    /// What `pass` did: the cable at rest after it, with what the same pass of both periods did
+    /// beside that.
+    pub fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
         let (state, whole) = self.state(cable, pass)?;
-        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
+        let rest = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
         let phase = phase_of(pass, self.before.len());
         let share = self.time(pass) / self.length as f64;
         let [before, after] = [self.before, self.after].map(|period| &period.phase(phase).outcome);
-        let between = |of: fn(&PassOutcome) -> f64| (1.0 - share) * of(before) + share * of(after);
-        outcome.peak.upstream += between(|o| o.peak.upstream - o.force.upstream);
-        outcome.peak.downstream += between(|o| o.peak.downstream - o.force.downstream);
-        outcome.lowest.upstream += between(|o| o.lowest.upstream - o.force.upstream);
-        outcome.lowest.downstream += between(|o| o.lowest.downstream - o.force.downstream);
-        for (clamp, range) in outcome.restraint_ranges.iter_mut().enumerate() {
-            for (side, force) in range.iter_mut().enumerate() {
-                let beyond = |o: &PassOutcome| o.restraint_ranges[clamp][side] - o.restraints[clamp];
-                *force += (1.0 - share) * beyond(before) + share * beyond(after);
-            }
-        }
-        outcome.dissipated = between(|o| o.dissipated);
-        Ok(outcome)
+        let left = [before, after].map(left_by);
+        Ok(PassOutcome::combined(&[
+            (1.0, &rest),
+            (1.0 - share, before),
+            (share - 1.0, &left[0]),
+            (share, after),
+            (-share, &left[1]),
+        ]))
     }
 }

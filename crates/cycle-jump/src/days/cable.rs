@@ -1,40 +1,33 @@
-//! The cable through the events of a day.
+//! The cable through the events of its days.
 
-use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable};
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
 
-use super::day::{Act, Day, Event};
+use super::calendar::Calendar;
+use super::day::{Act, Event};
 use super::law::LockedLaw;
 use super::step::{LongStep, STAGES};
 use crate::error::wrap;
 use crate::period::difference;
-use crate::tuning::DEFECT_GROWTH;
 use crate::{JumpError, Next};
 
 /// Does what happens; its pass is the caller's.
 pub struct DailyCable<'a, P> {
-    day: &'a Day,
+    calendar: &'a Calendar<'a>,
     cable: RestingCable,
     pub step: LongStep,
     pass: P,
     /// The cable before the last simulated period, if no step has used that period yet.
     before: Option<CableState>,
-    /// What the last two simulated periods before steps have shown, the later one first.
-    measured: [Option<Measured>; 2],
-    /// The cable when it was hottest and coldest on the day under way.
-    pub hot: Option<CableState>,
-    pub cold: Option<CableState>,
+    /// What the last simulated period before a step has shown: the advance of every node \[m\], and
+    /// the friction that the law missed \[N/m\].
+    measured: Option<(Vec<f64>, Vec<f64>)>,
+    /// The cable when it was hottest and coldest on the day under way, and after the last pass.
+    pub hot: CableState,
+    pub cold: CableState,
+    pub end: CableState,
     /// Passes simulated.
     pub simulated: u64,
-}
-
-/// What a simulated period has shown.
-struct Measured {
-    /// When it ended \[periods of the day\].
-    time: f64,
-    /// Advance of every node in it \[m\].
-    advance: Vec<f64>,
-    /// Friction that the law missed \[N/m\].
-    defect: Vec<f64>,
+    pub simulated_days: u64,
 }
 
 impl<'a, E, P> DailyCable<'a, P>
@@ -45,47 +38,51 @@ where
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
-        day: &'a Day,
+        calendar: &'a Calendar<'a>,
         law: LockedLaw,
         pass: P,
     ) -> Result<Self, CableError> {
+        let state = laid(cable, mesh)?;
         Ok(Self {
-            day,
+            calendar,
             cable: RestingCable::new(cable, mesh)?,
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
-            measured: [None, None],
-            hot: None,
-            cold: None,
+            measured: None,
+            hot: state.clone(),
+            cold: state.clone(),
+            end: state,
             simulated: 0,
+            simulated_days: 0,
         })
     }
 
-    /// Begins another day.
-    pub fn begin_day(&mut self) {
-        self.measured = [None, None];
-        (self.hot, self.cold) = (None, None);
+    /// Brings the cable to the temperature of midnight.
+    pub fn begin(&mut self, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        self.cable.warm(state, self.calendar.day.heat_at_midnight())?;
+        PassOutcome::at_rest(self.cable.cable(), state)
     }
 
-    /// Lets the `event` happen; a pass has this `number`, if it counts.
-    pub fn happen(
-        &mut self,
-        event: &Event,
-        number: Option<u64>,
-        state: &mut CableState,
-    ) -> Result<PassOutcome, E> {
+    /// Lets the `next` event happen; one without a number only measures.
+    pub fn happen(&mut self, next: Next, state: &mut CableState) -> Result<PassOutcome, E> {
+        let event = self.calendar.events[next.phase];
         if event.begins {
             self.before = Some(state.clone());
         }
         let outcome = match event.act {
             Act::Pass(phase) => {
                 self.simulated += 1;
-                (self.pass)(Next { phase, number }, state)?
+                let number = next.number.and_then(|number| self.calendar.pass(number));
+                let outcome = (self.pass)(Next { phase, number }, state)?;
+                if number == Some(self.calendar.passes) {
+                    self.end.clone_from(state);
+                }
+                outcome
             }
             act => {
                 let moved = match act {
-                    Act::Step(from, to) if !self.step.law.is_still() => self.step(event, from, to, state),
+                    Act::Step(from, to) if !self.step.law.is_still() => self.step(&event, from, to, state),
                     // Nothing but heat moves the cable.
                     _ => self.cable.warm(state, event.thermal_force),
                 };
@@ -93,49 +90,39 @@ where
                 PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)?
             }
         };
+        let begins_day = next.phase == 0;
+        self.simulated_days += u64::from(begins_day && next.number.is_some());
         let force = state.thermal_force();
-        if self.hot.as_ref().is_none_or(|hot| force > hot.thermal_force()) {
-            self.hot = Some(state.clone());
+        if begins_day || force > self.hot.thermal_force() {
+            self.hot.clone_from(state);
         }
-        if self.cold.as_ref().is_none_or(|cold| force < cold.thermal_force()) {
-            self.cold = Some(state.clone());
+        if begins_day || force < self.cold.thermal_force() {
+            self.cold.clone_from(state);
         }
         Ok(outcome)
     }
 
     /// The periods from `from` to `to` in one step, with the friction that the law misses as the
-    /// simulated ones before them have shown it.
+    /// simulated one before them has shown it.
     fn step(&mut self, event: &Event, from: u64, to: u64, state: &mut CableState) -> Result<(), CableError> {
         if let Some(before) = self.before.take() {
             self.cable.release(&before, state);
-            let measured = self.measure(before.displacement(), from as f64, state);
-            self.measured = [Some(measured), self.measured[0].take()];
+            self.measured = Some(self.measure(before.displacement(), state));
         }
-        let [Some(last), earlier] = &self.measured else {
+        let Some((advance, defect)) = &self.measured else {
             return Ok(());
         };
         let periods = (to - from) as f64;
-        let times = STAGES.map(|share| from as f64 + share * periods);
-        let defects = times.map(|time| match earlier {
-            Some(earlier) => {
-                let ahead = ((time - last.time) / (last.time - earlier.time)).min(1.0);
-                let both = last.defect.iter().zip(&earlier.defect);
-                both.map(|(last, earlier)| last + DEFECT_GROWTH * ahead * (last - earlier))
-                    .collect()
-            }
-            None => last.defect.clone(),
-        });
-        let [first, second] = times.map(|time| self.day.heat_before(time));
-        let stages = [(first, &defects[0][..]), (second, &defects[1][..])];
+        let day = self.calendar.day;
+        let heat = STAGES.map(|share| day.heat_before(from as f64 + share * periods));
         let (cable, u) = (&mut self.cable, state.displacement());
-        let u = self.step.take(cable, u, periods, stages, &last.advance)?;
+        let u = self.step.take(cable, u, periods, heat, defect, advance)?;
         *state = cable.moved(state, u)?.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }
 
-    /// What the period has shown that began with the displacements `before` and ended in `state` at
-    /// this time.
-    fn measure(&mut self, before: &[f64], time: f64, state: &CableState) -> Measured {
+    /// What the period has shown that began with the displacements `before` and ended in `state`.
+    fn measure(&mut self, before: &[f64], state: &CableState) -> (Vec<f64>, Vec<f64>) {
         let advance = difference(state.displacement(), before);
         let mut defect = vec![0.0; advance.len()];
         let (u, thermal_force) = (state.displacement(), state.thermal_force());
@@ -143,10 +130,6 @@ where
         for (i, (defect, v)) in defect.iter_mut().zip(&advance).enumerate() {
             *defect -= self.step.law.friction(*v, self.cable.limit(i));
         }
-        Measured {
-            time,
-            advance,
-            defect,
-        }
+        (advance, defect)
     }
 }

@@ -1,9 +1,11 @@
 //! A day of traffic and heat as a list of events.
 
+use std::collections::BTreeSet;
+
 use super::heat::DailyHeat;
 use crate::JumpError;
 use crate::error::check;
-use crate::tuning::{AFTER_A_CORNER, MORNING, MORNING_GROWTH};
+use crate::tuning::AFTER_A_TURN;
 
 /// With knots beyond this share of all periods a step would be no longer than a period: every one
 /// is simulated.
@@ -20,7 +22,7 @@ pub struct Day {
 
 /// What happens to the cable at one moment of a day.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Event {
+pub struct Event {
     pub act: Act,
     /// Θ during it, or at the end of a step \[N\].
     pub thermal_force: f64,
@@ -31,7 +33,7 @@ pub(super) struct Event {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Act {
+pub enum Act {
     /// The temperature changes to that force.
     Warm,
     /// A vehicle passes: its place in the period of the traffic.
@@ -102,6 +104,11 @@ impl Day {
         self.thermal_force((periods * self.period as f64 - 0.5).max(0.0))
     }
 
+    /// Θ at the beginning and the end of the day \[N\].
+    pub(super) fn heat_at_midnight(&self) -> f64 {
+        self.heat.at(0.0)
+    }
+
     /// Θ at the turns of the temperature between the pass `next` of the day and the one before.
     fn turns_before(&self, next: u64) -> Vec<f64> {
         let all = self.passes as f64;
@@ -111,53 +118,40 @@ impl Day {
         turns.map(|time| self.heat.at(time)).collect()
     }
 
-    /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and
-    /// after its corners, and the last; on the `first` day many of the morning, when the cable is
-    /// as laid.
-    fn simulated(&self, first: bool) -> Vec<u64> {
+    /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature,
+    /// after its corners and after midnight, when the first day finds the cable as laid, the `cut`
+    /// one at which the last day ends, and the last.
+    fn simulated(&self, cut: u64) -> Vec<u64> {
         let all = self.periods();
         if self.is_simulated() {
             return (0..all).collect();
         }
         let evenly = |k: u64| (k as f64 * all as f64 / self.knots as f64).round() as u64;
-        let mut knots: Vec<u64> = (0..self.knots).map(evenly).chain([all - 1]).collect();
-        let corners = self.heat.has_corners();
-        let after = if corners { &AFTER_A_CORNER[..] } else { &[0] };
-        // A turn comes before the first pass after it.
-        let next = |time: f64| (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
-        let period_of = |time: f64| (next(time) / self.period).min(all - 1);
-        let turns = self.heat.turns().into_iter().map(period_of);
-        for turn in turns.chain(corners.then_some(0)) {
+        let mut knots: BTreeSet<u64> = (0..self.knots).map(evenly).chain([cut, all - 1]).collect();
+        knots.extend(AFTER_A_TURN);
+        let after = if self.heat.has_corners() {
+            &AFTER_A_TURN[..]
+        } else {
+            &[0]
+        };
+        for time in self.heat.turns() {
+            // A turn comes before the first pass after it.
+            let next = (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
+            let turn = (next / self.period).min(all - 1);
             knots.extend(after.iter().map(|after| turn + after));
         }
-        let (mut next, mut step) = (0.0, 1.0);
-        while first && step < all as f64 / self.knots as f64 {
-            knots.push(next as u64);
-            if next >= MORNING as f64 {
-                step *= MORNING_GROWTH;
-            }
-            next += step;
-        }
-        knots.retain(|knot| *knot < all);
-        knots.sort_unstable();
-        knots.dedup();
-        knots
+        knots.into_iter().filter(|knot| *knot < all).collect()
     }
 
-    /// What happens in a day, the `first` or another, up to its pass number `passes`, which is
-    /// simulated, and at its end, when the temperature is that of its beginning.
-    pub(super) fn events(&self, passes: u64, first: bool) -> Vec<Event> {
-        let whole = passes.div_ceil(self.period).min(self.periods());
-        let mut knots = self.simulated(first);
-        knots.retain(|knot| *knot + 1 < whole);
-        knots.push(whole - 1);
+    /// What happens in a day, which ends at the temperature of its beginning; its pass number `cut`
+    /// is simulated in any case.
+    pub(super) fn events(&self, cut: u64) -> Vec<Event> {
+        let all = self.periods();
+        let knots = self.simulated(((cut - 1) / self.period).min(all - 1));
         let mut events = Vec::new();
-        if first {
-            events.push(Event::warm(self.heat.at(0.0), 0, false));
-        }
         for (k, &knot) in knots.iter().enumerate() {
             let mut begins = true;
-            for pass in self.passes_of(knot)..self.passes_of(knot + 1).min(passes) {
+            for pass in self.passes_of(knot)..self.passes_of(knot + 1) {
                 let thermal_force = self.thermal_force(pass as f64 + 0.5);
                 for thermal_force in self.turns_before(pass).into_iter().chain([thermal_force]) {
                     events.push(Event::warm(thermal_force, pass, begins));
@@ -171,7 +165,7 @@ impl Day {
                 });
             }
             // Two steps to the next knot, so that passes between are known well too.
-            let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(whole));
+            let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(all));
             let middle = from + (to - from) / 2;
             let steps = [(from, middle), (middle, to)];
             for (from, to) in steps.into_iter().filter(|(from, to)| from < to) {
@@ -181,10 +175,11 @@ impl Day {
                 });
             }
         }
-        if passes == self.passes {
-            let end = self.turns_before(passes).into_iter().chain([self.heat.at(1.0)]);
-            events.extend(end.map(|thermal_force| Event::warm(thermal_force, passes, false)));
-        }
+        let end = self
+            .turns_before(self.passes)
+            .into_iter()
+            .chain([self.heat_at_midnight()]);
+        events.extend(end.map(|thermal_force| Event::warm(thermal_force, self.passes, false)));
         events
     }
 }
@@ -198,41 +193,9 @@ impl Event {
             begins,
         }
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::super::part::parts;
-    use super::*;
-
-    #[test]
-    fn every_pass_of_any_day_is_known_from_its_events() {
-        let (lowest, highest) = (0.0, 1.0);
-        let heat = [
-            (DailyHeat::Cosine { lowest, highest }, 0.5),
-            (DailyHeat::Profile(vec![(0.1, 0.0), (0.4, 1.0), (0.45, 0.5)]), 0.4),
-        ];
-        let days = [(1, 1), (7, 1), (90, 1), (90, 4), (97, 3), (402, 2), (200, 150)];
-        for ((heat, hottest), (passes, period)) in heat.iter().flat_map(|heat| days.map(|day| (heat, day))) {
-            for knots in [1, 2, 5, 16, 1000] {
-                let day = Day::new(passes, period, heat.clone(), knots).expect("a day");
-                for (cut, first) in (1..=passes).flat_map(|cut| [(cut, false), (cut, true)]) {
-                    let events = day.events(cut, first);
-                    // Straight lines and what passes do relative to them: together once the cable.
-                    for pass in 1..=cut {
-                        let parts = parts(&events, pass, period as u64);
-                        let sum: f64 = parts.iter().map(|part| part.weight).sum();
-                        assert!(f64::abs(sum - 1.0) < 1e-12, "pass {pass} of {cut}: {day:?}");
-                        let is_simulated = parts.len() == 1;
-                        assert!(!is_simulated || events[parts[0].place].passes == pass);
-                    }
-                    let last = events.iter().rfind(|event| matches!(event.act, Act::Pass(_)));
-                    assert_eq!(last.map(|event| event.passes), Some(cut), "{day:?}");
-                    // The day meets its hottest moment.
-                    let is_met = |event: &Event| event.thermal_force == heat.at(*hottest);
-                    assert!(cut < passes || events.iter().any(is_met), "{day:?}");
-                }
-            }
-        }
+    /// Whether it is the pass after which so many are done.
+    pub fn is_pass(&self, passes: u64) -> bool {
+        self.passes == passes && matches!(self.act, Act::Pass(_))
     }
 }

@@ -15,21 +15,21 @@
 //!
 //! w (Φ(v) + r) + w p + θ = K u,  u̇ = v,
 //!
-//! whose one answer lies within the limits of friction, whatever r is. r goes on half as fast as it
-//! changed from one simulated period to the next. At midnight it is forgotten: kept, it would give
-//! a day a memory, and days would never settle.
+//! whose one answer lies within the limits of friction, whatever r is. r stays as the last simulated
+//! period has shown it: led on over midnight it would give a day a memory, and days would never
+//! settle.
 //!
 //! *Limits.* As for [`crate::evolve`]; the same traffic at all hours. The number of simulated
 //! periods a day (the knots of [`Day::new`]) is the caller's: two runs with different numbers show
 //! each other's error.
 
 mod cable;
+mod calendar;
 mod day;
 mod evolve;
 mod extremes;
 mod heat;
 mod law;
-mod part;
 mod step;
 
 pub use day::Day;

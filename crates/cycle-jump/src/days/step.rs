@@ -39,28 +39,29 @@ pub struct LongStep {
 }
 
 impl LongStep {
-    /// The displacements that `u` \[m\] become over `periods`, with the thermal force \[N\] and the
-    /// defect r \[N/m\] at both [`STAGES`]; the advance is sought from that of another period on.
+    /// The displacements that `u` \[m\] become over `periods`, with the `heat` Θ \[N\] at both
+    /// [`STAGES`] and the `defect` r \[N/m\]; the advance is sought from that of another period on.
     pub fn take(
         &mut self,
         cable: &mut RestingCable,
         u: &[f64],
         periods: f64,
-        stages: [(f64, &[f64]); 2],
+        heat: [f64; 2],
+        defect: &[f64],
         advance: &[f64],
     ) -> Result<Vec<f64>, CableError> {
         let after = |u: &[f64], share: f64, v: &[f64]| -> Vec<f64> {
             u.iter().zip(v).map(|(u, v)| u + share * periods * v).collect()
         };
-        let stage = |base: Vec<f64>, (thermal_force, defect)| Stage {
+        let stage = |base: Vec<f64>, thermal_force: f64| Stage {
             base,
             reach: GAMMA * periods,
             thermal_force,
             defect,
         };
-        let first = self.solve(cable, &stage(u.to_vec(), stages[0]), advance.to_vec())?;
+        let first = self.solve(cable, &stage(u.to_vec(), heat[0]), advance.to_vec())?;
         let base = after(u, 1.0 - GAMMA, &first);
-        let second = self.solve(cable, &stage(base.clone(), stages[1]), first)?;
+        let second = self.solve(cable, &stage(base.clone(), heat[1]), first)?;
         Ok(after(&base, GAMMA, &second))
     }
 

@@ -10,16 +10,17 @@ use crate::error::wrap;
 use crate::peaks::largest_places;
 use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
-use crate::request::{Jumps, Next, Request};
+use crate::request::{Guide, Jumps, Next, Request};
 use crate::rounds::{Rounds, Settling, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
 use crate::within_jump::JumpInterval;
 
-/// The cable and the vehicles that drive over it.
-pub struct Simulation<'a, P> {
+/// A run under way: the cable and the vehicles that drive over it.
+pub struct Walk<'a, P> {
     pub request: &'a Request<'a>,
-    pub mesh: &'a Mesh,
+    pub jumps: &'a Jumps,
+    pub guide: Guide<'a>,
     pub cable: RestingCable,
     pass: P,
     wanted: BTreeSet<u64>,
@@ -27,36 +28,41 @@ pub struct Simulation<'a, P> {
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
     pub offset: f64,
     scale: Scale,
-    /// Error of a jump, as a share of what is large.
-    pub tolerance: f64,
+    /// Periods done.
+    pub done: u64,
     /// Passes simulated.
     pub simulated: u64,
+    pub schedule: Vec<u64>,
+    pub repeats: Option<(u64, f64)>,
     records: Vec<Record>,
     /// Whether all passes of the traffic are done: the caller counts no later ones.
     pub is_over: bool,
 }
 
-impl<'a, P> Simulation<'a, P> {
+impl<'a, P> Walk<'a, P> {
     /// Of `cable` on `mesh`.
     pub fn new(
         cable: &DuctedCable,
-        mesh: &'a Mesh,
+        mesh: &Mesh,
         request: &'a Request<'a>,
-        jumps: &Jumps,
+        jumps: &'a Jumps,
         pass: P,
     ) -> Result<Self, CableError> {
         let start = request.start.cloned();
         Ok(Self {
             request,
-            mesh,
+            jumps,
+            guide: request.guide,
             cable: RestingCable::new(cable, mesh)?,
             pass,
             wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
             state: start.map_or_else(|| laid(cable, mesh), Ok)?,
             offset: 0.0,
             scale: jumps.least,
-            tolerance: jumps.tolerance,
+            done: 0,
             simulated: 0,
+            schedule: Vec::new(),
+            repeats: None,
             records: Vec::new(),
             is_over: false,
         })
@@ -87,40 +93,44 @@ impl<'a, P> Simulation<'a, P> {
         });
     }
 
-    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement
-    /// as a `whole` in each \[m\].
-    pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
-        for pass in self.recorded(done, all, &largest_places(period)) {
-            let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
+    /// Takes all periods left of `all` to repeat the last one, the `period`, but for a movement as
+    /// a whole: if its advance, gone on unchanged, would change no force and no movement
+    /// noticeably. Of passes of the traffic none is taken so that the caller counts.
+    pub fn repeat(&mut self, period: &Period, all: u64) -> bool {
+        let left = all - self.done;
+        let mut change = period.rate.clone();
+        let whole = remove_mean(&self.cable, &mut change);
+        let change = left as f64 * self.shares(&change).worse();
+        let may_repeat = self.is_over || self.request.days.is_some();
+        if !may_repeat || left == 0 || change > NEGLIGIBLE * self.jumps.tolerance {
+            return false;
+        }
+        for pass in self.recorded(self.done, all, &largest_places(period)) {
+            let moved = whole * (pass.div_ceil(self.request.period()) - self.done) as f64;
             let place = phase_of(pass, period.len());
             self.record(pass, period.outcome(place).moved(moved), true);
         }
-        self.offset += whole * (all - done) as f64;
+        self.offset += whole * left as f64;
+        (self.repeats, self.done) = (Some((self.done, whole)), all);
+        true
     }
 
     /// The passes to be recorded after so many periods up to others without their simulation, where
     /// passes at these `places` show the largest of a period.
     fn recorded(&self, from: u64, to: u64, places: &BTreeSet<usize>) -> BTreeSet<u64> {
         let length = self.request.period();
-        let mut passes: BTreeSet<u64> = self
-            .wanted
-            .range((from * length + 1)..=(to * length))
-            .copied()
-            .collect();
-        for day in self
-            .request
-            .days
-            .unwrap_or(&[])
-            .iter()
-            .filter(|day| (from + 1..=to).contains(*day))
-        {
-            passes.extend(places.iter().map(|&place| (day - 1) * length + place as u64 + 1));
-        }
-        passes
+        let wanted = self.wanted.range((from * length + 1)..=(to * length));
+        let days = self.request.days.unwrap_or(&[]).iter();
+        let days = days.filter(|day| (from + 1..=to).contains(*day));
+        let of_day = |day: &u64| {
+            let begin = (day - 1) * length;
+            places.iter().map(move |&place| begin + place as u64 + 1)
+        };
+        wanted.copied().chain(days.flat_map(of_day)).collect()
     }
 }
 
-impl<E, P> Simulation<'_, P>
+impl<E, P> Walk<'_, P>
 where
     E: From<JumpError>,
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
@@ -135,12 +145,9 @@ where
         }
         period.end(self.state.displacement());
         self.cable.release(&before, &self.state);
-        if self.request.days.is_some() {
-            // In a day forces come and go.
-            (0..length).for_each(|place| self.scale.see(&period.phase(place).outcome));
+        for place in 0..length {
+            self.scale.see(&period.phase(place).outcome);
         }
-        let rest = PassOutcome::at_rest(self.cable.cable(), &self.state).map_err(wrap)?;
-        self.scale.see(&rest);
         let movement = largest(self.state.displacement()) + self.offset.abs();
         self.scale.movement = self.scale.movement.max(movement);
         Ok(period)
@@ -156,14 +163,15 @@ where
             for _ in 0..rounds.round {
                 let phase = period.len();
                 let number = after.map(|after| after + 1 + phase as u64);
-                let outcome = self.simulate(phase, number)?;
+                let outcome = self.simulate_pass(phase, number)?;
                 period.push(&self.state, outcome);
             }
             left -= 1;
             let mut change = difference(self.state.displacement(), &before);
             let whole = remove_mean(&self.cable, &mut change);
             let skipped = left.saturating_sub(1);
-            let is_settled = settling.is_settled(self.shares(&change), skipped, NEGLIGIBLE * self.tolerance);
+            let allowed = NEGLIGIBLE * self.jumps.tolerance;
+            let is_settled = settling.is_settled(self.shares(&change), skipped, allowed);
             let begin = period.len();
             let passes = begin..begin + skipped * rounds.round;
             if !is_settled || skipped == 0 || !self.may_skip(after, &passes) {
@@ -197,7 +205,7 @@ where
     }
 
     /// Simulates the pass at the place `phase` of a period and records it by its `number`.
-    fn simulate(&mut self, phase: usize, number: Option<u64>) -> Result<PassOutcome, E> {
+    fn simulate_pass(&mut self, phase: usize, number: Option<u64>) -> Result<PassOutcome, E> {
         let next = Next {
             phase,
             number: number.filter(|_| !self.is_over),
@@ -221,15 +229,14 @@ where
             passes.extend(places.iter().map(|&place| period * length + place as u64 + 1));
             period = (period + 1).max((PEAK_RATIO * period as f64) as u64);
         }
-        let passes: Vec<u64> = passes.into_iter().collect();
-        for &pass in passes.iter().filter(|pass| self.request.looked_at.contains(pass)) {
-            let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
-            let phase = phase_of(pass, self.request.order.len());
-            let number = Some(pass);
-            (self.pass)(Next { phase, number }, &mut state)?;
-        }
-        let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
-        for (pass, outcome) in passes.into_iter().zip(outcomes) {
+        for pass in passes {
+            if self.request.looked_at.contains(&pass) {
+                let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
+                let phase = phase_of(pass, self.request.order.len());
+                let number = Some(pass);
+                (self.pass)(Next { phase, number }, &mut state)?;
+            }
+            let outcome = jump.outcome(&mut self.cable, pass).map_err(wrap)?;
             self.record(pass, outcome, true);
         }
         Ok(())
