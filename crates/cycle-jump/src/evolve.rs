@@ -10,7 +10,7 @@ use crate::period::{Period, difference, remove_mean};
 use crate::record::{Beyond, Evolution};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::slope::Slope;
-use crate::tuning::{CAUTION, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH};
+use crate::tuning::{CAUTION, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH, TOLERANCE_BEYOND};
 use crate::walk::Walk;
 use crate::within_jump::JumpInterval;
 
@@ -70,6 +70,8 @@ struct Known {
     slope: Slope,
     /// Length of the next jump \[periods\].
     length: f64,
+    /// Periods before which all that is left is not tried as one jump.
+    not_before: u64,
 }
 
 impl<E, P> Walk<'_, P>
@@ -101,6 +103,7 @@ where
             slope: Slope::new(&half, &period, width, &self.cable),
             period,
             length: (self.jumps.first_jump * (first - before) as f64).max(1.0),
+            not_before: 0,
         }))
     }
 
@@ -111,16 +114,42 @@ where
             if self.simulated > most.1 {
                 return Ok(false);
             }
-            let longest = (all - self.done).saturating_sub(CHECKED);
+            let (from, left) = (self.done, all - self.done);
+            let longest = left.saturating_sub(CHECKED);
             let guided = self.guide.length(self.schedule.len());
+            let settles = longest > 0 && from >= known.not_before && self.is_settled(known, left);
+            let to_end = settles && guided.is_none();
+            if to_end {
+                known.length = longest as f64;
+                known.not_before = from.saturating_mul(2);
+            }
             let length = guided.unwrap_or(known.length as u64).min(longest);
-            if length >= SHORTEST_JUMP && self.simulated <= most.0 {
-                self.jump(known, length, all)?;
+            if to_end || length >= SHORTEST_JUMP && self.simulated <= most.0 {
+                self.jump(known, length)?;
             } else {
                 self.simulate(known)?;
             }
+            if settles && self.done == all {
+                let whole = remove_mean(&self.cable, &mut known.period.rate.clone());
+                self.repeats = Some((from, whole));
+            }
         }
         Ok(true)
+    }
+
+    /// Advance per period at the end of the last period, half a period after its middle.
+    fn rate(&mut self, known: &Known) -> Vec<f64> {
+        let mut rate = known.period.rate.clone();
+        known.slope.spread(&mut self.cable, 0.5, &mut rate);
+        rate
+    }
+
+    /// Whether forces will not change noticeably in the periods `left`.
+    fn is_settled(&mut self, known: &Known, left: u64) -> bool {
+        let rate = self.rate(known);
+        let none = vec![0.0; rate.len()];
+        let flow = Flow::new(&mut self.cable, &rate, none, known.slope.values(), left as f64);
+        self.shares(&flow.end).force < NEGLIGIBLE * self.tolerance
     }
 
     fn no_progress(&self, wanted: u64) -> JumpError {
@@ -138,6 +167,7 @@ where
     /// Goes on to the period number `last`, to see where the forces lead.
     fn follow(&mut self, mut known: Known, last: u64) -> Result<Option<Beyond>, E> {
         self.is_over = true;
+        self.tolerance *= TOLERANCE_BEYOND;
         let most = self.simulated + self.jumps.most_passes.0 / 3;
         let leads = self.until(last, &mut known, (most, most))?;
         let mut records = self.take_records();
@@ -156,13 +186,13 @@ where
         Ok(())
     }
 
-    /// Jumps over `length` periods, of `all`, simulates two more and chooses the length of the next
-    /// jump; or goes back if the error is too large.
+    /// Jumps over `length` periods, simulates two more and chooses the length of the next jump; or
+    /// goes back if the error is too large.
     ///
     /// The error of a jump grows as the square of its length: the next one is √(tolerance/error)
     /// times as long, and somewhat less for caution.
-    fn jump(&mut self, known: &mut Known, length: u64, all: u64) -> Result<(), E> {
-        let tolerance = self.jumps.tolerance;
+    fn jump(&mut self, known: &mut Known, length: u64) -> Result<(), E> {
+        let tolerance = self.tolerance;
         let (from, offset) = (self.state.clone(), self.offset);
         let (flow, missed) = self.check(known, length)?;
         let error = self.shares(&missed).worse();
@@ -179,10 +209,6 @@ where
         let begin = self.done;
         self.done += length + 1;
         let next = self.next_period()?;
-        if self.done == all && self.shares(&flow.end).force < NEGLIGIBLE * tolerance {
-            let whole = remove_mean(&self.cable, &mut next.rate.clone());
-            self.repeats = Some((begin, whole));
-        }
         let jump = JumpInterval {
             begin,
             length: length + CHECKED,
@@ -202,9 +228,7 @@ where
     /// Moves the cable over `length` periods, simulates one and learns from it: the flow as it is
     /// known then, up to the end of the jump, and what the first one had missed \[m\].
     fn check(&mut self, known: &mut Known, length: u64) -> Result<(Flow, Vec<f64>), E> {
-        // From the middle of the last period to its end.
-        let mut rate = known.period.rate.clone();
-        known.slope.spread(&mut self.cable, 0.5, &mut rate);
+        let rate = self.rate(known);
         let before = known.slope.clone();
         let none = vec![0.0; rate.len()];
         let at_end = (length + CHECKED) as f64;

@@ -28,6 +28,8 @@ pub struct Walk<'a, P> {
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
     pub offset: f64,
     scale: Scale,
+    /// Error of a jump, as a share of what is large.
+    pub tolerance: f64,
     /// Periods done.
     pub done: u64,
     /// Passes simulated.
@@ -59,6 +61,7 @@ impl<'a, P> Walk<'a, P> {
             state: start.map_or_else(|| laid(cable, mesh), Ok)?,
             offset: 0.0,
             scale: jumps.least,
+            tolerance: jumps.tolerance,
             done: 0,
             simulated: 0,
             schedule: Vec::new(),
@@ -95,14 +98,14 @@ impl<'a, P> Walk<'a, P> {
 
     /// Takes all periods left of `all` to repeat the last one, the `period`, but for a movement as
     /// a whole: if its advance, gone on unchanged, would change no force and no movement
-    /// noticeably. Of passes of the traffic none is taken so that the caller counts.
+    /// noticeably. Passes without heat that the caller counts are taken so nowhere.
     pub fn repeat(&mut self, period: &Period, all: u64) -> bool {
         let left = all - self.done;
         let mut change = period.rate.clone();
         let whole = remove_mean(&self.cable, &mut change);
         let change = left as f64 * self.shares(&change).worse();
         let may_repeat = self.is_over || self.request.days.is_some();
-        if !may_repeat || left == 0 || change > NEGLIGIBLE * self.jumps.tolerance {
+        if !may_repeat || left == 0 || change > NEGLIGIBLE * self.tolerance {
             return false;
         }
         for pass in self.recorded(self.done, all, &largest_places(period)) {
@@ -170,7 +173,7 @@ where
             let mut change = difference(self.state.displacement(), &before);
             let whole = remove_mean(&self.cable, &mut change);
             let skipped = left.saturating_sub(1);
-            let allowed = NEGLIGIBLE * self.jumps.tolerance;
+            let allowed = NEGLIGIBLE * self.tolerance;
             let is_settled = settling.is_settled(self.shares(&change), skipped, allowed);
             let begin = period.len();
             let passes = begin..begin + skipped * rounds.round;
@@ -229,14 +232,15 @@ where
             passes.extend(places.iter().map(|&place| period * length + place as u64 + 1));
             period = (period + 1).max((PEAK_RATIO * period as f64) as u64);
         }
-        for pass in passes {
-            if self.request.looked_at.contains(&pass) {
-                let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
-                let phase = phase_of(pass, self.request.order.len());
-                let number = Some(pass);
-                (self.pass)(Next { phase, number }, &mut state)?;
-            }
-            let outcome = jump.outcome(&mut self.cable, pass).map_err(wrap)?;
+        let passes: Vec<u64> = passes.into_iter().collect();
+        for &pass in passes.iter().filter(|pass| self.request.looked_at.contains(pass)) {
+            let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
+            let phase = phase_of(pass, self.request.order.len());
+            let number = Some(pass);
+            (self.pass)(Next { phase, number }, &mut state)?;
+        }
+        let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
+        for (pass, outcome) in passes.into_iter().zip(outcomes) {
             self.record(pass, outcome, true);
         }
         Ok(())

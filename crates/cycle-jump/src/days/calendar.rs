@@ -14,16 +14,6 @@ pub struct Calendar<'a> {
     last: usize,
 }
 
-/// One summand of the outcome of a pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
-    /// Number of an event.
-    pub number: u64,
-    pub weight: f64,
-    /// Whether only the cable at rest after it counts, without peaks and heat during it.
-    pub at_rest: bool,
-}
-
 impl<'a> Calendar<'a> {
     /// Days like this `day` with so many `passes` in all, at least one.
     pub fn new(day: &'a Day, passes: u64) -> Self {
@@ -52,8 +42,8 @@ impl<'a> Calendar<'a> {
         } else {
             length
         };
-        let begin = (day - 1).saturating_mul(length) + 1;
-        begin..begin + of_day
+        let begin = (day - 1).saturating_mul(length).saturating_add(1);
+        begin..begin.saturating_add(of_day)
     }
 
     /// Number of the last event.
@@ -73,22 +63,19 @@ impl<'a> Calendar<'a> {
         matches!(event.act, Act::Pass(_)).then_some(before + event.passes)
     }
 
-    /// How the outcome of `pass` follows from those of events; nothing of one that does not come.
-    /// Within a step the cable goes straight from one end to the other, and a pass does relative to
-    /// that what the same one of the nearest simulated period did.
-    pub fn parts(&self, pass: u64) -> Option<Vec<Part>> {
+    /// Numbers and weights of the events whose sum is the outcome of `pass`, of all but the last
+    /// one only as the cable is at rest after it; nothing for a pass that does not come. Within a
+    /// step the cable goes straight from one end to the other, and a pass does relative to that
+    /// what the same one of the nearest simulated period did, the last event.
+    pub fn parts(&self, pass: u64) -> Option<Vec<(u64, f64)>> {
         let before = pass.checked_sub(1).filter(|_| pass <= self.passes)? / self.day.passes();
         let numbers = self.numbers(before + 1);
         let events = &self.events[..(numbers.end - numbers.start) as usize];
-        let part = |place: usize, weight: f64, at_rest: bool| Part {
-            number: numbers.start + place as u64,
-            weight,
-            at_rest,
-        };
+        let part = |place: usize, weight: f64| (numbers.start + place as u64, weight);
         let pass = pass - before * self.day.passes();
         let passed = |passes: u64| events.iter().position(|event| event.is_pass(passes));
         if let Some(simulated) = passed(pass) {
-            return Some(vec![part(simulated, 1.0, false)]);
+            return Some(vec![part(simulated, 1.0)]);
         }
         let is_step = |event: &Event| matches!(event.act, Act::Step(..));
         let is_around = |event: &Event| is_step(event) && event.passes >= pass;
@@ -109,11 +96,11 @@ impl<'a> Calendar<'a> {
         let (begin, like, end) = after.and_then(shown).or_else(|| before.and_then(shown))?;
         let done = done as f64 / period as f64;
         Some(vec![
-            part(from, 1.0 - share, true),
-            part(to, share, true),
-            part(begin, done - 1.0, true),
-            part(end, -done, true),
-            part(like, 1.0, false),
+            part(from, 1.0 - share),
+            part(to, share),
+            part(begin, done - 1.0),
+            part(end, -done),
+            part(like, 1.0),
         ])
     }
 }
@@ -140,12 +127,12 @@ mod tests {
                     // Straight lines and what passes do relative to them: together once the cable.
                     for pass in whole + 1..=all {
                         let parts = calendar.parts(pass).expect("it comes");
-                        let sum: f64 = parts.iter().map(|part| part.weight).sum();
+                        let sum: f64 = parts.iter().map(|(_, weight)| weight).sum();
                         assert!(f64::abs(sum - 1.0) < 1e-12, "pass {pass} of {all}: {day:?}");
                         let is_simulated = parts.len() == 1;
-                        assert!(!is_simulated || calendar.pass(parts[0].number) == Some(pass));
+                        assert!(!is_simulated || calendar.pass(parts[0].0) == Some(pass));
                         let last = calendar.last_number();
-                        assert!(parts.iter().all(|part| (1..=last).contains(&part.number)));
+                        assert!(parts.iter().all(|part| (1..=last).contains(&part.0)));
                     }
                     assert!(calendar.parts(0).is_none() && calendar.parts(all + 1).is_none());
                     // The last pass is simulated, and after it at most the end of the day comes.

@@ -148,52 +148,43 @@ impl Day {
     pub(super) fn events(&self, cut: u64) -> Vec<Event> {
         let all = self.periods();
         let knots = self.simulated(((cut - 1) / self.period).min(all - 1));
+        let event = |act, thermal_force, passes, begins| Event {
+            act,
+            thermal_force,
+            passes,
+            begins,
+        };
         let mut events = Vec::new();
         for (k, &knot) in knots.iter().enumerate() {
             let mut begins = true;
             for pass in self.passes_of(knot)..self.passes_of(knot + 1) {
-                let thermal_force = self.thermal_force(pass as f64 + 0.5);
-                for thermal_force in self.turns_before(pass).into_iter().chain([thermal_force]) {
-                    events.push(Event::warm(thermal_force, pass, begins));
+                let heat = self.thermal_force(pass as f64 + 0.5);
+                for heat in self.turns_before(pass).into_iter().chain([heat]) {
+                    events.push(event(Act::Warm, heat, pass, begins));
                     begins = false;
                 }
-                let act = Act::Pass((pass % self.period) as usize);
-                events.push(Event {
-                    act,
-                    passes: pass + 1,
-                    ..Event::warm(thermal_force, pass, false)
-                });
+                let phase = (pass % self.period) as usize;
+                events.push(event(Act::Pass(phase), heat, pass + 1, false));
             }
             // Two steps to the next knot, so that passes between are known well too.
             let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(all));
             let middle = from + (to - from) / 2;
             let steps = [(from, middle), (middle, to)];
             for (from, to) in steps.into_iter().filter(|(from, to)| from < to) {
-                events.push(Event {
-                    act: Act::Step(from, to),
-                    ..Event::warm(self.heat_before(to as f64), self.passes_of(to), false)
-                });
+                let (heat, passes) = (self.heat_before(to as f64), self.passes_of(to));
+                events.push(event(Act::Step(from, to), heat, passes, false));
             }
         }
         let end = self
             .turns_before(self.passes)
             .into_iter()
             .chain([self.heat_at_midnight()]);
-        events.extend(end.map(|thermal_force| Event::warm(thermal_force, self.passes, false)));
+        events.extend(end.map(|heat| event(Act::Warm, heat, self.passes, false)));
         events
     }
 }
 
 impl Event {
-    fn warm(thermal_force: f64, passes: u64, begins: bool) -> Self {
-        Self {
-            act: Act::Warm,
-            thermal_force,
-            passes,
-            begins,
-        }
-    }
-
     /// Whether it is the pass after which so many are done.
     pub fn is_pass(&self, passes: u64) -> bool {
         self.passes == passes && matches!(self.act, Act::Pass(_))

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, laid};
 
 use super::cable::DailyCable;
-use super::calendar::{Calendar, Part};
+use super::calendar::Calendar;
 use super::day::{Act, Day};
 use super::extremes::Extremes;
 use super::law::LockedLaw;
@@ -101,7 +101,7 @@ pub fn evolve_days<E: From<JumpError>>(
     let length = calendar.events.len() as u64;
     let order: Vec<usize> = (0..calendar.events.len()).collect();
     let parts = request.wanted.iter().filter_map(|pass| calendar.parts(*pass));
-    let wanted: Vec<u64> = parts.flatten().map(|part| part.number).collect();
+    let wanted: Vec<u64> = parts.flatten().map(|(number, _)| number).collect();
     let mut jumps = *jumps;
     let (jumping, most) = jumps.most_passes;
     jumps.most_passes = (jumping.saturating_mul(length), most.saturating_mul(length));
@@ -154,7 +154,7 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    fn outcome(&self, number: u64) -> Option<&Record> {
+    fn event(&self, number: u64) -> Option<&Record> {
         let place = self.records.binary_search_by_key(&number, |record| record.pass);
         Some(&self.records[place.ok()?])
     }
@@ -166,28 +166,22 @@ impl Known<'_> {
 
     fn record(&self, pass: u64) -> Option<Record> {
         let parts = self.calendar.parts(pass)?;
-        if let [simulated] = parts[..] {
-            let record = self.outcome(simulated.number)?.clone();
-            return Some(Record { pass, ..record });
-        }
-        let outcome = |part: &Part| {
-            let outcome = &self.outcome(part.number)?.outcome;
-            let outcome = if part.at_rest {
-                left_by(outcome)
-            } else {
-                outcome.clone()
-            };
-            Some((part.weight, outcome))
+        let (like, others) = parts.split_last()?;
+        let like = self.event(like.0)?;
+        let at_rest = |(number, weight): &(u64, f64)| Some((*weight, left_by(&self.event(*number)?.outcome)));
+        let at_rest: Vec<_> = others.iter().map(at_rest).collect::<Option<_>>()?;
+        let at_rest = at_rest.iter().map(|(weight, outcome)| (*weight, outcome));
+        let summands: Vec<_> = at_rest.chain([(1.0, &like.outcome)]).collect();
+        let interpolated = summands.len() > 1;
+        let outcome = if interpolated {
+            PassOutcome::combined(&summands)
+        } else {
+            like.outcome.clone()
         };
-        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
-        let summands: Vec<_> = outcomes
-            .iter()
-            .map(|(weight, outcome)| (*weight, outcome))
-            .collect();
         Some(Record {
             pass,
-            outcome: PassOutcome::combined(&summands),
-            interpolated: true,
+            outcome,
+            interpolated: interpolated || like.interpolated,
         })
     }
 
