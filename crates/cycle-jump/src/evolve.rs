@@ -48,7 +48,6 @@ pub fn evolve<E: From<JumpError>>(
     walk.period(left, Some(all * length))?;
     let mut evolution = Evolution {
         records: walk.take_records(),
-        period: known.iter().flat_map(|known| known.period.outcomes()).collect(),
         state: std::mem::replace(&mut walk.state, whole),
         offset: walk.offset,
         repeats: walk.repeats,
@@ -164,9 +163,13 @@ where
         }
     }
 
-    /// Goes on to the period number `last`, to see where the forces lead.
+    /// Goes on to the period number `last`, to see where the forces lead, if they change any more.
     fn follow(&mut self, mut known: Known, last: u64) -> Result<Option<Beyond>, E> {
         self.is_over = true;
+        let left = last.saturating_sub(self.done);
+        if left > 0 && self.is_settled(&known, left) {
+            self.skip(&known.period, last);
+        }
         self.tolerance *= TOLERANCE_BEYOND;
         let most = self.simulated + self.jumps.most_passes.0 / 3;
         let leads = self.until(last, &mut known, (most, most))?;

@@ -20,8 +20,6 @@ pub struct Evolution {
     /// other simulated ones, and within jumps some of the vehicles that make the largest forces and
     /// movements: candidates for [`peaks`](crate::peaks).
     pub records: Vec<Record>,
-    /// What each pass of the last whole period did; empty where nothing was jumped.
-    pub period: Vec<PassOutcome>,
     /// The cable after the last pass.
     pub state: CableState,
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].

@@ -62,15 +62,10 @@ pub const PEAK_RATIO: f64 = 1.1;
 /// one.
 pub const LONGEST_ROUND: usize = 12;
 
-/// Changes from round to round fall more slowly than geometrically: what is still to come is so
-/// many times the sum of a geometric series. Half or twice: the same for rounds of one vehicle.
-pub const ROUND_TAIL: f64 = 3.0;
-
-/// Periods after a corner of the temperature, and after midnight, at which one is simulated: the
+/// Periods after midnight and after the turns of the temperature at which one is simulated: the
 /// cable turns within a few. Of 30 m with corners, 800 passes a day and 48 other periods a force is
-/// 1.5 % off; with the first alone 9 %. Of 36 m as laid under heavy traffic, 24 other periods, a
-/// force is 0.9 % off.
-pub const AFTER_A_TURN: [u64; 6] = [0, 1, 2, 4, 8, 16];
+/// 1.5 % off; with the first alone 9 %.
+pub const AFTER_A_TURN: [u64; 7] = [0, 1, 2, 3, 4, 8, 16];
 
 /// Tolerance of jumps beyond the last pass, relative to that before: where the forces lead hardly
 /// depends on the way but near shakedown. A quarter of a tolerance takes 1.4 to 1.6 times the

@@ -11,7 +11,7 @@ use crate::peaks::largest_places;
 use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
 use crate::request::{Guide, Jumps, Next, Request};
-use crate::rounds::{Rounds, Settling, rounds};
+use crate::rounds::{Rounds, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
 use crate::within_jump::JumpInterval;
@@ -96,26 +96,39 @@ impl<'a, P> Walk<'a, P> {
         });
     }
 
-    /// Takes all periods left of `all` to repeat the last one, the `period`, but for a movement as
-    /// a whole: if its advance, gone on unchanged, would change no force and no movement
-    /// noticeably. Passes without heat that the caller counts are taken so nowhere.
+    /// The one rule by which passes repeat those before them: whether their advance \[m\], gone on
+    /// unchanged so many times, would change no force and no movement noticeably, and its movement
+    /// as a whole \[m\].
+    fn will_repeat(&self, mut advance: Vec<f64>, times: u64) -> (bool, f64) {
+        let whole = remove_mean(&self.cable, &mut advance);
+        let change = times as f64 * self.shares(&advance).worse();
+        (change <= NEGLIGIBLE * self.tolerance, whole)
+    }
+
+    /// Takes all days left of `all` to repeat the last one, the `period`, if they do.
     pub fn repeat(&mut self, period: &Period, all: u64) -> bool {
         let left = all - self.done;
-        let mut change = period.rate.clone();
-        let whole = remove_mean(&self.cable, &mut change);
-        let change = left as f64 * self.shares(&change).worse();
-        let may_repeat = self.is_over || self.request.days.is_some();
-        if !may_repeat || left == 0 || change > NEGLIGIBLE * self.tolerance {
-            return false;
+        let (repeats, _) = self.will_repeat(period.rate.clone(), left);
+        let repeats = repeats && left > 0 && self.request.days.is_some();
+        if repeats {
+            let done = self.done;
+            self.repeats = Some((done, self.skip(period, all)));
         }
+        repeats
+    }
+
+    /// Lets the periods up to `all` repeat the last one, the `period`, but for a movement as a
+    /// whole, which is returned \[m\].
+    pub fn skip(&mut self, period: &Period, all: u64) -> f64 {
+        let whole = remove_mean(&self.cable, &mut period.rate.clone());
         for pass in self.recorded(self.done, all, &largest_places(period)) {
             let moved = whole * (pass.div_ceil(self.request.period()) - self.done) as f64;
             let place = phase_of(pass, period.len());
             self.record(pass, period.outcome(place).moved(moved), true);
         }
-        self.offset += whole * left as f64;
-        (self.repeats, self.done) = (Some((self.done, whole)), all);
-        true
+        self.offset += whole * (all - self.done) as f64;
+        self.done = all;
+        whole
     }
 
     /// The passes to be recorded after so many periods up to others without their simulation, where
@@ -156,10 +169,8 @@ where
         Ok(period)
     }
 
-    /// Simulates rounds of a `period`. Once they will change less than a small part of the
-    /// tolerance, all but the last count as done.
+    /// Simulates rounds of a `period`. Once they repeat each other, all but the last count as done.
     fn rounds(&mut self, rounds: Rounds, after: Option<u64>, period: &mut Period) -> Result<(), E> {
-        let mut settling = Settling::default();
         let mut left = rounds.times;
         while left > 0 {
             let before = self.state.displacement().to_vec();
@@ -170,14 +181,12 @@ where
                 period.push(&self.state, outcome);
             }
             left -= 1;
-            let mut change = difference(self.state.displacement(), &before);
-            let whole = remove_mean(&self.cable, &mut change);
             let skipped = left.saturating_sub(1);
-            let allowed = NEGLIGIBLE * self.tolerance;
-            let is_settled = settling.is_settled(self.shares(&change), skipped, allowed);
+            let advance = difference(self.state.displacement(), &before);
+            let (repeats, whole) = self.will_repeat(advance, skipped as u64);
             let begin = period.len();
             let passes = begin..begin + skipped * rounds.round;
-            if !is_settled || skipped == 0 || !self.may_skip(after, &passes) {
+            if !repeats || skipped == 0 || !self.may_skip(after, &passes) {
                 continue;
             }
             for place in passes {

@@ -21,13 +21,13 @@ pub struct DailyCable<'a, P> {
     /// What the last simulated period before a step has shown: the advance of every node \[m\], and
     /// the friction that the law missed \[N/m\].
     measured: Option<(Vec<f64>, Vec<f64>)>,
-    /// The cable when it was hottest and coldest on the day under way, and after the last pass.
+    /// The cable when it was hottest and coldest on the day under way, and after the last pass, or
+    /// before there is any.
     pub hot: CableState,
     pub cold: CableState,
     pub end: CableState,
     /// Passes simulated.
     pub simulated: u64,
-    pub simulated_days: u64,
 }
 
 impl<'a, E, P> DailyCable<'a, P>
@@ -35,17 +35,21 @@ where
     E: From<JumpError>,
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 {
+    /// The `cable` at the temperature of midnight, as laid or as in `start`.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
         calendar: &'a Calendar<'a>,
         law: LockedLaw,
+        start: Option<&CableState>,
         pass: P,
     ) -> Result<Self, CableError> {
-        let state = laid(cable, mesh)?;
+        let mut state = start.cloned().map_or_else(|| laid(cable, mesh), Ok)?;
+        let mut cable = RestingCable::new(cable, mesh)?;
+        cable.warm(&mut state, calendar.day.heat_at_midnight())?;
         Ok(Self {
             calendar,
-            cable: RestingCable::new(cable, mesh)?,
+            cable,
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
@@ -54,14 +58,7 @@ where
             cold: state.clone(),
             end: state,
             simulated: 0,
-            simulated_days: 0,
         })
-    }
-
-    /// Brings the cable to the temperature of midnight.
-    pub fn begin(&mut self, state: &mut CableState) -> Result<PassOutcome, CableError> {
-        self.cable.warm(state, self.calendar.day.heat_at_midnight())?;
-        PassOutcome::at_rest(self.cable.cable(), state)
     }
 
     /// Lets the `next` event happen; one without a number only measures.
@@ -91,7 +88,6 @@ where
             }
         };
         let begins_day = next.phase == 0;
-        self.simulated_days += u64::from(begins_day && next.number.is_some());
         let force = state.thermal_force();
         if begins_day || force > self.hot.thermal_force() {
             self.hot.clone_from(state);
@@ -109,14 +105,14 @@ where
             self.cable.release(&before, state);
             self.measured = Some(self.measure(before.displacement(), state));
         }
-        let Some((advance, defect)) = &self.measured else {
+        let Some(measured) = &self.measured else {
             return Ok(());
         };
         let periods = (to - from) as f64;
         let day = self.calendar.day;
         let heat = STAGES.map(|share| day.heat_before(from as f64 + share * periods));
         let (cable, u) = (&mut self.cable, state.displacement());
-        let u = self.step.take(cable, u, periods, heat, defect, advance)?;
+        let u = self.step.take(cable, u, periods, heat, measured)?;
         *state = cable.moved(state, u)?.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }

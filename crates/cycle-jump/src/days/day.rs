@@ -118,36 +118,34 @@ impl Day {
         turns.map(|time| self.heat.at(time)).collect()
     }
 
-    /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature,
-    /// after its corners and after midnight, when the first day finds the cable as laid, the `cut`
-    /// one at which the last day ends, and the last.
-    fn simulated(&self, cut: u64) -> Vec<u64> {
+    /// Periods of a day that are simulated, ascending: evenly, after midnight, when the first day
+    /// finds the cable as laid, after the turns of the temperature, the `cut` one at which the last
+    /// day ends, and the last.
+    fn simulated(&self, cut: u64) -> BTreeSet<u64> {
         let all = self.periods();
         if self.is_simulated() {
             return (0..all).collect();
         }
         let evenly = |k: u64| (k as f64 * all as f64 / self.knots as f64).round() as u64;
         let mut knots: BTreeSet<u64> = (0..self.knots).map(evenly).chain([cut, all - 1]).collect();
-        knots.extend(AFTER_A_TURN);
-        let after = if self.heat.has_corners() {
-            &AFTER_A_TURN[..]
-        } else {
-            &[0]
-        };
-        for time in self.heat.turns() {
+        for turn in self.heat.turns().into_iter().chain([0.0]) {
             // A turn comes before the first pass after it.
-            let next = (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
+            let next = (turn * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
             let turn = (next / self.period).min(all - 1);
-            knots.extend(after.iter().map(|after| turn + after));
+            knots.extend(AFTER_A_TURN.iter().map(|after| turn + after));
         }
-        knots.into_iter().filter(|knot| *knot < all).collect()
+        knots.retain(|knot| *knot < all);
+        knots
     }
 
     /// What happens in a day, which ends at the temperature of its beginning; its pass number `cut`
     /// is simulated in any case.
     pub(super) fn events(&self, cut: u64) -> Vec<Event> {
         let all = self.periods();
-        let knots = self.simulated(((cut - 1) / self.period).min(all - 1));
+        let mut knots = self
+            .simulated(((cut - 1) / self.period).min(all - 1))
+            .into_iter()
+            .peekable();
         let event = |act, thermal_force, passes, begins| Event {
             act,
             thermal_force,
@@ -155,7 +153,7 @@ impl Day {
             begins,
         };
         let mut events = Vec::new();
-        for (k, &knot) in knots.iter().enumerate() {
+        while let Some(knot) = knots.next() {
             let mut begins = true;
             for pass in self.passes_of(knot)..self.passes_of(knot + 1) {
                 let heat = self.thermal_force(pass as f64 + 0.5);
@@ -167,7 +165,7 @@ impl Day {
                 events.push(event(Act::Pass(phase), heat, pass + 1, false));
             }
             // Two steps to the next knot, so that passes between are known well too.
-            let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(all));
+            let (from, to) = (knot + 1, knots.peek().copied().unwrap_or(all));
             let middle = from + (to - from) / 2;
             let steps = [(from, middle), (middle, to)];
             for (from, to) in steps.into_iter().filter(|(from, to)| from < to) {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, laid};
+use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome};
 
 use super::cable::DailyCable;
 use super::calendar::Calendar;
@@ -94,10 +94,10 @@ pub fn evolve_days<E: From<JumpError>>(
 ) -> Result<Days, E> {
     check("passes", request.passes > 0, "at least one")?;
     let calendar = Calendar::new(day, request.passes);
-    let mut daily = DailyCable::new(cable, mesh, &calendar, law, pass).map_err(wrap)?;
-    let start = request.start.cloned();
-    let mut state = start.map_or_else(|| laid(cable, mesh), Ok).map_err(wrap)?;
-    let begin = daily.begin(&mut state).map_err(wrap)?;
+    let daily = DailyCable::new(cable, mesh, &calendar, law, request.start, pass);
+    let mut daily = daily.map_err(wrap)?;
+    let state = daily.end.clone();
+    let begin = PassOutcome::at_rest(cable, &state).map_err(wrap)?;
     let length = calendar.events.len() as u64;
     let order: Vec<usize> = (0..calendar.events.len()).collect();
     let parts = request.wanted.iter().filter_map(|pass| calendar.parts(*pass));
@@ -121,7 +121,8 @@ pub fn evolve_days<E: From<JumpError>>(
         begin,
         records: &evolution.records,
     };
-    let records = known.records_of(request.wanted);
+    let records = request.wanted.iter().filter_map(|pass| known.record(*pass));
+    let records: Vec<Record> = records.collect();
     Ok(Days {
         peaks: known.peaks(&records),
         records,
@@ -138,7 +139,7 @@ pub fn evolve_days<E: From<JumpError>>(
         cold: daily.cold,
         state: daily.end,
         simulated: daily.simulated,
-        simulated_days: daily.simulated_days,
+        simulated_days: known.simulated_days(),
         schedule: evolution.schedule,
         sweeps: daily.step.sweeps,
     })
@@ -159,11 +160,7 @@ impl Known<'_> {
         Some(&self.records[place.ok()?])
     }
 
-    /// What the `wanted` passes did, of those that come.
-    fn records_of(&self, wanted: &[u64]) -> Vec<Record> {
-        wanted.iter().filter_map(|pass| self.record(*pass)).collect()
-    }
-
+    /// What a pass did, if it comes.
     fn record(&self, pass: u64) -> Option<Record> {
         let parts = self.calendar.parts(pass)?;
         let (like, others) = parts.split_last()?;
@@ -199,6 +196,12 @@ impl Known<'_> {
         };
         let others = self.records.iter().filter_map(other);
         peaks(&simulated.cloned().collect::<Vec<_>>(), others.collect())
+    }
+
+    fn simulated_days(&self) -> u64 {
+        let first_of_day = |record: &&Record| (record.pass - 1) % self.calendar.events.len() as u64 == 0;
+        let simulated = self.records.iter().filter(|record| !record.interpolated);
+        simulated.filter(first_of_day).count() as u64
     }
 
     /// What is known of a day.
