@@ -8,6 +8,7 @@ use super::law::LockedLaw;
 use super::step::{LongStep, STAGES};
 use crate::error::wrap;
 use crate::period::difference;
+use crate::tuning::DEFECT_GROWTH;
 use crate::{JumpError, Next};
 
 /// Does what happens; its pass is the caller's.
@@ -18,9 +19,8 @@ pub struct DailyCable<'a, P> {
     pass: P,
     /// The cable before the last simulated period, if no step has used that period yet.
     before: Option<CableState>,
-    /// What the last simulated period before a step has shown: the advance of every node \[m\], and
-    /// the friction that the law missed \[N/m\].
-    measured: Option<(Vec<f64>, Vec<f64>)>,
+    /// What the last two simulated periods before steps have shown on this day, the later one first.
+    measured: [Option<Measured>; 2],
     /// The cable when it was hottest and coldest on the day under way, and after the last pass, or
     /// before there is any.
     pub hot: CableState,
@@ -28,6 +28,29 @@ pub struct DailyCable<'a, P> {
     pub end: CableState,
     /// Passes simulated.
     pub simulated: u64,
+}
+
+/// What a simulated period has shown.
+struct Measured {
+    /// When it ended \[periods of the day\].
+    time: f64,
+    /// Advance of every node in it \[m\].
+    advance: Vec<f64>,
+    /// Friction that the law missed \[N/m\].
+    defect: Vec<f64>,
+}
+
+impl Measured {
+    /// What the law misses at a later `time`, as the `earlier` period lets expect it \[N/m\].
+    fn defect_at(&self, time: f64, earlier: Option<&Self>) -> Vec<f64> {
+        let Some(earlier) = earlier else {
+            return self.defect.clone();
+        };
+        let ahead = ((time - self.time) / (self.time - earlier.time)).min(1.0);
+        let both = self.defect.iter().zip(&earlier.defect);
+        both.map(|(last, earlier)| last + DEFECT_GROWTH * ahead * (last - earlier))
+            .collect()
+    }
 }
 
 impl<'a, E, P> DailyCable<'a, P>
@@ -53,7 +76,7 @@ where
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
-            measured: None,
+            measured: [None, None],
             hot: state.clone(),
             cold: state.clone(),
             end: state,
@@ -64,6 +87,10 @@ where
     /// Lets the `next` event happen; one without a number only measures.
     pub fn happen(&mut self, next: Next, state: &mut CableState) -> Result<PassOutcome, E> {
         let event = self.calendar.events[next.phase];
+        let begins_day = next.phase == 0;
+        if begins_day {
+            self.measured = [None, None];
+        }
         if event.begins {
             self.before = Some(state.clone());
         }
@@ -87,7 +114,6 @@ where
                 PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)?
             }
         };
-        let begins_day = next.phase == 0;
         let force = state.thermal_force();
         if begins_day || force > self.hot.thermal_force() {
             self.hot.clone_from(state);
@@ -99,26 +125,30 @@ where
     }
 
     /// The periods from `from` to `to` in one step, with the friction that the law misses as the
-    /// simulated one before them has shown it.
+    /// simulated ones before them have shown it.
     fn step(&mut self, event: &Event, from: u64, to: u64, state: &mut CableState) -> Result<(), CableError> {
         if let Some(before) = self.before.take() {
             self.cable.release(&before, state);
-            self.measured = Some(self.measure(before.displacement(), state));
+            let measured = self.measure(before.displacement(), from as f64, state);
+            self.measured = [Some(measured), self.measured[0].take()];
         }
-        let Some(measured) = &self.measured else {
+        let [Some(last), earlier] = &self.measured else {
             return Ok(());
         };
-        let periods = (to - from) as f64;
-        let day = self.calendar.day;
-        let heat = STAGES.map(|share| day.heat_before(from as f64 + share * periods));
+        let (periods, day) = ((to - from) as f64, self.calendar.day);
+        let stages = STAGES.map(|share| {
+            let time = from as f64 + share * periods;
+            (day.heat_before(time), last.defect_at(time, earlier.as_ref()))
+        });
         let (cable, u) = (&mut self.cable, state.displacement());
-        let u = self.step.take(cable, u, periods, heat, measured)?;
+        let u = self.step.take(cable, u, periods, &stages, &last.advance)?;
         *state = cable.moved(state, u)?.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }
 
-    /// What the period has shown that began with the displacements `before` and ended in `state`.
-    fn measure(&mut self, before: &[f64], state: &CableState) -> (Vec<f64>, Vec<f64>) {
+    /// What the period has shown that began with the displacements `before` and ended in `state` at
+    /// this time.
+    fn measure(&mut self, before: &[f64], time: f64, state: &CableState) -> Measured {
         let advance = difference(state.displacement(), before);
         let mut defect = vec![0.0; advance.len()];
         let (u, thermal_force) = (state.displacement(), state.thermal_force());
@@ -126,6 +156,10 @@ where
         for (i, (defect, v)) in defect.iter_mut().zip(&advance).enumerate() {
             *defect -= self.step.law.friction(*v, self.cable.limit(i));
         }
-        (advance, defect)
+        Measured {
+            time,
+            advance,
+            defect,
+        }
     }
 }

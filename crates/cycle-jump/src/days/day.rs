@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::heat::DailyHeat;
 use crate::JumpError;
 use crate::error::check;
-use crate::tuning::AFTER_A_TURN;
+use crate::tuning::AFTER_A_CORNER;
 
 /// With knots beyond this share of all periods a step would be no longer than a period: every one
 /// is simulated.
@@ -119,8 +119,8 @@ impl Day {
     }
 
     /// Periods of a day that are simulated, ascending: evenly, after midnight, when the first day
-    /// finds the cable as laid, after the turns of the temperature, the `cut` one at which the last
-    /// day ends, and the last.
+    /// finds the cable as laid, at the turns of the temperature and after its corners, the `cut` one
+    /// at which the last day ends, and the last.
     fn simulated(&self, cut: u64) -> BTreeSet<u64> {
         let all = self.periods();
         if self.is_simulated() {
@@ -128,11 +128,17 @@ impl Day {
         }
         let evenly = |k: u64| (k as f64 * all as f64 / self.knots as f64).round() as u64;
         let mut knots: BTreeSet<u64> = (0..self.knots).map(evenly).chain([cut, all - 1]).collect();
-        for turn in self.heat.turns().into_iter().chain([0.0]) {
+        knots.extend(AFTER_A_CORNER);
+        let after = if self.heat.has_corners() {
+            &AFTER_A_CORNER[..]
+        } else {
+            &[0]
+        };
+        for turn in self.heat.turns() {
             // A turn comes before the first pass after it.
             let next = (turn * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
             let turn = (next / self.period).min(all - 1);
-            knots.extend(AFTER_A_TURN.iter().map(|after| turn + after));
+            knots.extend(after.iter().map(|after| turn + after));
         }
         knots.retain(|knot| *knot < all);
         knots

@@ -75,6 +75,11 @@ impl DailyHeat {
             }
         }
     }
+
+    /// Whether it has corners, at which its rate of change jumps.
+    pub(super) fn has_corners(&self) -> bool {
+        matches!(self, Self::Profile(_))
+    }
 }
 
 #[cfg(test)]

@@ -15,9 +15,9 @@
 //!
 //! w (Φ(v) + r) + w p + θ = K u,  u̇ = v,
 //!
-//! whose one answer lies within the limits of friction, whatever r is. r stays as the last simulated
-//! period has shown it: led on over midnight it would give a day a memory, and days would never
-//! settle.
+//! whose one answer lies within the limits of friction, whatever r is. r goes on half as fast as it
+//! changed from one simulated period to the next. At midnight it is forgotten: kept, it would give
+//! a day a memory, and days would never settle.
 //!
 //! *Limits.* As for [`crate::evolve`]; the same traffic at all hours. The number of simulated
 //! periods a day (the knots of [`Day::new`]) is the caller's: two runs with different numbers show

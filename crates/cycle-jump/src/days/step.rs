@@ -40,29 +40,29 @@ pub struct LongStep {
 }
 
 impl LongStep {
-    /// The displacements that `u` \[m\] become over `periods`, with the `heat` Θ \[N\] at both
-    /// [`STAGES`] and the `defect` r \[N/m\]; the advance is sought from that of another period on.
+    /// The displacements that `u` \[m\] become over `periods`, with Θ \[N\] and the defect r \[N/m\]
+    /// at both [`STAGES`]; the advance is sought from that of another period on.
     pub fn take(
         &mut self,
         cable: &mut RestingCable,
         u: &[f64],
         periods: f64,
-        heat: [f64; 2],
-        (advance, defect): &(Vec<f64>, Vec<f64>),
+        stages: &[(f64, Vec<f64>); 2],
+        advance: &[f64],
     ) -> Result<Vec<f64>, CableError> {
         let after = |u: &[f64], share: f64, v: &[f64]| -> Vec<f64> {
             u.iter().zip(v).map(|(u, v)| u + share * periods * v).collect()
         };
-        let stage = |base, thermal_force| Stage {
+        let stage = |base, place: usize| Stage {
             law: &self.law,
             base,
             reach: GAMMA * periods,
-            thermal_force,
-            defect,
+            thermal_force: stages[place].0,
+            defect: &stages[place].1,
         };
-        let first = stage(u, heat[0]).solve(cable, advance.clone(), &mut self.sweeps)?;
+        let first = stage(u, 0).solve(cable, advance.to_vec(), &mut self.sweeps)?;
         let base = after(u, 1.0 - GAMMA, &first);
-        let second = stage(&base, heat[1]).solve(cable, first, &mut self.sweeps)?;
+        let second = stage(&base, 1).solve(cable, first, &mut self.sweeps)?;
         Ok(after(&base, GAMMA, &second))
     }
 }
