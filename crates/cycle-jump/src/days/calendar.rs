@@ -83,7 +83,7 @@ impl<'a> Calendar<'a> {
         let from = to.checked_sub(1)?;
         let share = (pass - events[from].passes) as f64 / (events[to].passes - events[from].passes) as f64;
         // The period after the step where that is nearer and whole, or the one before it.
-        let period = self.day.period();
+        let period = self.day.period;
         let done = (pass - 1) % period + 1;
         let after = events[to..].iter().position(|event| event.begins);
         let after = after.filter(|_| is_step(&events[from])).map(|place| to + place);

@@ -7,15 +7,12 @@ use crate::JumpError;
 use crate::error::check;
 use crate::tuning::AFTER_A_CORNER;
 
-/// With knots beyond this share of all periods a step would be no longer than a period: every one
-/// is simulated.
-const NEARLY_ALL: f64 = 0.5;
-
 /// A day of traffic and heat: passes evenly over the day, the first after half an interval.
 #[derive(Debug, Clone)]
 pub struct Day {
     passes: u64,
-    period: u64,
+    /// Passes of a period.
+    pub(super) period: u64,
     heat: DailyHeat,
     knots: u64,
 }
@@ -70,19 +67,15 @@ impl Day {
         self.passes
     }
 
-    /// Passes of a period.
-    pub(super) fn period(&self) -> u64 {
-        self.period
-    }
-
     /// Periods of a day.
     pub fn periods(&self) -> u64 {
         self.passes / self.period
     }
 
-    /// Whether every period of a day is simulated.
+    /// Whether every period of a day is simulated: with half of them knots, a step would be no
+    /// longer than a period.
     pub fn is_simulated(&self) -> bool {
-        self.knots as f64 >= NEARLY_ALL * self.periods() as f64
+        self.knots >= self.periods().div_ceil(2)
     }
 
     /// Passes done when `periods` of the day are: the last one is longer.
