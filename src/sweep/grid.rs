@@ -11,7 +11,7 @@ use super::point::PointLimits;
 use super::samples::Samples;
 use creepage_run::hash::fnv1a;
 
-use crate::scene::{SceneError, TypedValue, Wrong, WrongKind, did_you_mean, nearest_key};
+use crate::scene::{SceneError, Wrong, WrongKind, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -304,7 +304,7 @@ impl Sweep {
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
         let typed = self.file.typed().into_iter();
-        let scene: Vec<_> = typed.map(|typed| (typed.key, typed.value)).collect();
+        let scene: Vec<_> = typed.map(|typed| (typed.key, typed.text)).collect();
         let files = self.files().into_iter();
         let files: Vec<_> = files.map(|file| std::fs::read(file).ok()).collect();
         let Self {
@@ -327,9 +327,7 @@ fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
         .filter(|_| by_row)
         .map_or(1, |axis| axis.values.len());
     for typed in file.typed() {
-        let (key, TypedValue::Text(text)) = (typed.key, typed.value) else {
-            continue;
-        };
+        let (key, text) = (typed.key, typed.text);
         if drawn(&key, &text).is_none() {
             continue;
         }

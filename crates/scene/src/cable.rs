@@ -8,8 +8,9 @@ use crate::key::Form::Number;
 use crate::key::keys;
 use crate::range::{
     AXIAL_STIFFNESS, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, Quantity,
-    SHAPE_FACTOR, WEIGHT, shown,
+    SHAPE_FACTOR, WEIGHT,
 };
+use crate::shown::shown;
 use crate::words::file_words;
 
 keys! {

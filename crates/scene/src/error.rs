@@ -12,14 +12,8 @@ pub enum SceneError {
     /// The file of this name cannot be read, and why.
     #[error("{0}: cannot be read")]
     Unreadable(String, #[source] std::io::Error),
-    /// The file of this name is far larger than any scene; the largest size allowed \[bytes\].
-    #[error("{0}: found more than {1} bytes; allowed: a scene file of at most {1} bytes")]
-    TooLarge(String, u64),
-    /// The file is not UTF-8 text here.
-    #[error("{0}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{excerpt}", excerpt = .0.excerpt())]
-    NotUtf8(Location),
     /// The file is not TOML.
-    #[error("{location}: not valid TOML: {}{}", shortened(.message, LONGEST_LIST), .location.excerpt())]
+    #[error("{location}: not valid TOML: {}; quantities stand in quotes, decimals have a point: \"1.2 m\"{}", shortened(.message, LONGEST), .location.excerpt())]
     Syntax {
         /// Where.
         location: Location,
@@ -57,17 +51,12 @@ pub enum WrongKind {
     MissingKey,
     /// An override is not `KEY=VALUE`, or there is nothing at its key.
     Override,
-    /// The value is of the wrong type, such as a text in place of a list, or contradicts another one.
+    /// The value is of the wrong type or unit, is outside its range, or contradicts another one.
     Value,
-    /// The unit is missing, not known, or one of another dimension: which of them.
-    Unit(String),
-    /// The value is outside its range, or not a finite number.
-    OutOfRange,
 }
 
-/// Longest list of what is allowed, which may be one of names from the scene, and longest text that is repeated \[characters\].
-const LONGEST_LIST: usize = 1000;
-const LONGEST_TEXT: usize = 300;
+/// Longest text of a scene, or list of its names, that is repeated \[characters\].
+const LONGEST: usize = 1000;
 
 impl SceneError {
     /// What is wrong at a key, without the place where it stands.
@@ -87,7 +76,7 @@ impl SceneError {
         }))
     }
 
-    /// A value that is of the wrong type, or contradicts another one.
+    /// A value that is wrong.
     pub(crate) fn value(key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
         Self::wrong(WrongKind::Value, key, found, allowed)
     }
@@ -108,8 +97,8 @@ impl SceneError {
     /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
     pub fn location(&self) -> Option<&Location> {
         match self {
-            Self::Unreadable(..) | Self::TooLarge(..) => None,
-            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
+            Self::Unreadable(..) => None,
+            Self::Syntax { location, .. } => Some(location),
             Self::Wrong(wrong) => wrong.location.as_ref(),
         }
     }
@@ -117,24 +106,20 @@ impl SceneError {
 
 impl fmt::Display for Wrong {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let key = format!("`{}`{}", shortened(&self.key, LONGEST_TEXT), counted(&self.key));
-        let found = shortened(&self.found, LONGEST_TEXT);
+        let key = format!("`{}`{}", shortened(&self.key, LONGEST), counted(&self.key));
+        let [found, allowed] = [&self.found, &self.allowed].map(|text| shortened(text, LONGEST));
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
-        let what = match &self.kind {
-            WrongKind::UnknownKey => format!("found unknown key {key}{found}"),
-            WrongKind::MissingKey => format!("key {key} is missing"),
-            WrongKind::Unit(problem) => format!("{key}: {}: found {found}", shortened(problem, LONGEST_TEXT)),
-            WrongKind::OutOfRange => format!("{key}: out of range: found {found}"),
-            WrongKind::Override | WrongKind::Value => format!("{key}: found {found}"),
-        };
-        let excerpt = self.location.as_ref().map_or_else(String::new, Location::excerpt);
-        write!(
-            f,
-            "{what}; allowed: {}{excerpt}",
-            shortened(&self.allowed, LONGEST_LIST)
-        )
+        match self.kind {
+            WrongKind::UnknownKey => write!(f, "found unknown key {key}{found}"),
+            WrongKind::MissingKey => write!(f, "key {key} is missing"),
+            WrongKind::Override | WrongKind::Value => write!(f, "{key}: found {found}"),
+        }?;
+        write!(f, "; allowed: {allowed}")?;
+        self.location
+            .as_ref()
+            .map_or(Ok(()), |location| f.write_str(&location.excerpt()))
     }
 }
 
@@ -142,7 +127,6 @@ impl std::error::Error for Wrong {}
 
 /// What was probably meant, in words.
 pub fn did_you_mean(suggestion: Option<&str>) -> String {
-    suggestion.map_or_else(String::new, |word| {
-        format!(" (did you mean `{}`?)", shortened(word, LONGEST_TEXT))
-    })
+    let words = |word| format!(" (did you mean `{}`?)", shortened(word, LONGEST));
+    suggestion.map_or_else(String::new, words)
 }

@@ -2,13 +2,14 @@
 
 use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 
-use crate::content::Content;
+use crate::content::{Content, Node};
+use crate::error::SceneError;
 use crate::key::Form::{Either, List, Number, Table};
 use crate::key::{Form, Key, keys};
 use crate::range::{
     LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, VERTICAL_PEAK,
 };
-use crate::stored::{Stored, value};
+use crate::stored::{Entries, Stored};
 use crate::words::file_words;
 
 keys! {
@@ -51,25 +52,23 @@ const LAYER_MODULUS: Form = Either(
         Key::required("top", TOP, Number(MODULUS_AT_AN_END)),
         Key::required("bottom", "The same at the bottom.", Number(MODULUS_AT_AN_END)),
     ],
-    None,
 );
 
 impl Stored for Modulus {
-    fn read(content: &Content) -> Option<Self> {
-        match content.as_number() {
-            Some(modulus) => Some(Self::Uniform(modulus)),
-            None => Some(Self::Linear {
-                top: value(content, "top", None)?,
-                bottom: value(content, "bottom", None)?,
-            }),
+    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
+        if !matches!(node.content, Content::Table(_)) {
+            return f64::read(node, form, path).map(Self::Uniform);
         }
+        let table = Entries::of(node, form, path)?;
+        let (top, bottom) = (table.value("top", None)?, table.value("bottom", None)?);
+        Ok(Self::Linear { top, bottom })
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, form: Form) -> Content {
         match self {
-            Self::Uniform(modulus) => modulus.write(),
+            Self::Uniform(modulus) => modulus.write(form),
             Self::Linear { top, bottom } => {
-                Content::table([("top", top.write()), ("bottom", bottom.write())])
+                Content::table([("top", top.write(form)), ("bottom", bottom.write(form))])
             }
         }
     }
@@ -91,7 +90,7 @@ pub enum GroundModel {
 
 file_words! {
     GroundModel: Auto "auto", Boussinesq "boussinesq", Burmister "burmister", FiniteElements "fem";
-    but "odemark": "the exact \"burmister\" costs no more than this approximation, which is no longer there"
+    "; odemark is no longer there: the exact \"burmister\" costs no more than that approximation"
 }
 
 /// A measured peak displacement of the duct that the ground model is scaled to.

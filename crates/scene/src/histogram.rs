@@ -18,7 +18,7 @@ keys! {
     /// The name of a table of axle loads, and how it is to be read where that is not recognised.
     pub struct Histogram {
         /// The table, from the folder of the scene on.
-        file: String = FILE;
+        file: String = Text("the name of a table, such as \"axles.csv\"");
         /// What stands between its cells.
         separator: Option<String> = Text("comma, semicolon, tab, space or |, in quotes"), "recognised";
         /// What stands before its decimals.
@@ -42,10 +42,9 @@ keys! {
     }
 }
 
-const FILE: Form = Text("the name of a table, such as \"axles.csv\"");
 const TEXT: Form = Text("a text in quotes");
 /// The name of a table of axles, or a table that says how it is to be read.
-pub const HISTOGRAM: Form = Either(&FILE, Histogram::KEYS, Some(NAME_OR_TABLE));
+pub const HISTOGRAM: Form = Either(&Text(NAME_OR_TABLE), Histogram::KEYS);
 const NAME_OR_TABLE: &str = "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, or { file = \
                              \"axles.csv\", decimal = \"comma\" }";
 
@@ -121,7 +120,12 @@ pub fn beside(name: &str, text: &str) -> PathBuf {
 impl Histogram {
     fn options(&self) -> Result<Options, SceneError> {
         let mut options = Options::default();
-        for entry in self.write().entries().iter().filter(|entry| entry.key != "file") {
+        for entry in self
+            .write(HISTOGRAM)
+            .entries()
+            .iter()
+            .filter(|entry| entry.key != "file")
+        {
             let text = match &entry.value.content {
                 Content::Whole(number) => number.to_string(),
                 content => content.as_text().unwrap_or_default().to_owned(),

@@ -3,8 +3,9 @@
 use toml::de::DeTable;
 
 use crate::content::{Content, Entry, Node, Place, joined};
-use crate::document::{Document, node};
 use crate::error::{SceneError, WrongKind};
+use crate::file::SceneFile;
+use crate::parsed::node;
 use crate::rivals::gives_way;
 
 /// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
@@ -13,15 +14,15 @@ const DEEPEST: usize = 8;
 /// What was found, and what is allowed.
 type Refused = (String, String);
 
-/// Sets one key of the document, or removes it if the value is empty.
-pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
-    let source = document.add(format!("--set {text}"), text, false);
+/// Sets one key of the file, or removes it if the value is empty.
+pub fn apply(file: &mut SceneFile, text: &str) -> Result<(), SceneError> {
+    let source = file.add(format!("--set {text}"), text, false);
     let key = text.split('=').next().unwrap_or_default();
     let bytes = 0..key.len();
     let place = Place { source, bytes };
-    set_text(&mut document.root, text, &place).map_err(|(found, allowed)| {
+    set_text(&mut file.root, text, &place).map_err(|(found, allowed)| {
         let error = SceneError::wrong(WrongKind::Override, key.trim(), found, allowed);
-        error.at(document.locate(&place))
+        error.at(file.location(&place))
     })
 }
 
@@ -31,16 +32,9 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         return Err((format!("`{text}`, without `=`"), allowed.to_owned()));
     };
     let keys: Vec<&str> = key.split('.').map(str::trim).collect();
-    let found = format!("`{}`", key.trim());
     if keys.len() > DEEPEST || keys.contains(&"") {
-        return Err((found, "a key such as duct.length or vehicles.0.speed".to_owned()));
-    }
-    if key.contains('[') && key.contains(']') {
-        let meant = found.replace('[', ".").replace(']', "");
-        return Err((
-            found,
-            format!("{meant}: an item of a list by its number, from 0 on"),
-        ));
+        let allowed = "a key such as duct.length or vehicles.0.speed";
+        return Err((format!("`{}`", key.trim()), allowed.to_owned()));
     }
     if value.trim().is_empty() {
         return remove(root, &keys);
@@ -75,16 +69,15 @@ fn parsed(text: &str, start: usize, source: usize) -> Node {
     Node::new(Place { source, bytes }, text, content)
 }
 
-/// The item of a list.
-fn item<'n>(items: &'n mut [Node], number: &str) -> Result<(usize, &'n mut Node), Refused> {
+/// The place of an item in a list.
+fn index(items: &[Node], number: &str) -> Result<usize, Refused> {
     let allowed = match items.len() {
         0 => "nothing: the list is empty".to_owned(),
         1 => "the index 0, for the only item of the list".to_owned(),
         count => format!("an index from 0 to {} of the list", count - 1),
     };
-    let index = number.parse().unwrap_or(usize::MAX);
-    let item = items.get_mut(index).map(|item| (index, item));
-    item.ok_or_else(|| (format!("`{number}`"), allowed))
+    let index = number.parse().ok().filter(|index| *index < items.len());
+    index.ok_or_else(|| (format!("`{number}`"), allowed))
 }
 
 /// Removes what stands at these `keys` below the node.
@@ -97,19 +90,16 @@ fn remove(node: &mut Node, keys: &[&str]) -> Result<(), Refused> {
         return Ok(());
     };
     match &mut node.content {
-        Content::List(items) => match item(items, key)? {
-            (index, _) if below.is_empty() => _ = items.remove(index),
-            (_, item) => return remove(item, below),
+        Content::List(items) => match index(items, key)? {
+            index if below.is_empty() => _ = items.remove(index),
+            index => remove(&mut items[index], below)?,
         },
         Content::Table(entries) => {
-            let at = entries
-                .iter()
-                .position(|entry| entry.key == *key)
-                .ok_or_else(nothing)?;
-            if !below.is_empty() {
-                return remove(&mut entries[at].value, below);
+            let at = entries.iter().position(|entry| entry.key == *key);
+            match at.ok_or_else(nothing)? {
+                at if below.is_empty() => _ = entries.remove(at),
+                at => remove(&mut entries[at].value, below)?,
             }
-            entries.remove(at);
         }
         _ => return Err(nothing()),
     }
@@ -124,7 +114,8 @@ fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -
     };
     let inner = joined(path, key);
     if let Content::List(items) = &mut node.content {
-        return set(item(items, key)?.1, &inner, below, value, place);
+        let index = index(items, key)?;
+        return set(&mut items[index], &inner, below, value, place);
     }
     let table = || Node::new(place.clone(), "", Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
@@ -135,15 +126,11 @@ fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -
         return Ok(());
     };
     let known = entries.iter().position(|entry| entry.key == *key);
-    let (key, place_of_key) = ((*key).to_owned(), place.clone());
-    let mut entry = match known {
-        Some(at) => entries.remove(at),
-        None => Entry {
-            key,
-            place: place_of_key,
-            value: table(),
-        },
-    };
+    let mut entry = known.map(|at| entries.remove(at)).unwrap_or_else(|| Entry {
+        key: (*key).to_owned(),
+        place: place.clone(),
+        value: table(),
+    });
     set(&mut entry.value, &inner, below, value, place)?;
     if below.is_empty() {
         entry.place = place.clone();

@@ -5,7 +5,7 @@ use std::path::Path;
 use cable_dem::{End, Order, Restraint, Section};
 
 use crate::cable::{Cable, Friction};
-use crate::content::Content;
+use crate::content::{Content, Node};
 use crate::error::SceneError;
 use crate::ground::Ground;
 use crate::heat::Heat;
@@ -16,7 +16,7 @@ use crate::range::{
 };
 use crate::route::RouteSection;
 use crate::solver::Solver;
-use crate::stored::{Stored, value};
+use crate::stored::{Entries, Stored, entry, word};
 use crate::traffic::{Following, Traffic};
 use crate::vehicle::TrafficVehicle;
 
@@ -94,28 +94,30 @@ keys! {
     }
 }
 
-const HELD: Form = Words {
-    words: &["free", "fixed"],
-    allowed: Some("\"free\", \"fixed\" or { spring = \"3 MN/m\" }"),
-    gone: None,
-};
+const HELD: Form = Words(&["free", "fixed"], " or { spring = \"3 MN/m\" }");
 const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is understood too.";
-const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))], None);
+const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))]);
 
 impl Stored for End {
-    fn read(content: &Content) -> Option<Self> {
-        match content.as_text() {
-            Some("free") => Some(Self::Free),
-            Some(_) => Some(Self::Fixed),
-            None => value(content, "spring", None).map(Self::Spring),
+    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
+        match node.content {
+            Content::Table(_) => Entries::of(node, form, path)?
+                .value("spring", None)
+                .map(Self::Spring),
+            _ => word(
+                &[("free", Self::Free), ("fixed", Self::Fixed)],
+                node,
+                path,
+                form.allowed(),
+            ),
         }
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, form: Form) -> Content {
         match self {
             Self::Free => Content::Text("free".to_owned()),
             Self::Fixed => Content::Text("fixed".to_owned()),
-            Self::Spring(stiffness) => Content::table([("spring", stiffness.write())]),
+            Self::Spring(stiffness) => Content::table(entry(form.keys(), "spring", stiffness, None)),
         }
     }
 }
@@ -136,31 +138,33 @@ impl Scene {
         self.normal_load_factor() * self.cable.weight
     }
 
+    /// The route from x = 0 on; one section if there is none.
+    fn whole_route(&self) -> Vec<RouteSection> {
+        let mut route = self.route.clone();
+        if route.is_empty() {
+            let (length, slope) = (Some(self.duct.length), self.duct.slope);
+            route.push(RouteSection {
+                length,
+                slope,
+                ..RouteSection::default()
+            });
+        }
+        route
+    }
+
     /// The sections of the duct from x = 0 on, each with friction, weight along the duct and bend; one if there is no route.
     pub fn sections(&self) -> Vec<Section> {
-        let whole = RouteSection {
-            length: Some(self.duct.length),
-            slope: self.duct.slope,
-            ..RouteSection::default()
-        };
-        let route = if self.route.is_empty() {
-            &[whole][..]
-        } else {
-            &self.route
-        };
         let section = |section: &RouteSection| {
             let (sine, cosine) = section.angle();
             let friction = section
                 .dynamic_coefficient
                 .unwrap_or(self.friction.dynamic_coefficient);
-            Section::new(
-                section.length.unwrap_or(0.0),
-                friction * self.normal_load() * cosine,
-            )
-            .with_body_force(-self.cable.weight * sine)
-            .with_bend(section.bend_radius.map_or(0.0, |radius| friction / radius))
+            let limit = friction * self.normal_load() * cosine;
+            Section::new(section.length.unwrap_or(0.0), limit)
+                .with_body_force(-self.cable.weight * sine)
+                .with_bend(section.bend_radius.map_or(0.0, |radius| friction / radius))
         };
-        route.iter().map(section).collect()
+        self.whole_route().iter().map(section).collect()
     }
 
     /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\], with the friction coefficient of the scene and the mean of cos θ.
@@ -175,16 +179,13 @@ impl Scene {
 
     /// The mean over the duct's length.
     fn mean(&self, of: impl Fn(&RouteSection) -> f64) -> f64 {
-        let whole = RouteSection {
-            slope: self.duct.slope,
-            ..RouteSection::default()
-        };
-        let first = of(self.route.first().unwrap_or(&whole));
-        if self.route.iter().all(|section| of(section) == first) {
+        let route = self.whole_route();
+        let first = of(&route[0]);
+        if route.iter().all(|section| of(section) == first) {
             return first;
         }
         let part = |section: &RouteSection| of(section) * section.length.unwrap_or(0.0);
-        self.route.iter().map(part).sum::<f64>() / self.duct.length
+        route.iter().map(part).sum::<f64>() / self.duct.length
     }
 
     /// Gives the last section of the route what is left of the duct.

@@ -4,7 +4,8 @@ use crate::error::SceneError;
 use crate::histogram::{HISTOGRAM, Histogram};
 use crate::key::Form::{List, Number, Text};
 use crate::key::keys;
-use crate::range::{ANY_WHOLE, PASSES, PER_DAY, SPEED, YEARS, shown};
+use crate::range::{ANY_WHOLE, PASSES, PER_DAY, SPEED, YEARS};
+use crate::shown::shown;
 use crate::words::file_words;
 
 keys! {

@@ -30,19 +30,6 @@ pub enum PresetKind {
     Pavement,
 }
 
-impl PresetKind {
-    /// The kind of preset that a section takes.
-    pub(crate) fn of_section(section: &str) -> Option<Self> {
-        match section {
-            "cable" => Some(Self::Cable),
-            "friction" => Some(Self::Friction),
-            "ground" => Some(Self::Pavement),
-            "vehicles" => Some(Self::Vehicle),
-            _ => None,
-        }
-    }
-}
-
 /// A named set of values.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
@@ -101,6 +88,17 @@ pub fn all() -> &'static [Preset] {
 /// The presets of one kind.
 pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
     all().iter().filter(move |preset| preset.kind == kind)
+}
+
+/// The presets that a section of a scene takes.
+pub(crate) fn of_section(section: &str) -> impl Iterator<Item = &'static Preset> {
+    let is_meant = move |preset: &&Preset| match preset.kind {
+        PresetKind::Vehicle => section == "vehicles",
+        PresetKind::Cable => section == "cable",
+        PresetKind::Friction => section == "friction",
+        PresetKind::Pavement => section == "ground",
+    };
+    all().iter().filter(is_meant)
 }
 
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
