@@ -36,11 +36,7 @@ pub struct Columns<'o> {
 pub fn columns(mut table: Table, options: &ReadOptions) -> Result<Columns<'_>, DataError> {
     refuse_cut_decimals(&table)?;
     let pass = table.one(PASS)?;
-    let vehicles = if pass.is_none() {
-        table.one(VEHICLES)?
-    } else {
-        None
-    };
+    let vehicles = pass.map_or_else(|| table.one(VEHICLES), |_| Ok(None))?;
     // A number of passes has no unit, whatever a logger writes below its name.
     for column in pass.into_iter().chain(vehicles) {
         table.names[column].unit = None;

@@ -32,12 +32,14 @@ impl Readings {
         if self.list.len() >= needed {
             return Ok(());
         }
-        Err(DataError::Line {
-            file: self.file.clone(),
-            line: self.list.last().map_or(0, |reading| reading.line),
-            found: format!("{} readings", self.list.len()),
-            allowed: format!("{needed} or more, needed for {parameters} parameters"),
-        })
+        let line = self.list.last().map_or(0, |reading| reading.line);
+        let allowed = format!("{needed} or more, needed for {parameters} parameters");
+        Err(DataError::line(
+            &self.file,
+            line,
+            format!("{} readings", self.list.len()),
+            allowed,
+        ))
     }
 
     /// The readings, in the order of the file.

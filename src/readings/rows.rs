@@ -87,11 +87,8 @@ impl Columns<'_> {
         self.check(&readings.list, unusable.first())?;
         let measured = measured(self.values[0].kind, Place::Natural).name();
         let blank = left_out(&format!("rows without a {measured}"), &blank);
-        readings.notes.extend(
-            blank
-                .into_iter()
-                .chain(left_out("cells without a number", &unusable)),
-        );
+        let unusable = left_out("cells without a number", &unusable);
+        readings.notes.extend(blank.into_iter().chain(unusable));
         if self.run.or(self.vehicles).is_none() {
             runs::split_where_passes_begin_anew(&mut readings);
         }
@@ -134,14 +131,15 @@ impl Columns<'_> {
         let name = &self.table.names[self.values[0].column].text;
         let blank = list.iter().find(|reading| reading.sigma.is_none());
         let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
+        let is_zero = list.iter().all(|reading| reading.pass == 0);
         let (line, found, allowed) = match (list.first(), unusable, blank) {
-            (None, None, _) => return Err(DataError::Empty(self.table.file.clone())),
+            (None, None, _) => (self.table.line, "no rows".into(), LAYOUT.allowed),
             (None, Some((line, text)), _) => (
                 *line,
                 format!("{name}: found \"{text}\", and no number anywhere"),
                 "a finite number",
             ),
-            (Some(first), ..) if list.iter().all(|reading| reading.pass == 0) => (
+            (Some(first), ..) if is_zero => (
                 first.line,
                 "pass: found \"0\" alone".into(),
                 "readings after at least one pass",

@@ -92,7 +92,10 @@ fn a_file_that_cannot_be_read_is_named() {
     std::fs::File::create(&endless).unwrap().set_len(1 << 30).unwrap();
     let error = Scene::from_file(&endless).unwrap_err();
     let source = std::error::Error::source(&error).expect("a cause").to_string();
-    assert!(source.starts_with("found more than 16777216 bytes; allowed: "), "{source}");
+    assert!(
+        source.starts_with("found more than 16777216 bytes; allowed: "),
+        "{source}"
+    );
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -105,7 +105,7 @@ friction.law | --set friction.law:  | KEY=VALUE
 duct..length=3 | --set duct..length=3: 
 vehicles.2.speed=3 | found `2` | an index from 0 to 1
 vehicles.truck.speed=3 | found `truck` | an index from 0 to 1
-restraints.1.position=3 | the index 0
+restraints.1.position=3 | an index from 0 to 0
 vehicles=[] | --set vehicles=[]: `vehicles` | found an empty list; allowed: 
 ground.layers=[] | `ground.layers` | found an empty list
 vehicles.1.wheels=[] | `vehicles.1.wheels` | found an empty list

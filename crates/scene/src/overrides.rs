@@ -36,16 +36,18 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         let allowed = "a key such as duct.length or vehicles.0.speed";
         return Err((format!("`{}`", key.trim()), allowed.to_owned()));
     }
-    if value.trim().is_empty() {
-        return remove(root, &keys);
-    }
+    let is_given = !value.trim().is_empty();
     // The table of axles stands in place of `[[vehicles]]`.
-    match &keys[..] {
-        ["vehicles"] => remove(root, &["traffic", "histogram"]).unwrap_or_default(),
-        ["traffic", "histogram"] => remove(root, &["vehicles"]).unwrap_or_default(),
-        _ => {}
+    let rivals = match &keys[..] {
+        ["vehicles"] => &["traffic", "histogram"][..],
+        ["traffic", "histogram"] => &["vehicles"],
+        _ => &[],
+    };
+    if is_given && !rivals.is_empty() {
+        set(root, "", rivals, None, place).unwrap_or_default();
     }
-    set(root, "", &keys, parsed(text, key.len() + 1, place.source), place)
+    let value = is_given.then(|| parsed(text, key.len() + 1, place.source));
+    set(root, "", &keys, value, place)
 }
 
 /// The value that begins at a byte of an override: TOML, or a text if it is not.
@@ -73,49 +75,32 @@ fn parsed(text: &str, start: usize, source: usize) -> Node {
 fn index(items: &[Node], number: &str) -> Result<usize, Refused> {
     let allowed = match items.len() {
         0 => "nothing: the list is empty".to_owned(),
-        1 => "the index 0, for the only item of the list".to_owned(),
         count => format!("an index from 0 to {} of the list", count - 1),
     };
     let index = number.parse().ok().filter(|index| *index < items.len());
     index.ok_or_else(|| (format!("`{number}`"), allowed))
 }
 
-/// Removes what stands at these `keys` below the node.
-fn remove(node: &mut Node, keys: &[&str]) -> Result<(), Refused> {
-    let nothing = || {
-        let found = "an empty value, which removes the key".to_owned();
-        (found, "a value, or a key that the scene holds".to_owned())
-    };
-    let [key, below @ ..] = keys else {
+/// Sets what stands at these `keys` below the node at `path`, or removes it where there is no value.
+fn set(
+    node: &mut Node,
+    path: &str,
+    keys: &[&str],
+    value: Option<Node>,
+    place: &Place,
+) -> Result<(), Refused> {
+    let Some((key, below)) = keys.split_first() else {
+        *node = value.unwrap_or_else(|| node.clone());
         return Ok(());
     };
-    match &mut node.content {
-        Content::List(items) => match index(items, key)? {
-            index if below.is_empty() => _ = items.remove(index),
-            index => remove(&mut items[index], below)?,
-        },
-        Content::Table(entries) => {
-            let at = entries.iter().position(|entry| entry.key == *key);
-            match at.ok_or_else(nothing)? {
-                at if below.is_empty() => _ = entries.remove(at),
-                at => remove(&mut entries[at].value, below)?,
-            }
-        }
-        _ => return Err(nothing()),
-    }
-    Ok(())
-}
-
-/// Sets what stands at these `keys` below the node at `path`.
-fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -> Result<(), Refused> {
-    let [key, below @ ..] = keys else {
-        *node = value;
-        return Ok(());
-    };
-    let inner = joined(path, key);
+    let (path_of_key, is_removed) = (joined(path, key), value.is_none() && below.is_empty());
     if let Content::List(items) = &mut node.content {
         let index = index(items, key)?;
-        return set(&mut items[index], &inner, below, value, place);
+        if is_removed {
+            items.remove(index);
+            return Ok(());
+        }
+        return set(&mut items[index], &path_of_key, below, value, place);
     }
     let table = || Node::new(place.clone(), "", Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
@@ -126,16 +111,28 @@ fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -
         return Ok(());
     };
     let known = entries.iter().position(|entry| entry.key == *key);
-    let mut entry = known.map(|at| entries.remove(at)).unwrap_or_else(|| Entry {
-        key: (*key).to_owned(),
-        place: place.clone(),
-        value: table(),
+    if known.is_none() && value.is_none() {
+        let found = "an empty value, which removes the key".to_owned();
+        return Err((found, "a value, or a key that the scene holds".to_owned()));
+    }
+    let at = known.unwrap_or_else(|| {
+        let (key, place) = ((*key).to_owned(), place.clone());
+        entries.push(Entry {
+            key,
+            place,
+            value: table(),
+        });
+        entries.len() - 1
     });
-    set(&mut entry.value, &inner, below, value, place)?;
+    if is_removed {
+        entries.remove(at);
+        return Ok(());
+    }
+    set(&mut entries[at].value, &path_of_key, below, value, place)?;
     if below.is_empty() {
-        entry.place = place.clone();
+        entries[at].place = place.clone();
+        let entry = entries[at].clone();
         entries.retain(|present| !gives_way(path, present, &entry));
     }
-    entries.insert(known.unwrap_or(entries.len()).min(entries.len()), entry);
     Ok(())
 }

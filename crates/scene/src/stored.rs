@@ -34,7 +34,7 @@ impl<'n> Entries<'n> {
                 if let Some(entry) = entries.iter().find(|entry| !is_known(&entry.key)) {
                     return Err(unknown_key(entry, keys, path));
                 }
-                contradiction(path, &node.content)?;
+                contradiction(path, node)?;
             }
             (Content::Text(_), Form::Either(..)) => {}
             _ => return Err(SceneError::value(path, node.described(), form.allowed())),

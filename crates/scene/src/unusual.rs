@@ -10,9 +10,9 @@ use crate::content::{Node, without_numbers};
 use crate::histogram::AXLE_GROUP;
 use crate::location::counted;
 use crate::names::si_unit;
-use crate::quantity::leading_number;
 use crate::scene::Scene;
 use crate::shown::four_digits;
+use crate::vehicle::TrafficVehicle;
 
 /// A key, the usual range of its values \[SI\], the unit in which they are shown with its size, and what is to be said beyond.
 type Usual = (&'static str, f64, f64, f64, &'static str, &'static str);
@@ -56,7 +56,8 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
     let mut named: Vec<&str> = Vec::new();
     scene.node().each_value("", &mut |key, node| {
         let text = node.content.as_text();
-        let number = text.map_or(node.content.as_number(), |text| Some(leading_number(text)?.0));
+        let quantity = |text: &str| text.split_once(' ')?.0.parse().ok();
+        let number: Option<f64> = text.map_or(node.content.as_number(), quantity);
         let name = without_numbers(key);
         let name = name.trim_end_matches(".top").trim_end_matches(".bottom");
         // Friction that forgets may build up slowly.
@@ -74,18 +75,13 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
             }
         }
     });
-    let together = [
-        exchanged,
-        far,
-        between_tracks,
-        lanes_scaled_alike,
-        rock,
-        contrast,
-        may_jam,
-        too_long,
-        grouped,
-    ];
-    warnings.extend(together.iter().filter_map(|values| values(scene)));
+    warnings.extend(
+        together(scene)
+            .into_iter()
+            .filter(|(is_unusual, _)| *is_unusual)
+            .map(|(_, words)| words),
+    );
+    warnings.extend(contrast(scene));
     warnings
 }
 
@@ -94,92 +90,60 @@ fn of(key: &str, words: &str) -> String {
     format!("`{key}`{}{words}", counted(key))
 }
 
-/// A duct that lies deeper than it is long.
-fn exchanged(scene: &Scene) -> Option<String> {
-    let [deep, long] = [scene.duct.depth, scene.duct.length].map(four_digits);
-    let words =
-        format!("`duct.depth` is {deep} m, more than the duct is long, {long} m: were they exchanged?");
-    (scene.duct.depth > scene.duct.length).then_some(words)
-}
-
-/// Three cables that may wedge themselves.
-fn may_jam(scene: &Scene) -> Option<String> {
-    let ratio = scene.duct.inner_diameter? / scene.cable.diameter?;
-    let (from, to) = (JAMMING.start(), JAMMING.end());
-    let words = format!(
-        "`duct.inner_diameter` is {ratio:.2} times `cable.diameter`: from {from} to {to} times three cables may jam as they are pulled in"
-    );
-    (scene.cable.arrangement.is_of_three() && JAMMING.contains(&ratio)).then_some(words)
-}
-
-/// A table of axles that were weighed in groups.
-fn grouped(scene: &Scene) -> Option<String> {
-    let words = "`traffic.histogram` has a column of groups of axles: each row is computed as one axle, which moves the cable more than a \
-                 tandem or a tridem of the same weight; divide their loads and multiply their numbers";
-    let mut names = scene.vehicles.iter().map(|vehicle| &vehicle.name);
-    names
-        .any(|name| name.starts_with(AXLE_GROUP))
-        .then(|| words.to_owned())
-}
-
-/// Traffic for longer than any road is old.
-fn too_long(scene: &Scene) -> Option<String> {
-    const OLDEST: f64 = 200.0;
-    let years = scene.traffic.years_after(scene.traffic.passes)?;
-    let words = format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date");
-    (years > OLDEST).then_some(words)
-}
-
-/// A lane so far away that its vehicles hardly move the duct.
-fn far(scene: &Scene) -> Option<String> {
-    // Depths between the vehicle's axis and the duct's, beyond which a duct hardly moves.
+/// Values that are unusual together: whether they are, and what is to be said.
+fn together(scene: &Scene) -> [(bool, String); 8] {
+    // Depths between the vehicle's axis and the duct's beyond which a duct hardly moves; years that no road is old.
     const FARTHEST: f64 = 10.0;
-    let mut vehicles = scene
-        .vehicles
+    const OLDEST: f64 = 200.0;
+    let (duct, ground, vehicles) = (&scene.duct, &scene.ground, &scene.vehicles);
+    let [depth, length] = [duct.depth, duct.length].map(four_digits);
+    let rock = ground.rigid_base_depth.unwrap_or(INFINITY);
+    let ratio = duct
+        .inner_diameter
+        .zip(scene.cable.diameter)
+        .map_or(0.0, |(inner, outer)| inner / outer);
+    let years = scene.traffic.years_after(scene.traffic.passes).unwrap_or(0.0);
+    let name = |found: Option<&TrafficVehicle>| found.map_or("", |vehicle| &vehicle.name).to_owned();
+    let far = vehicles
         .iter()
-        .map(|vehicle| (&vehicle.name, scene.offset_from(vehicle).abs()));
-    let (name, offset) = vehicles.find(|(_, offset)| *offset > FARTHEST * scene.duct.depth)?;
-    Some(format!(
-        "`duct.lateral_offset`: the lane of \"{name}\" is {offset} m from the duct, more than {FARTHEST} times the depth: the duct hardly \
-         moves there"
-    ))
+        .find(|vehicle| scene.offset_from(vehicle).abs() > FARTHEST * duct.depth);
+    let between = vehicles.iter().find(|vehicle| is_between_wheels(scene, vehicle));
+    let other_lane = vehicles
+        .windows(2)
+        .any(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
+    let groups = vehicles
+        .iter()
+        .any(|vehicle| vehicle.name.starts_with(AXLE_GROUP));
+    #[rustfmt::skip]
+    let values = [
+        (duct.depth > duct.length,
+            format!("`duct.depth` is {depth} m, more than the duct is long, {length} m: were they exchanged?")),
+        (far.is_some(), format!("`duct.lateral_offset`: the lane of \"{}\" is {} m from the duct, more than {FARTHEST} times the depth: the \
+            duct hardly moves there", name(far), far.map_or(0.0, |vehicle| scene.offset_from(vehicle).abs()))),
+        (between.is_some(), format!("`duct.depth` is {depth} m between the wheels of \"{}\", which are farther to either side: so shallow, \
+            the ground moves toward a wheel and not away from it, and the cable may creep backward", name(between))),
+        (ground.longitudinal_peak.is_some() && other_lane,
+            "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct as far; \
+            `ground.vertical_peak` keeps the lanes apart".into()),
+        (rock <= duct.depth, format!("`ground.rigid_base_depth` is {rock} m and the duct lies at {depth} m, within the rock: it does not \
+            move, and no force arises")),
+        (scene.cable.arrangement.is_of_three() && JAMMING.contains(&ratio),
+            format!("`duct.inner_diameter` is {ratio:.2} times `cable.diameter`: from {} to {} times three cables may jam as they are pulled \
+            in", JAMMING.start(), JAMMING.end())),
+        (years > OLDEST,
+            format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")),
+        (groups, "`traffic.histogram` has a column of groups of axles: each row is computed as one axle, which moves the cable more than a \
+            tandem or a tridem of the same weight; divide their loads and multiply their numbers".into()),
+    ];
+    values
 }
 
-/// A shallow duct between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
-fn between_tracks(scene: &Scene) -> Option<String> {
-    let depth = scene.duct.depth;
-    let vehicle = scene.vehicles.iter().find(|vehicle| {
-        let offset = scene.offset_from(vehicle);
-        let aside: Vec<f64> = vehicle.wheels().iter().map(|wheel| wheel.y - offset).collect();
-        let is_either_side = aside.iter().any(|y| *y > 0.0) && aside.iter().any(|y| *y < 0.0);
-        is_either_side && aside.iter().all(|y| y.abs() > depth)
-    })?;
-    Some(format!(
-        "`duct.depth` is {} m between the wheels of \"{}\", which are farther to either side: so shallow, the ground moves toward a wheel \
-         and not away from it, and the cable may creep backward",
-        four_digits(depth),
-        vehicle.name
-    ))
-}
-
-/// Lanes move a duct by different amounts, but a longitudinal peak is that of each vehicle.
-fn lanes_scaled_alike(scene: &Scene) -> Option<String> {
-    scene.ground.longitudinal_peak?;
-    let words = "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct \
-                 as far; `ground.vertical_peak` keeps the lanes apart";
-    let mut pairs = scene.vehicles.windows(2);
-    pairs
-        .any(|pair| pair[0].lateral_offset != pair[1].lateral_offset)
-        .then(|| words.to_owned())
-}
-
-/// Rock does not move, and so nothing in it does.
-fn rock(scene: &Scene) -> Option<String> {
-    let (base, depth) = (scene.ground.rigid_base_depth?, scene.duct.depth);
-    let words = format!(
-        "`ground.rigid_base_depth` is {base} m and the duct lies at {depth} m, within the rock: it does not move, and no force arises"
-    );
-    (base <= depth).then_some(words)
+/// Whether a shallow duct lies between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
+fn is_between_wheels(scene: &Scene, vehicle: &TrafficVehicle) -> bool {
+    let offset = scene.offset_from(vehicle);
+    let aside: Vec<f64> = vehicle.wheels().iter().map(|wheel| wheel.y - offset).collect();
+    let is_either_side = aside.iter().any(|y| *y > 0.0) && aside.iter().any(|y| *y < 0.0);
+    is_either_side && aside.iter().all(|y| y.abs() > scene.duct.depth)
 }
 
 /// Layers that may have been written in the wrong order.
