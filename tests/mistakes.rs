@@ -112,10 +112,10 @@ speed = "50 km/h" → speed = "50 km/h"¶direction = "northbound" | 2 | 31 | fou
 passes = 20 → passes = 20¶sequence = ["t-25"] | 2 | 35 | `traffic.sequence.0`: found "t-25"; allowed: "truck"
 passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "20 °C" | 2 | 37 | `heat.daily_swing`: found "20 °C": `°C` is not a known unit | did you mean `K`?
 passes = 20 → passes = 20¶[heat]¶expansion = 17¶daily_swing = "20 K" | 2 | 36 | `heat.expansion`: found 17 | a bare number is in 1/K
-depth = "1.3 m" → depth = "１．３ m" | 2 | 5 | `duct.depth`: found the text "１．３ m"; allowed: a length
+depth = "1.3 m" → depth = "１．３ m" | 2 | 5 | `duct.depth`: found "１．３ m": not a number with a unit, its decimals after a point; allowed: a length
 young_modulus = "80 MPa" → young_modulus = { top = 1e6, bottom = 2e6 } | 2 | 13 | `ground.layers.1.young_modulus` (layer 2): found a modulus that varies with depth
 young_modulus = "4000 MPa" → young_modulus = "4 000 MPa" | 2 | 9 | found "4 000 MPa": `000 MPa` is not a known unit
-young_modulus = "4000 MPa" → young_modulus = "4,000 MPa" | 2 | 9 | found "4,000 MPa": decimals are written with a point, without thousands separators; allowed: a pressure
+young_modulus = "4000 MPa" → young_modulus = "4,000 MPa" | 2 | 9 | found "4,000 MPa": not a number with a unit, its decimals after a point; allowed: a pressure
 young_modulus = "4000 MPa" → young_modulus = 4,000 MPa | 2 | 9 | not valid TOML: | decimals have a point
 passes = 20 → passes = 5,844 | 2 | 34 | not valid TOML: | decimals have a point
 passes = 20 → passes = 1..5 | 2 | 34 | invalid fraction, expected digits
@@ -164,7 +164,7 @@ stiffness = "1 MN/m" → stiffness = "1 MN" | 2 | 36 | `restraints.0.stiffness`
 # a missing unit is refused
 depth = "1.2 m" → depth = "1.2" | 2 | 4 | `duct.depth` | found "1.2": the unit is missing | units: m, cm, mm
 # a decimal comma is told
-depth = "1.2 m" → depth = "1,2 m" | 2 | 4 | `duct.depth` | found "1,2 m": decimals are written with a point, without thousands separators; allowed: a length | a length greater than 0
+depth = "1.2 m" → depth = "1,2 m" | 2 | 4 | `duct.depth` | found "1,2 m": not a number with a unit, its decimals after a point; allowed: a length | a length greater than 0
 depth = "1.2 m" → depth = 1,2 | 2 | 4 | not valid TOML | decimals have a point
 dynamic_coefficient = 0.25 → dynamic_coefficient = "0,25" | 2 | 29 | allowed: a number from 0 to 10
 # percent where a number belongs is told its number

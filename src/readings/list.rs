@@ -47,15 +47,6 @@ impl Readings {
         &self.list
     }
 
-    /// The index of the run of this name.
-    pub(super) fn run(&mut self, name: &str) -> usize {
-        let known = self.runs.iter().position(|run| run == name);
-        known.unwrap_or_else(|| {
-            self.runs.push(name.to_owned());
-            self.runs.len() - 1
-        })
-    }
-
     /// Those of the readings that are to be kept.
     pub(crate) fn keep(&self, keep: impl Fn(&Reading) -> bool) -> Self {
         let mut kept = self.clone();

@@ -69,8 +69,12 @@ impl Columns<'_> {
         let (mut blank, mut unusable) = (Vec::new(), Vec::new());
         for row in &self.table.rows {
             let label = self.run.map_or("", |column| row.cell(column));
-            let run = readings.run(label);
-            counted.resize(readings.runs.len(), 0);
+            let known = readings.runs.iter().position(|run| run == label);
+            let run = known.unwrap_or(readings.runs.len());
+            if known.is_none() {
+                readings.runs.push(label.to_owned());
+                counted.push(0);
+            }
             if let Some(column) = given(row, self.vehicles) {
                 let count = self.table.value(row, column, column)?;
                 counted[run] = counted[run].saturating_add(count as u64);
@@ -101,9 +105,8 @@ impl Columns<'_> {
         let table = &self.table;
         let value = |column| table.value(row, column, column);
         let force = value(values.column)?;
-        let passes = self
-            .pass
-            .map_or(Ok(counted), |pass| value(pass).map(|pass| pass as u64))?;
+        let passes = self.pass.map(value).transpose()?;
+        let passes = passes.map_or(counted, |pass| pass as u64);
         let place = match given(row, self.position) {
             None => values.end.map_or(Place::Natural, Place::End),
             Some(_) if values.kind == DEFLECTION => {

@@ -79,10 +79,10 @@ impl From<Content> for Node {
 impl Content {
     /// A number that may be whole: `1e6` passes are as good as `1000000`.
     pub fn number(value: f64) -> Self {
-        const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
-        let is_whole = value.fract() == 0.0 && (0.0..=LARGEST_EXACT).contains(&value);
-        if is_whole && value.is_sign_positive() {
-            Self::Whole(value as u64)
+        let whole = value as u64;
+        let is_whole = whole as f64 == value && value.is_sign_positive();
+        if is_whole {
+            Self::Whole(whole)
         } else {
             Self::Number(value)
         }

@@ -29,11 +29,11 @@ pub enum SceneError {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Wrong {
-    /// In which way it is wrong.
-    pub kind: WrongKind,
     /// The key, with its section.
     pub key: String,
-    /// What was found, with what was probably meant.
+    /// Whether there is no such key, or no value that an override could change.
+    pub is_unknown: bool,
+    /// What was found at the key, with what was probably meant.
     pub found: String,
     /// What is allowed.
     pub allowed: String,
@@ -41,49 +41,51 @@ pub struct Wrong {
     pub location: Option<Location>,
 }
 
-/// The ways in which a key or value can be wrong.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum WrongKind {
-    /// The key is not known.
-    UnknownKey,
-    /// A required key is missing.
-    MissingKey,
-    /// An override is not `KEY=VALUE`, or there is nothing at its key.
-    Override,
-    /// The value is of the wrong type or unit, is outside its range, or contradicts another one.
-    Value,
-}
-
 /// Longest text of a scene, or list of its names, that is repeated \[characters\].
 const LONGEST: usize = 1000;
 
 impl SceneError {
-    /// What is wrong at a key, without the place where it stands.
-    pub(crate) fn wrong(
-        kind: WrongKind,
-        key: &str,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Self {
-        let (key, found, allowed) = (key.to_owned(), found.into(), allowed.into());
-        Self::Wrong(Box::new(Wrong {
-            kind,
-            key,
-            found,
-            allowed,
-            location: None,
-        }))
+    /// A value that is wrong: of the wrong type or unit, outside its range, or at odds with another one.
+    pub(crate) fn value(key: &str, found: impl AsRef<str>, allowed: impl Into<String>) -> Self {
+        let found = format!("{}: found {}", named(key), shortened(found.as_ref(), LONGEST));
+        Self::wrong(key, false, found, allowed.into())
     }
 
-    /// A value that is wrong.
-    pub(crate) fn value(key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Self::wrong(WrongKind::Value, key, found, allowed)
+    /// An override that is none, or has nothing at its key.
+    pub(crate) fn no_override(key: &str, found: &str, allowed: String) -> Self {
+        Self::wrong(
+            key,
+            true,
+            format!("{}: found {}", named(key), shortened(found, LONGEST)),
+            allowed,
+        )
     }
 
     /// A key that is missing.
     pub(crate) fn missing(key: &str, allowed: impl Into<String>) -> Self {
-        Self::wrong(WrongKind::MissingKey, key, "", allowed)
+        Self::wrong(
+            key,
+            false,
+            format!("key {} is missing", named(key)),
+            allowed.into(),
+        )
+    }
+
+    /// A key that is not known.
+    pub(crate) fn unknown(key: &str, meant: Option<&str>, allowed: String) -> Self {
+        let found = format!("found unknown key {}{}", named(key), did_you_mean(meant));
+        Self::wrong(key, true, found, allowed)
+    }
+
+    fn wrong(key: &str, is_unknown: bool, found: String, allowed: String) -> Self {
+        let (key, location) = (key.to_owned(), None);
+        Self::Wrong(Box::new(Wrong {
+            key,
+            is_unknown,
+            found,
+            allowed,
+            location,
+        }))
     }
 
     /// The same, at this place.
@@ -106,24 +108,25 @@ impl SceneError {
 
 impl fmt::Display for Wrong {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let key = format!("`{}`{}", shortened(&self.key, LONGEST), counted(&self.key));
-        let [found, allowed] = [&self.found, &self.allowed].map(|text| shortened(text, LONGEST));
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
-        match self.kind {
-            WrongKind::UnknownKey => write!(f, "found unknown key {key}{found}"),
-            WrongKind::MissingKey => write!(f, "key {key} is missing"),
-            WrongKind::Override | WrongKind::Value => write!(f, "{key}: found {found}"),
-        }?;
-        write!(f, "; allowed: {allowed}")?;
-        self.location
-            .as_ref()
-            .map_or(Ok(()), |location| f.write_str(&location.excerpt()))
+        let excerpt = self.location.as_ref().map_or_else(String::new, Location::excerpt);
+        write!(
+            f,
+            "{}; allowed: {}{excerpt}",
+            self.found,
+            shortened(&self.allowed, LONGEST)
+        )
     }
 }
 
 impl std::error::Error for Wrong {}
+
+/// A key as messages show it.
+fn named(key: &str) -> String {
+    format!("`{}`{}", shortened(key, LONGEST), counted(key))
+}
 
 /// What was probably meant, in words.
 pub fn did_you_mean(suggestion: Option<&str>) -> String {

@@ -5,7 +5,7 @@ use std::io::{Error, Read, Result as Bytes};
 use std::path::{Path, PathBuf};
 
 use crate::content::{Content, Node, Place};
-use crate::error::{SceneError, WrongKind};
+use crate::error::SceneError;
 use crate::key::{Form, Section};
 use crate::location::Location;
 use crate::parsed::entries_of;
@@ -218,7 +218,7 @@ impl SceneFile {
         };
         let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
         let entry = self.find(section).0.content.entry(key);
-        let unknown = entry.filter(|_| wrong.kind == WrongKind::UnknownKey);
+        let unknown = entry.filter(|_| wrong.is_unknown);
         let place = unknown.map_or(&self.find(&wrong.key).0.place, |entry| &entry.place);
         SceneError::Wrong(wrong).at(self.location(place))
     }

@@ -118,12 +118,8 @@ pub fn beside(name: &str, text: &str) -> PathBuf {
 impl Histogram {
     fn options(&self) -> Result<Options, SceneError> {
         let mut options = Options::default();
-        for entry in self
-            .write(HISTOGRAM)
-            .entries()
-            .iter()
-            .filter(|entry| entry.key != "file")
-        {
+        // The first is the file.
+        for entry in self.write(HISTOGRAM).entries().iter().skip(1) {
             let text = match &entry.value.content {
                 Content::Whole(number) => number.to_string(),
                 content => content.as_text().unwrap_or_default().to_owned(),
@@ -138,20 +134,15 @@ impl Histogram {
     /// `scene` is the file that names it.
     pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
-        table
-            .and_then(|table| classes(table, speed))
-            .map_err(|error| match error {
-                TableError::Line {
-                    file,
-                    line,
-                    found,
-                    allowed,
-                } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
-                error => {
-                    let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
-                    SceneError::value(KEY, format!("{error}{why}"), LAYOUT.allowed)
-                }
-            })
+        table.and_then(|table| classes(table, speed)).map_err(|error| {
+            let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
+            let allowed = match &error {
+                TableError::Line { allowed, .. } => allowed,
+                _ => LAYOUT.allowed,
+            };
+            let found = error.to_string().replace(&format!("; allowed: {allowed}"), "");
+            SceneError::value(KEY, found + &why, allowed)
+        })
     }
 }
 
@@ -202,9 +193,10 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
         return Err(table.wrong(table.line, format!("{} classes", axles.len()), allowed));
     }
     if heaviest.0 < LIGHTEST {
-        let allowed = "a load with its unit, such as \"50 kN\", or a column \"load [kN]\"";
-        let found = format!("load: {} N as the heaviest axle", heaviest.0);
-        return Err(table.wrong(heaviest.1, found, allowed));
+        let (load, line) = heaviest;
+        let allowed = format!("a load with its unit, such as \"{load} kN\", or a column \"load [kN]\"");
+        let found = format!("load: {load} N as the heaviest axle");
+        return Err(table.wrong(line, found, allowed));
     }
     Ok(axles)
 }

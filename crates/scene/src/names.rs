@@ -101,14 +101,8 @@ pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> (Option<&'k str>, &'stati
     let meant = synonym.or_else(|| nearest(key, allowed.iter().copied()));
     let meant = meant.or_else(|| known().find(|other| last(other) == key));
     let is_outermost = Scene::KEYS.iter().any(|other| other.name == key);
-    (
-        meant,
-        if is_outermost {
-            "; it stands above the first section, or for itself"
-        } else {
-            ""
-        },
-    )
+    let elsewhere = is_outermost.then_some("; it stands above the first section, or for itself");
+    (meant, elsewhere.unwrap_or_default())
 }
 
 #[cfg(test)]

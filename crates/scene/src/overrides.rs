@@ -3,7 +3,7 @@
 use toml::de::DeTable;
 
 use crate::content::{Content, Entry, Node, Place, joined};
-use crate::error::{SceneError, WrongKind};
+use crate::error::SceneError;
 use crate::file::SceneFile;
 use crate::parsed::node;
 use crate::rivals::gives_way;
@@ -21,7 +21,7 @@ pub fn apply(file: &mut SceneFile, text: &str) -> Result<(), SceneError> {
     let bytes = 0..key.len();
     let place = Place { source, bytes };
     set_text(&mut file.root, text, &place).map_err(|(found, allowed)| {
-        let error = SceneError::wrong(WrongKind::Override, key.trim(), found, allowed);
+        let error = SceneError::no_override(key.trim(), &found, allowed);
         error.at(file.location(&place))
     })
 }

@@ -1,7 +1,5 @@
 //! What holds between the values of a scene, each of which is in its own range.
 
-use std::ops::RangeInclusive;
-
 use cable_dem::End;
 use ground_field::Modulus;
 
@@ -19,6 +17,7 @@ use crate::solver::SolverMethod;
 
 /// Whether a rule holds, the key at which it is broken, what was found there (nothing of a key that is missing), what is allowed.
 type Rule = (bool, String, String, String);
+type Range = std::ops::RangeInclusive<f64>;
 
 /// The first rule that the scene breaks.
 pub fn check(scene: &Scene) -> Result<(), SceneError> {
@@ -41,12 +40,7 @@ fn needed(is_given: bool, key: impl Into<String>, quantity: Quantity, or: &str) 
 }
 
 /// A length \[m\], if any, must be in the range that follows from the rest of the scene.
-fn suits(
-    length: Option<f64>,
-    range: RangeInclusive<f64>,
-    key: impl Into<String>,
-    allowed: impl Into<String>,
-) -> Rule {
+fn suits(length: Option<f64>, range: Range, key: impl Into<String>, allowed: String) -> Rule {
     let length = length.filter(|length| !range.contains(length));
     let found = format!("\"{} m\"", length.unwrap_or_default());
     rule(length.is_none(), key, found, allowed)
@@ -84,11 +78,8 @@ fn ground(scene: &Scene) -> Vec<Rule> {
     let is_open = ground.rigid_base_depth.is_none();
     let below = above + THICKNESS.least..=above + THICKNESS.most;
     let is_uniform = !ground.layers.iter().any(is_graded);
-    let [fits_one, fits_uniform] = [
-        (GroundModel::Boussinesq, upper.is_empty() && is_open),
-        (GroundModel::Burmister, is_uniform),
-    ]
-    .map(|(model, fits)| ground.model != model || fits);
+    let fits_one = ground.model != GroundModel::Boussinesq || upper.is_empty() && is_open;
+    let fits_uniform = ground.model != GroundModel::Burmister || is_uniform;
     let model = format!("these layers with `model` = \"{}\"", ground.model);
     #[rustfmt::skip]
     rules.extend([
@@ -107,23 +98,16 @@ fn ground(scene: &Scene) -> Vec<Rule> {
 
 /// Lengths that the duct and its length limit.
 fn lengths(scene: &Scene) -> Vec<Rule> {
-    let (length, inner) = (
-        scene.duct.length,
-        scene.duct.inner_diameter.unwrap_or(f64::INFINITY),
-    );
-    let (spacing, step) = (scene.solver.node_spacing, scene.solver.vehicle_step);
+    let (duct, solver) = (&scene.duct, &scene.solver);
+    let (length, inner) = (duct.length, duct.inner_diameter.unwrap_or(f64::INFINITY));
     let [half, all, wide] = [length / 2.0, length, inner].map(shown);
-    let is_of_three = scene.cable.arrangement.is_of_three();
-    let most = if is_of_three {
-        inner / CLOSEST
-    } else {
-        f64::INFINITY
-    };
+    let three = Some(inner / CLOSEST).filter(|_| scene.cable.arrangement.is_of_three());
+    let most = three.unwrap_or(f64::INFINITY);
     #[rustfmt::skip]
     let mut rules = vec![
-        suits(spacing, length / 5e6..=length / 2.0, "solver.node_spacing",
+        suits(solver.node_spacing, length / 5e6..=length / 2.0, "solver.node_spacing",
             format!("at most half the duct's length, {half} m, and at least its five-millionth part")),
-        suits(step, length / 1e7..=length, "solver.vehicle_step",
+        suits(solver.vehicle_step, length / 1e7..=length, "solver.vehicle_step",
             format!("at most the duct's length, {all} m, and at least its ten-millionth part")),
         suits(scene.cable.diameter, 0.0..=inner.next_down(), "cable.diameter",
             format!("less than the duct's inner diameter, {wide} m")),

@@ -95,6 +95,7 @@ keys! {
 }
 
 const HELD: Form = Words(&["free", "fixed"], " or { spring = \"3 MN/m\" }");
+const ENDS: &[(&str, End)] = &[("free", End::Free), ("fixed", End::Fixed)];
 const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is understood too.";
 const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))]);
 
@@ -104,12 +105,7 @@ impl Stored for End {
             Content::Table(_) => Entries::of(node, form, path)?
                 .value("spring", None)
                 .map(Self::Spring),
-            _ => word(
-                &[("free", Self::Free), ("fixed", Self::Fixed)],
-                node,
-                path,
-                form.allowed(),
-            ),
+            _ => word(ENDS, node, path, form.allowed()),
         }
     }
 
@@ -140,25 +136,21 @@ impl Scene {
 
     /// The route from x = 0 on; one section if there is none.
     fn whole_route(&self) -> Vec<RouteSection> {
-        let mut route = self.route.clone();
-        if route.is_empty() {
-            let (length, slope) = (Some(self.duct.length), self.duct.slope);
-            route.push(RouteSection {
-                length,
-                slope,
-                ..RouteSection::default()
-            });
+        let mut whole = RouteSection::default();
+        (whole.length, whole.slope) = (Some(self.duct.length), self.duct.slope);
+        if self.route.is_empty() {
+            vec![whole]
+        } else {
+            self.route.clone()
         }
-        route
     }
 
     /// The sections of the duct from x = 0 on, each with friction, weight along the duct and bend; one if there is no route.
     pub fn sections(&self) -> Vec<Section> {
         let section = |section: &RouteSection| {
             let (sine, cosine) = section.angle();
-            let friction = section
-                .dynamic_coefficient
-                .unwrap_or(self.friction.dynamic_coefficient);
+            let of_scene = self.friction.dynamic_coefficient;
+            let friction = section.dynamic_coefficient.unwrap_or(of_scene);
             let limit = friction * self.normal_load() * cosine;
             Section::new(section.length.unwrap_or(0.0), limit)
                 .with_body_force(-self.cable.weight * sine)

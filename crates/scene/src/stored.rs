@@ -1,11 +1,10 @@
 //! Types whose values stand in a file. Each is read beside the form of its key: an error says what is allowed.
 
 use crate::content::{Content, Entry, Node, joined, other_name};
-use crate::error::{SceneError, WrongKind, did_you_mean};
+use crate::error::{SceneError, did_you_mean};
 use crate::key::{Form, Key};
 use crate::names::meant_by;
 use crate::nearest::nearest;
-use crate::quantity::QuantityError;
 use crate::rivals::contradiction;
 
 /// A type whose values stand in a file.
@@ -66,7 +65,7 @@ fn unknown_key(entry: &Entry, keys: &[Key], path: &str) -> SceneError {
     let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
     let (meant, elsewhere) = meant_by(&entry.key, &names);
     let (path, allowed) = (joined(path, &entry.key), names.join(", ") + elsewhere);
-    SceneError::wrong(WrongKind::UnknownKey, &path, did_you_mean(meant), allowed)
+    SceneError::unknown(&path, meant, allowed)
 }
 
 /// The entry of a table for a value, unless it counts without one.
@@ -98,11 +97,10 @@ impl Stored for f64 {
         let dimension = form.quantity().and_then(|quantity| quantity.dimension);
         let value = match (node.content.as_number(), node.content.as_text(), dimension) {
             (Some(value), ..) => value,
-            (_, Some(text), Some(dimension)) => match dimension.parse(text) {
-                Ok(value) => value,
-                Err(QuantityError::NotANumber) => return wrong(node.described()),
-                Err(error) => return wrong(format!("{}: {error}", node.written)),
-            },
+            (_, Some(text), Some(dimension)) => {
+                let parsed = dimension.parse(text);
+                parsed.or_else(|why| wrong(format!("{}: {why}", node.written)))?
+            }
             _ => return wrong(node.described()),
         };
         if form.quantity().is_none_or(|quantity| quantity.contains(value)) {

@@ -2,11 +2,12 @@
 //!
 //! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are warnings.
 
-use ground_field::{Base, Modulus};
+use ground_field::Modulus;
 
 use crate::arrangement::JAMMING;
 use crate::cable::Law;
 use crate::content::{Node, without_numbers};
+use crate::ground::Layer;
 use crate::histogram::AXLE_GROUP;
 use crate::location::counted;
 use crate::names::si_unit;
@@ -41,7 +42,9 @@ const USUAL: &[Usual] = &[
 ];
 
 /// The last word of a key, the range in which a bare number \[SI\] is hardly meant in SI, and the units in which it may be.
-const BARE: &[(&str, f64, f64, &str)] = &[
+type Bare = (&'static str, f64, f64, &'static str);
+
+const BARE: &[Bare] = &[
     ("load", 0.1, 999.9, "tf or kN"),
     ("speed", 130.0 / 3.6, INFINITY, "km/h"),
     ("weight", 0.0, 20.0, "kg/m"),
@@ -98,22 +101,17 @@ fn together(scene: &Scene) -> [(bool, String); 8] {
     let (duct, ground, vehicles) = (&scene.duct, &scene.ground, &scene.vehicles);
     let [depth, length] = [duct.depth, duct.length].map(four_digits);
     let rock = ground.rigid_base_depth.unwrap_or(INFINITY);
-    let ratio = duct
-        .inner_diameter
-        .zip(scene.cable.diameter)
-        .map_or(0.0, |(inner, outer)| inner / outer);
+    let diameters = duct.inner_diameter.zip(scene.cable.diameter);
+    let ratio = diameters.map_or(0.0, |(inner, outer)| inner / outer);
     let years = scene.traffic.years_after(scene.traffic.passes).unwrap_or(0.0);
     let name = |found: Option<&TrafficVehicle>| found.map_or("", |vehicle| &vehicle.name).to_owned();
-    let far = vehicles
-        .iter()
-        .find(|vehicle| scene.offset_from(vehicle).abs() > FARTHEST * duct.depth);
+    let is_far = |vehicle: &&TrafficVehicle| scene.offset_from(vehicle).abs() > FARTHEST * duct.depth;
+    let far = vehicles.iter().find(is_far);
     let between = vehicles.iter().find(|vehicle| is_between_wheels(scene, vehicle));
-    let other_lane = vehicles
-        .windows(2)
-        .any(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
-    let groups = vehicles
-        .iter()
-        .any(|vehicle| vehicle.name.starts_with(AXLE_GROUP));
+    let mut pairs = vehicles.windows(2);
+    let other_lane = pairs.any(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
+    let mut names = vehicles.iter().map(|vehicle| &vehicle.name);
+    let groups = names.any(|name| name.starts_with(AXLE_GROUP));
     #[rustfmt::skip]
     let values = [
         (duct.depth > duct.length,
@@ -153,29 +151,28 @@ fn contrast(scene: &Scene) -> Option<String> {
     const CONTRAST: f64 = 100.0;
     const INVERTED: f64 = 20.0;
     const PAVEMENT: f64 = 0.5;
-    let profile = scene.ground.profile().ok()?;
-    let layers = profile.layers();
-    let ends = |modulus: Modulus| match modulus {
+    let top_and_bottom = |layer: &Layer| match layer.young_modulus {
         Modulus::Uniform(modulus) => (modulus, modulus),
         Modulus::Linear { top, bottom } => (top, bottom),
     };
-    let (first, last) = (layers.first()?, layers.last()?);
-    let ((top, _), (_, above)) = (ends(first.modulus()), ends(last.modulus()));
-    let (base, index) = match profile.base() {
-        Base::HalfSpace(base) => (base.young_modulus(), layers.len()),
-        Base::Rigid => (above, layers.len() - 1),
-    };
+    let (last, upper) = scene.ground.layers.split_last()?;
+    let (first, above) = (upper.first()?, upper.last()?);
+    let ((top, _), (_, above), (base, _)) =
+        (top_and_bottom(first), top_and_bottom(above), top_and_bottom(last));
     if above > CONTRAST * base {
         let words = format!(" is {:.0} times less than that of the layer on it", above / base);
-        return Some(of(&format!("ground.layers.{index}.young_modulus"), &words));
+        return Some(of(
+            &format!("ground.layers.{}.young_modulus", upper.len()),
+            &words,
+        ));
     }
     let (times, last) = (base / top, four_digits(base / 1e6));
     let words = format!(
         " is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top down, and the last one is rarely as \
          stiff as rock"
     );
-    (first.thickness() <= PAVEMENT && base > INVERTED * top)
-        .then(|| of("ground.layers.0.young_modulus", &words))
+    let is_pavement = first.thickness.is_some_and(|thickness| thickness <= PAVEMENT);
+    (is_pavement && base > INVERTED * top).then(|| of("ground.layers.0.young_modulus", &words))
 }
 
 /// The warning for a number without a unit that was meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h, and for
@@ -183,21 +180,18 @@ fn contrast(scene: &Scene) -> Option<String> {
 pub fn slip(key: &str, node: &Node) -> Option<String> {
     let (value, found) = (node.content.as_number()?, &node.written);
     let name = key.rsplit('.').next()?;
-    let is_meant =
-        |(bare, least, most, _): &&(&str, f64, f64, &str)| *bare == name && (*least..=*most).contains(&value);
-    if let Some((.., units)) = BARE.iter().find(is_meant) {
-        let unit = si_unit(key)?;
-        return Some(of(
-            key,
-            &format!(": {found} without a unit is {value} {unit}: did you mean {units}?"),
-        ));
-    }
-    let is_thousands = name == "passes" && found.split_once('.').is_some_and(|(_, digits)| digits.len() == 3);
+    let is_meant = |bare: &&Bare| bare.0 == name && (bare.1..=bare.2).contains(&value);
     let meant = found.replace('.', "");
-    is_thousands.then(|| {
-        of(
-            key,
-            &format!(": {found} is {value}, as decimals follow a point: did you mean {meant}?"),
-        )
-    })
+    let words = match BARE.iter().find(is_meant) {
+        Some((.., units)) => format!(
+            "without a unit is {value} {}: did you mean {units}?",
+            si_unit(key)?
+        ),
+        // Three digits behind a point may be thousands.
+        None if name == "passes" && found.rfind('.') == found.len().checked_sub(4) => {
+            format!("is {value}, as decimals follow a point: did you mean {meant}?")
+        }
+        None => return None,
+    };
+    Some(of(key, &format!(": {found} {words}")))
 }

@@ -12,7 +12,7 @@ pub enum TableError {
     #[error("{0}: cannot be read")]
     Unreadable(String, #[source] Box<dyn Error + Send + Sync>),
     /// A line does not hold what it should, or the file as a whole.
-    #[error("{file}:{line}: {found}; allowed: {allowed}")]
+    #[error("{file}{}: {found}; allowed: {allowed}", if *line > 0 { format!(":{line}") } else { String::new() })]
     Line {
         /// The file.
         file: String,
