@@ -5,6 +5,8 @@ use std::fmt;
 use crate::location::{Location, counted};
 use crate::shown::shortened;
 
+pub type Result<T, E = SceneError> = std::result::Result<T, E>;
+
 /// What is wrong with a scene. The message ends with the faulty line, marked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -51,16 +53,6 @@ impl SceneError {
         Self::wrong(key, false, found, allowed.into())
     }
 
-    /// An override that is none, or has nothing at its key.
-    pub(crate) fn no_override(key: &str, found: &str, allowed: String) -> Self {
-        Self::wrong(
-            key,
-            true,
-            format!("{}: found {}", named(key), shortened(found, LONGEST)),
-            allowed,
-        )
-    }
-
     /// A key that is missing.
     pub(crate) fn missing(key: &str, allowed: impl Into<String>) -> Self {
         Self::wrong(
@@ -88,10 +80,10 @@ impl SceneError {
         }))
     }
 
-    /// The same, at this place.
-    pub(crate) fn at(mut self, location: Location) -> Self {
+    /// The same of an override at this place, which is none or has nothing at its key.
+    pub(crate) fn of_override(mut self, location: Location) -> Self {
         if let Self::Wrong(wrong) = &mut self {
-            wrong.location = Some(location);
+            (wrong.is_unknown, wrong.location) = (true, Some(location));
         }
         self
     }

@@ -1,16 +1,16 @@
 //! A scene file with its overrides, which knows where each value was written.
 
 use std::fs::File;
-use std::io::{Error, Read, Result as Bytes};
+use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
 use crate::content::{Content, Node, Place};
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::key::{Form, Section};
 use crate::location::Location;
 use crate::parsed::entries_of;
 use crate::scene::Scene;
-use crate::stored::Stored;
+use crate::stored::{Given, Stored};
 use crate::units::{Dimension, Unit};
 use crate::{histogram, overrides, preset, rules, unusual};
 
@@ -53,7 +53,7 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let file = path.as_ref().display().to_string();
         let bytes = bytes_of(path.as_ref()).map_err(|source| SceneError::Unreadable(file.clone(), source))?;
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -74,7 +74,7 @@ impl SceneFile {
     /// # Errors
     ///
     /// As for [`SceneFile::read`].
-    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+    pub fn from_toml(name: &str, text: &str) -> Result<Self> {
         let (sources, root) = (Vec::new(), Content::Table(entries_of(name, text, 0)?).into());
         let mut file = Self { sources, root };
         file.add(name.to_owned(), text, false);
@@ -87,7 +87,7 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] where an override is not `KEY=VALUE`, or there is nothing at its key.
-    pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self, SceneError> {
+    pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self> {
         let mut file = self.clone();
         for text in overrides {
             overrides::apply(&mut file, text.as_ref())?;
@@ -106,9 +106,9 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
-    pub fn scene(&self) -> Result<Scene, SceneError> {
+    pub fn scene(&self) -> Result<Scene> {
         let read = || {
-            let mut scene = Scene::read(&self.root, SCENE, "")?;
+            let mut scene = Scene::read(&given(&self.root))?;
             scene.resolve(&self.sources[0].name)?;
             rules::check(&scene)?;
             Ok(scene)
@@ -213,14 +213,15 @@ impl SceneFile {
 
     /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
     pub(crate) fn located(&self, error: SceneError) -> SceneError {
-        let SceneError::Wrong(wrong) = error else {
+        let SceneError::Wrong(mut wrong) = error else {
             return error;
         };
         let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
         let entry = self.find(section).0.content.entry(key);
         let unknown = entry.filter(|_| wrong.is_unknown);
         let place = unknown.map_or(&self.find(&wrong.key).0.place, |entry| &entry.place);
-        SceneError::Wrong(wrong).at(self.location(place))
+        wrong.location = Some(self.location(place));
+        SceneError::Wrong(wrong)
     }
 }
 
@@ -235,7 +236,11 @@ pub struct Typed {
     pub source: String,
 }
 
-fn bytes_of(path: &Path) -> Bytes<Vec<u8>> {
+fn given(root: &Node) -> Given<'_> {
+    Given::new(String::new(), root, SCENE)
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
     if path.is_dir() {
         return Err(Error::other(
             "this is a folder; a scene is a file, such as my-duct.toml",
@@ -257,7 +262,7 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
-    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
         SceneFile::read(path)?.scene()
     }
 
@@ -266,7 +271,7 @@ impl Scene {
     /// # Errors
     ///
     /// As for [`Scene::from_file`].
-    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+    pub fn from_toml(name: &str, text: &str) -> Result<Self> {
         SceneFile::from_toml(name, text)?.scene()
     }
 
@@ -286,8 +291,8 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
-    pub fn validate(&self) -> Result<(), SceneError> {
-        Self::read(&self.node(), SCENE, "")?;
+    pub fn validate(&self) -> Result<()> {
+        Self::read(&given(&self.node()))?;
         rules::check(self)
     }
 

@@ -2,14 +2,14 @@
 
 use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 
-use crate::content::{Content, Node};
-use crate::error::SceneError;
+use crate::content::Content;
+use crate::error::Result;
 use crate::key::Form::{Either, List, Number, Table};
 use crate::key::{Form, Key, keys};
 use crate::range::{
     LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, VERTICAL_PEAK,
 };
-use crate::stored::{Entries, Stored};
+use crate::stored::{Given, Stored};
 use crate::words::file_words;
 
 keys! {
@@ -26,7 +26,7 @@ keys! {
         /// Measured deflection of the duct under the first vehicle, to which the ground is scaled.
         vertical_peak: Option<f64> = Number(VERTICAL_PEAK), "not scaled";
         /// Layers from the surface down.
-        layers: Vec<Layer> = List(&Table(Layer::KEYS), 1, LAYERS);
+        layers: Vec<Layer> = List(&[Table(Layer::KEYS)], 1, LAYERS);
     }
 }
 
@@ -55,12 +55,12 @@ const LAYER_MODULUS: Form = Either(
 );
 
 impl Stored for Modulus {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        if !matches!(node.content, Content::Table(_)) {
-            return f64::read(node, form, path).map(Self::Uniform);
+    fn read(given: &Given) -> Result<Self> {
+        if !matches!(given.node.content, Content::Table(_)) {
+            return f64::read(given).map(Self::Uniform);
         }
-        let table = Entries::of(node, form, path)?;
-        let (top, bottom) = (table.value("top", None)?, table.value("bottom", None)?);
+        given.check_table()?;
+        let (top, bottom) = (given.value("top", None)?, given.value("bottom", None)?);
         Ok(Self::Linear { top, bottom })
     }
 

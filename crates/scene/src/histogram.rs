@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use creepage_tables::{Kind, Layout, Options, Row, Table, TableError};
 
 use crate::content::Content;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::key::Form::{Either, Number, Text};
 use crate::key::{Form, Section, keys};
 use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS};
@@ -116,7 +116,7 @@ pub fn beside(name: &str, text: &str) -> PathBuf {
 }
 
 impl Histogram {
-    fn options(&self) -> Result<Options, SceneError> {
+    fn options(&self) -> Result<Options> {
         let mut options = Options::default();
         // The first is the file.
         for entry in self.write(HISTOGRAM).entries().iter().skip(1) {
@@ -132,7 +132,7 @@ impl Histogram {
 
     /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\];
     /// `scene` is the file that names it.
-    pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
+    pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>> {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
         table.and_then(|table| classes(table, speed)).map_err(|error| {
             let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();

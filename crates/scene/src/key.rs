@@ -49,9 +49,8 @@ pub enum Form {
     /// One of these words, and what else is to be said of them.
     Words(&'static [&'static str], &'static str),
     Table(&'static [Key]),
-    /// A list of so many items at least.
-    List(&'static Form, usize, &'static str),
-    Pair(&'static [Form; 2], &'static str),
+    /// A list of so many items at least, all of one form or each of its own.
+    List(&'static [Form], usize, &'static str),
     /// A value that is no table, or a table. A text stands for the first key of the table.
     Either(&'static Form, &'static [Key]),
 }
@@ -61,7 +60,7 @@ impl Form {
     pub fn keys(self) -> &'static [Key] {
         match self {
             Self::Table(keys) | Self::Either(_, keys) => keys,
-            Self::List(form, ..) => form.keys(),
+            Self::List([form, ..], ..) => form.keys(),
             _ => &[],
         }
     }
@@ -79,7 +78,7 @@ impl Form {
     pub fn allowed(self) -> String {
         match self {
             Self::Number(quantity) => quantity.allowed(),
-            Self::Text(allowed) | Self::List(_, _, allowed) | Self::Pair(_, allowed) => allowed.to_owned(),
+            Self::Text(allowed) | Self::List(_, _, allowed) => allowed.to_owned(),
             Self::Words(words, more) => listed(words.iter().copied()) + more,
             Self::Table(keys) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
@@ -139,11 +138,9 @@ macro_rules! keys {
         }
 
         impl $crate::stored::Stored for $name {
-            fn read(
-                node: &$crate::content::Node, form: $crate::key::Form, path: &str,
-            ) -> Result<Self, $crate::error::SceneError> {
-                let table = $crate::stored::Entries::of(node, form, path)?;
-                Ok(Self { $($key: table.value(stringify!($key), $crate::key::absent!($($absent $(=> $value)?)?))?,)+ })
+            fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
+                given.check_table()?;
+                Ok(Self { $($key: given.value(stringify!($key), $crate::key::absent!($($absent $(=> $value)?)?))?,)+ })
             }
 
             fn write(&self, form: $crate::key::Form) -> $crate::content::Content {

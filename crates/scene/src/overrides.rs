@@ -3,7 +3,7 @@
 use toml::de::DeTable;
 
 use crate::content::{Content, Entry, Node, Place, joined};
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::file::SceneFile;
 use crate::parsed::node;
 use crate::rivals::gives_way;
@@ -15,14 +15,13 @@ const DEEPEST: usize = 8;
 type Refused = (String, String);
 
 /// Sets one key of the file, or removes it if the value is empty.
-pub fn apply(file: &mut SceneFile, text: &str) -> Result<(), SceneError> {
+pub fn apply(file: &mut SceneFile, text: &str) -> Result<()> {
     let source = file.add(format!("--set {text}"), text, false);
     let key = text.split('=').next().unwrap_or_default();
     let bytes = 0..key.len();
     let place = Place { source, bytes };
     set_text(&mut file.root, text, &place).map_err(|(found, allowed)| {
-        let error = SceneError::no_override(key.trim(), &found, allowed);
-        error.at(file.location(&place))
+        SceneError::value(key.trim(), found, allowed).of_override(file.location(&place))
     })
 }
 

@@ -4,11 +4,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::content::{Content, Entry, Node, Place};
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::location::Location;
 
 /// The entries of a text, which is the source of this number; `name` stands for it in errors.
-pub fn entries_of(name: &str, text: &str, source: usize) -> Result<Vec<Entry>, SceneError> {
+pub fn entries_of(name: &str, text: &str, source: usize) -> Result<Vec<Entry>> {
     let table = DeTable::parse(text).map_err(|error| syntax_error(name, text, &error))?;
     Ok(entries(table.get_ref(), source, text))
 }

@@ -3,16 +3,17 @@
 //! Keys given next to a preset override it, whichever stands first. A preset that an override names later wins over what was written before it.
 
 use crate::content::{Content, Entry, Node, joined};
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::file::SceneFile;
+use crate::key::Form;
 use crate::parsed::entries_of;
 use crate::presets::{Preset, of_section};
 use crate::rivals::gives_way;
 use crate::shown::listed;
-use crate::stored::word;
+use crate::stored::Given;
 
 /// Puts the values of presets into the sections that name one.
-pub fn expand(file: &mut SceneFile) -> Result<(), SceneError> {
+pub fn expand(file: &mut SceneFile) -> Result<()> {
     let mut root = file.root.clone();
     if let Content::Table(sections) = &mut root.content {
         for Entry { key, value, .. } in sections {
@@ -32,12 +33,7 @@ pub fn expand(file: &mut SceneFile) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn fill(
-    file: &mut SceneFile,
-    path: &str,
-    presets: &[(&str, &Preset)],
-    section: &mut Node,
-) -> Result<(), SceneError> {
+fn fill(file: &mut SceneFile, path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
     let Content::Table(entries) = &mut section.content else {
         return Ok(());
     };
@@ -49,7 +45,8 @@ fn fill(
         return Ok(());
     };
     let allowed = listed(presets.iter().map(|(name, _)| *name));
-    let preset = word(presets, &entries[place].value, &joined(path, "preset"), allowed);
+    let given = Given::new(joined(path, "preset"), &entries[place].value, Form::Text(""));
+    let preset = given.word(presets, allowed);
     let preset = preset.map_err(|error| file.located(error))?;
     let named = entries.remove(place).place.source;
     // An earlier preset goes, and so does what was set before this one was named: in the file, or by another override.

@@ -184,9 +184,10 @@ mod tests {
             for other in UNITS {
                 let parsed = other.dimension.parse(&text);
                 let wrong = format!("`{}` is the unit of {}", unit.symbol, unit.dimension.noun());
-                match other.dimension.takes(unit.dimension) {
-                    true => assert!(parsed.is_ok(), "{text}"),
-                    false => assert_eq!(parsed, Err(wrong)),
+                if other.dimension.takes(unit.dimension) {
+                    assert!(parsed.is_ok(), "{text}");
+                } else {
+                    assert_eq!(parsed, Err(wrong));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Keys that exclude each other: what an override sets drops what has no meaning beside it; what a file gives together is an error.
 
 use crate::content::{Content, Entry, Node, joined, without_numbers};
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 
 /// What is allowed of two rivals.
 const ONE: &str = "only one of the two";
@@ -81,7 +81,7 @@ pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
 }
 
 /// The first two keys of the table at `path` that exclude each other.
-pub fn contradiction(path: &str, table: &Node) -> Result<(), SceneError> {
+pub fn contradiction(path: &str, table: &Node) -> Result<()> {
     // Each by its own name: a spring is not a stiffness here.
     let value_at = |key: &str| {
         key.split('.').try_fold(table, |node, key| {

@@ -5,7 +5,7 @@ use ground_field::Modulus;
 
 use crate::arrangement::CLOSEST;
 use crate::cable::Law;
-use crate::error::{SceneError, did_you_mean};
+use crate::error::{Result, SceneError, did_you_mean};
 use crate::ground::{GroundModel, Layer};
 use crate::nearest::nearest;
 use crate::range::{
@@ -20,7 +20,7 @@ type Rule = (bool, String, String, String);
 type Range = std::ops::RangeInclusive<f64>;
 
 /// The first rule that the scene breaks.
-pub fn check(scene: &Scene) -> Result<(), SceneError> {
+pub fn check(scene: &Scene) -> Result<()> {
     let groups = [ground, given, lengths, route, slope, vehicles, sequence, heat];
     let mut rules = groups.iter().flat_map(|rules| rules(scene));
     match rules.find(|(holds, ..)| !holds) {

@@ -5,8 +5,8 @@ use std::path::Path;
 use cable_dem::{End, Order, Restraint, Section};
 
 use crate::cable::{Cable, Friction};
-use crate::content::{Content, Node};
-use crate::error::SceneError;
+use crate::content::Content;
+use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
 use crate::key::Form::{Either, List, Number, Table, Text, Words};
@@ -16,7 +16,7 @@ use crate::range::{
 };
 use crate::route::RouteSection;
 use crate::solver::Solver;
-use crate::stored::{Entries, Stored, entry, word};
+use crate::stored::{Given, Stored, entry};
 use crate::traffic::{Following, Traffic};
 use crate::vehicle::TrafficVehicle;
 
@@ -29,7 +29,7 @@ keys! {
         /// Where the duct lies: as deep everywhere below a road that slopes and bends as it does.
         duct: Duct = Table(Duct::KEYS);
         /// Sections of a duct that slopes or bends, in place of `duct.slope`.
-        route: Vec<RouteSection> = List(&Table(RouteSection::KEYS), 0, "a list of [[route]] sections, from x = 0 on"), "straight, with `duct.slope`";
+        route: Vec<RouteSection> = List(&[Table(RouteSection::KEYS)], 0, "a list of [[route]] sections, from x = 0 on"), "straight, with `duct.slope`";
         /// The ground around the duct.
         ground: Ground = Table(Ground::KEYS);
         /// The cable in the duct.
@@ -39,9 +39,9 @@ keys! {
         /// What holds the cable's two ends.
         ends: Ends = Table(Ends::KEYS);
         /// Clamps along the cable.
-        restraints: Vec<Restraint> = List(&Table(Restraint::KEYS), 0, "a list of [[restraints]]"), "none";
+        restraints: Vec<Restraint> = List(&[Table(Restraint::KEYS)], 0, "a list of [[restraints]]"), "none";
         /// Who drives above the duct.
-        vehicles: Vec<TrafficVehicle> = List(&Table(TrafficVehicle::KEYS), 1, VEHICLES), "traffic.histogram instead";
+        vehicles: Vec<TrafficVehicle> = List(&[Table(TrafficVehicle::KEYS)], 1, VEHICLES), "traffic.histogram instead";
         /// How much traffic, and in which order.
         traffic: Traffic = Table(Traffic::KEYS);
         /// How warm the cable gets every day; needs `traffic.per_day`.
@@ -100,13 +100,12 @@ const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is under
 const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))]);
 
 impl Stored for End {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        match node.content {
-            Content::Table(_) => Entries::of(node, form, path)?
-                .value("spring", None)
-                .map(Self::Spring),
-            _ => word(ENDS, node, path, form.allowed()),
+    fn read(given: &Given) -> Result<Self> {
+        if !matches!(given.node.content, Content::Table(_)) {
+            return given.word(ENDS, given.form.allowed());
         }
+        given.check_table()?;
+        given.value("spring", None).map(Self::Spring)
     }
 
     fn write(&self, form: Form) -> Content {
@@ -226,7 +225,7 @@ impl Scene {
     }
 
     /// Puts what is computed once in place of what it follows from; `file` is the scene's.
-    pub(crate) fn resolve(&mut self, file: &str) -> Result<(), SceneError> {
+    pub(crate) fn resolve(&mut self, file: &str) -> Result<()> {
         if self.title.is_empty() {
             let stem = Path::new(file).file_stem().unwrap_or_default();
             self.title = stem.to_string_lossy().into_owned();

@@ -64,10 +64,10 @@ fn form(form: &Form, path: &str) -> Value {
         Form::Text(_) => json!({ "type": "string" }),
         Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
-        Form::List(item, least, _) => {
+        Form::List([item], least, _) => {
             json!({ "type": "array", "minItems": least, "items": self::form(item, path) })
         }
-        Form::Pair(..) => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
+        Form::List(items, ..) => json!({ "type": "array", "minItems": items.len(), "maxItems": items.len() }),
         Form::Either(one, keys) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
     }
 }

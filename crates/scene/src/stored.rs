@@ -1,58 +1,85 @@
 //! Types whose values stand in a file. Each is read beside the form of its key: an error says what is allowed.
 
 use crate::content::{Content, Entry, Node, joined, other_name};
-use crate::error::{SceneError, did_you_mean};
+use crate::error::{Result, SceneError, did_you_mean};
 use crate::key::{Form, Key};
 use crate::names::meant_by;
 use crate::nearest::nearest;
+use crate::range::Quantity;
 use crate::rivals::contradiction;
+use crate::units::Dimension;
 
 /// A type whose values stand in a file.
 pub trait Stored: Sized {
-    /// The value that stands at `path`, in SI.
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError>;
+    /// The value in SI.
+    fn read(given: &Given) -> Result<Self>;
     /// The value as it is written, quantities in SI with their units.
     fn write(&self, form: Form) -> Content;
 }
 
-/// The entries of a table, whose keys are known and do not exclude each other.
-pub struct Entries<'n> {
-    node: &'n Node,
-    keys: &'static [Key],
-    path: &'n str,
+/// What stands at a key, and what may stand there.
+pub struct Given<'n> {
+    pub path: String,
+    pub node: &'n Node,
+    pub form: Form,
 }
 
-impl<'n> Entries<'n> {
-    /// An unknown key is told before one that is missing: a misspelt one is both.
-    pub fn of(node: &'n Node, form: Form, path: &'n str) -> Result<Self, SceneError> {
-        let keys = form.keys();
-        match (&node.content, form) {
-            (Content::Table(entries), _) => {
-                let is_known = |name: &str| keys.iter().any(|key| key.name == name);
-                let is_known = |name: &str| is_known(name) || other_name(name).is_some_and(is_known);
-                if let Some(entry) = entries.iter().find(|entry| !is_known(&entry.key)) {
-                    return Err(unknown_key(entry, keys, path));
-                }
-                contradiction(path, node)?;
-            }
-            (Content::Text(_), Form::Either(..)) => {}
-            _ => return Err(SceneError::value(path, node.described(), form.allowed())),
-        }
-        Ok(Self { node, keys, path })
+impl<'n> Given<'n> {
+    pub fn new(path: String, node: &'n Node, form: Form) -> Self {
+        Self { path, node, form }
     }
 
-    /// The value at a key, or what counts if it is left out. A text in place of a table stands at the first of its keys.
-    pub fn value<T: Stored>(&self, name: &str, absent: Option<T>) -> Result<T, SceneError> {
-        let is_first = self.keys.first().is_some_and(|key| key.name == name);
+    /// The error of a value that is not allowed.
+    fn wrong(&self, found: impl AsRef<str>) -> SceneError {
+        SceneError::value(&self.path, found, self.form.allowed())
+    }
+
+    /// The error of a value of a kind that is not allowed.
+    fn of_other_kind(&self) -> SceneError {
+        self.wrong(self.node.described())
+    }
+
+    /// Refuses what is no table, and keys of a table that are not known or exclude each other. An unknown key is told before one that
+    /// is missing: a misspelt one is both.
+    pub fn check_table(&self) -> Result<()> {
+        let keys = self.form.keys();
+        let entries = match (&self.node.content, self.form) {
+            (Content::Table(entries), _) => entries,
+            (Content::Text(_), Form::Either(..)) => return Ok(()),
+            _ => return Err(self.of_other_kind()),
+        };
+        let is_known = |name: &str| keys.iter().any(|key| key.name == name);
+        let is_known = |name: &str| is_known(name) || other_name(name).is_some_and(is_known);
+        match entries.iter().find(|entry| !is_known(&entry.key)) {
+            Some(entry) => Err(unknown_key(entry, keys, &self.path)),
+            None => contradiction(&self.path, self.node),
+        }
+    }
+
+    /// The value at a key of a table, or what counts if it is left out. A text in place of a table stands at the first of its keys.
+    pub fn value<T: Stored>(&self, name: &str, absent: Option<T>) -> Result<T> {
+        let keys = self.form.keys();
         let node = match self.node.content {
-            Content::Text(_) => Some(self.node).filter(|_| is_first),
+            Content::Text(_) => Some(self.node).filter(|_| keys.first().is_some_and(|key| key.name == name)),
             _ => self.node.content.get(name),
         };
-        let (path, form) = (joined(self.path, name), form_of(self.keys, name));
+        let (path, form) = (joined(&self.path, name), form_of(keys, name));
         match node {
-            Some(node) => T::read(node, form, &path),
+            Some(node) => T::read(&Given::new(path, node, form)),
             None => absent.ok_or_else(|| SceneError::missing(&path, form.allowed())),
         }
+    }
+
+    /// What the word that is given stands for.
+    pub fn word<T: Copy>(&self, words: &[(&str, T)], allowed: String) -> Result<T> {
+        let Some(text) = self.node.content.as_text() else {
+            return Err(SceneError::value(&self.path, self.node.described(), allowed));
+        };
+        let known = words.iter().find(|(word, _)| *word == text);
+        known.map(|(_, value)| *value).ok_or_else(|| {
+            let meant = did_you_mean(nearest(text, words.iter().map(|(word, _)| *word)));
+            SceneError::value(&self.path, self.node.written.clone() + &meant, allowed)
+        })
     }
 }
 
@@ -64,8 +91,7 @@ fn form_of(keys: &[Key], name: &str) -> Form {
 fn unknown_key(entry: &Entry, keys: &[Key], path: &str) -> SceneError {
     let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
     let (meant, elsewhere) = meant_by(&entry.key, &names);
-    let (path, allowed) = (joined(path, &entry.key), names.join(", ") + elsewhere);
-    SceneError::unknown(&path, meant, allowed)
+    SceneError::unknown(&joined(path, &entry.key), meant, names.join(", ") + elsewhere)
 }
 
 /// The entry of a table for a value, unless it counts without one.
@@ -75,61 +101,50 @@ pub fn entry<'k, T: Stored + PartialEq>(
     value: &T,
     absent: Option<T>,
 ) -> Option<(&'k str, Content)> {
-    let is_needed = absent.as_ref() != Some(value);
-    is_needed.then(|| (name, value.write(form_of(keys, name))))
-}
-
-/// What the word at `path` stands for.
-pub fn word<T: Copy>(words: &[(&str, T)], node: &Node, path: &str, allowed: String) -> Result<T, SceneError> {
-    let Some(text) = node.content.as_text() else {
-        return Err(SceneError::value(path, node.described(), allowed));
-    };
-    if let Some((_, value)) = words.iter().find(|(word, _)| *word == text) {
-        return Ok(*value);
+    match absent {
+        Some(absent) if absent == *value => None,
+        _ => Some((name, value.write(form_of(keys, name)))),
     }
-    let meant = did_you_mean(nearest(text, words.iter().map(|(word, _)| *word)));
-    Err(SceneError::value(path, node.written.clone() + &meant, allowed))
 }
 
 impl Stored for f64 {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        let wrong = |found| Err(SceneError::value(path, found, form.allowed()));
-        let dimension = form.quantity().and_then(|quantity| quantity.dimension);
-        let value = match (node.content.as_number(), node.content.as_text(), dimension) {
+    fn read(given: &Given) -> Result<Self> {
+        let (content, quantity) = (&given.node.content, given.form.quantity());
+        let dimension = quantity.and_then(|quantity| quantity.dimension);
+        let value = match (content.as_number(), content.as_text(), dimension) {
             (Some(value), ..) => value,
             (_, Some(text), Some(dimension)) => {
-                let parsed = dimension.parse(text);
-                parsed.or_else(|why| wrong(format!("{}: {why}", node.written)))?
+                let wrong = |why| given.wrong(format!("{}: {why}", given.node.written));
+                dimension.parse(text).map_err(wrong)?
             }
-            _ => return wrong(node.described()),
+            _ => return Err(given.of_other_kind()),
         };
-        if form.quantity().is_none_or(|quantity| quantity.contains(value)) {
+        if quantity.is_none_or(|quantity| quantity.contains(value)) {
             return Ok(value);
         }
-        let bare = match dimension.filter(|_| node.content.as_text().is_none()) {
-            Some(dimension) => format!(
-                "; a bare number is in {}",
-                dimension.si().unwrap_or("1, not in %")
-            ),
-            None => String::new(),
-        };
-        Err(SceneError::value(path, &*node.written, form.allowed() + &bare))
+        let unit = |dimension: Dimension| dimension.si().unwrap_or("1, not in %");
+        let bare = dimension.filter(|_| content.as_text().is_none()).map(unit);
+        let bare = bare.map_or_else(String::new, |unit| format!("; a bare number is in {unit}"));
+        Err(SceneError::value(
+            &given.path,
+            &given.node.written,
+            given.form.allowed() + &bare,
+        ))
     }
 
     fn write(&self, form: Form) -> Content {
-        let unit = form.quantity().and_then(|quantity| quantity.unit());
-        unit.map_or(Content::Number(*self), |unit| {
-            Content::Text(format!("{self:?} {unit}"))
-        })
+        let unit = form.quantity().and_then(Quantity::unit);
+        let text = unit.map(|unit| Content::Text(format!("{self:?} {unit}")));
+        text.unwrap_or(Content::Number(*self))
     }
 }
 
 impl Stored for u64 {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        f64::read(node, form, path)?;
-        match node.content {
+    fn read(given: &Given) -> Result<Self> {
+        f64::read(given)?;
+        match given.node.content {
             Content::Whole(whole) => Ok(whole),
-            _ => Err(SceneError::value(path, &*node.written, form.allowed())),
+            _ => Err(given.wrong(&given.node.written)),
         }
     }
 
@@ -139,9 +154,9 @@ impl Stored for u64 {
 }
 
 impl Stored for String {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        let text = node.content.as_text().map(str::to_owned);
-        text.ok_or_else(|| SceneError::value(path, node.described(), form.allowed()))
+    fn read(given: &Given) -> Result<Self> {
+        let text = given.node.content.as_text().map(str::to_owned);
+        text.ok_or_else(|| given.of_other_kind())
     }
 
     fn write(&self, _: Form) -> Content {
@@ -150,8 +165,8 @@ impl Stored for String {
 }
 
 impl<T: Stored> Stored for Option<T> {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        T::read(node, form, path).map(Some)
+    fn read(given: &Given) -> Result<Self> {
+        T::read(given).map(Some)
     }
 
     fn write(&self, form: Form) -> Content {
@@ -160,46 +175,39 @@ impl<T: Stored> Stored for Option<T> {
 }
 
 impl<T: Stored> Stored for Vec<T> {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        let (Form::List(of_item, least, _), Content::List(items)) = (form, &node.content) else {
-            return Err(SceneError::value(path, node.described(), form.allowed()));
+    fn read(given: &Given) -> Result<Self> {
+        let (Form::List(forms, least, _), Content::List(items)) = (given.form, &given.node.content) else {
+            return Err(given.of_other_kind());
         };
         if items.len() < least {
-            let found = ["an empty list", "one item"][items.len().min(1)];
-            return Err(SceneError::value(path, found, form.allowed()));
+            return Err(given.wrong(["an empty list", "one item"][items.len().min(1)]));
         }
-        let item = |(index, item)| T::read(item, *of_item, &joined(path, index));
-        items.iter().enumerate().map(item).collect()
+        let items = items.iter().zip(forms.iter().cycle()).enumerate();
+        let path = |index| joined(&given.path, index);
+        let read =
+            |(index, (node, form)): (usize, (_, &Form))| T::read(&Given::new(path(index), node, *form));
+        items.map(read).collect()
     }
 
     fn write(&self, form: Form) -> Content {
-        let Form::List(of_item, ..) = form else {
+        let Form::List(forms, ..) = form else {
             return Content::Other;
         };
-        Content::List(self.iter().map(|item| item.write(*of_item).into()).collect())
+        let items = self.iter().zip(forms.iter().cycle());
+        Content::List(items.map(|(item, form)| item.write(*form).into()).collect())
     }
 }
 
 /// A list of two.
-impl<T: Stored> Stored for (T, T) {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        match (form, &node.content) {
-            (Form::Pair([first, second], _), Content::List(items)) if items.len() == 2 => Ok((
-                T::read(&items[0], *first, &joined(path, 0))?,
-                T::read(&items[1], *second, &joined(path, 1))?,
-            )),
-            _ => Err(SceneError::value(path, node.described(), form.allowed())),
+impl<T: Stored + Copy> Stored for (T, T) {
+    fn read(given: &Given) -> Result<Self> {
+        match Vec::<T>::read(given)?[..] {
+            [first, second] => Ok((first, second)),
+            _ => Err(given.of_other_kind()),
         }
     }
 
     fn write(&self, form: Form) -> Content {
-        let Form::Pair([first, second], _) = form else {
-            return Content::Other;
-        };
-        Content::List(
-            [self.0.write(*first), self.1.write(*second)]
-                .map(Node::from)
-                .into(),
-        )
+        vec![self.0, self.1].write(form)
     }
 }

@@ -2,12 +2,12 @@
 
 use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle};
 
-use crate::content::{Content, Node};
-use crate::error::SceneError;
+use crate::content::Content;
+use crate::error::Result;
 use crate::key::Form::{List, Number, Table, Text, Words};
 use crate::key::{Form, keys};
 use crate::range::{CONTACT_RADIUS, LANE, LOAD, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y};
-use crate::stored::{Stored, word};
+use crate::stored::{Given, Stored};
 
 keys! {
     /// A vehicle and how often it drives, in SI. It has a load or wheels.
@@ -20,7 +20,7 @@ keys! {
         /// One concentrated load.
         load: Option<f64> = Number(LOAD), "`wheels` instead";
         /// Wheels of the vehicle.
-        wheels: Vec<Wheel> = List(&Table(Wheel::KEYS), 1, WHEELS), "`load` instead";
+        wheels: Vec<Wheel> = List(&[Table(Wheel::KEYS)], 1, WHEELS), "`load` instead";
         /// Its lane: how far its axis lies to the left of the first lane's, seen along forward traffic.
         lateral_offset: f64 = Number(LANE), "0 m";
         /// Forward is toward growing x.
@@ -51,8 +51,8 @@ const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("re
 const DIRECTION: Form = Words(&["forward", "reverse"], "; forward is toward the downstream end");
 
 impl Stored for Direction {
-    fn read(node: &Node, form: Form, path: &str) -> Result<Self, SceneError> {
-        word(DIRECTIONS, node, path, form.allowed())
+    fn read(given: &Given) -> Result<Self> {
+        given.word(DIRECTIONS, given.form.allowed())
     }
 
     fn write(&self, _: Form) -> Content {

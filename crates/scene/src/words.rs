@@ -39,10 +39,8 @@ macro_rules! file_words {
         }
 
         impl $crate::stored::Stored for $type {
-            fn read(
-                node: &$crate::content::Node, form: $crate::key::Form, path: &str,
-            ) -> Result<Self, $crate::error::SceneError> {
-                $crate::stored::word(Self::WORDS, node, path, form.allowed())
+            fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
+                given.word(Self::WORDS, given.form.allowed())
             }
 
             fn write(&self, _: $crate::key::Form) -> $crate::content::Content {
