@@ -136,7 +136,7 @@ impl Columns<'_> {
         let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
         let is_zero = list.iter().all(|reading| reading.pass == 0);
         let (line, found, allowed) = match (list.first(), unusable, blank) {
-            (None, None, _) => (self.table.line, "no rows".into(), LAYOUT.allowed),
+            (None, None, _) => (0, "no rows".into(), LAYOUT.allowed),
             (None, Some((line, text)), _) => (
                 *line,
                 format!("{name}: found \"{text}\", and no number anywhere"),

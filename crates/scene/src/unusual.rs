@@ -188,7 +188,7 @@ pub fn slip(key: &str, node: &Node) -> Option<String> {
             si_unit(key)?
         ),
         // Three digits behind a point may be thousands.
-        None if name == "passes" && found.rfind('.') == found.len().checked_sub(4) => {
+        None if name == "passes" && found.rfind('.').is_some_and(|at| at + 4 == found.len()) => {
             format!("is {value}, as decimals follow a point: did you mean {meant}?")
         }
         None => return None,
