@@ -359,9 +359,9 @@ fn every_shape_of_the_series_is_read_right() {
 const REFUSED: &str = r#"
 pass,force_n¶1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:2 ‖ 3 cells ‖ decimal comma
 1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:1 ‖ decimal comma
-pass;force_n¶1;94,1¶ ‖ separator=comma ‖ cell.csv:1 ‖ no column pass ‖ separated by semicolons
-pass⇥force_n¶1⇥94.1¶ ‖ separator=semicolon ‖ cell.csv:1 ‖ separated by tabs
-pass;force_n¶1;94,1¶2;135.8¶ ‖ - ‖ cell.csv:3 ‖ 135.8 ‖ a decimal point where other numbers have a comma
+pass;force_n¶1;94,1¶ ‖ separator=comma ‖ cell.csv:1 ‖ no column pass in "pass;force_n" (read as separated by commas
+pass⇥force_n¶1⇥94.1¶ ‖ separator=semicolon ‖ cell.csv:1 ‖ (read as separated by semicolons
+pass;force_n¶1;94,1¶2;135.8¶ ‖ - ‖ cell.csv:3 ‖ 135.8 ‖ decimals after a comma
 pass;force_n¶1;1,113¶2;2,450¶ ‖ - ‖ cell.csv:2 ‖ 1,113 ‖ --decimal
 Nr;Zelle¶1;94,1¶ ‖ - ‖ no column pass ‖ Nr | Zelle ‖ --column-pass
 pass,cell¶1,94¶ ‖ - ‖ no column force_n ‖ pass | cell ‖ --column-force
@@ -370,7 +370,7 @@ pass,force [V]¶1,94¶ ‖ - ‖ force [V] ‖ `V` ‖ --unit
 pass,force_n¶1,94¶ ‖ unit=kNm ‖ --unit ‖ `kNm`
 pass,force 1 [N],force 2 [N]¶1,94,95¶ ‖ - ‖ second column force 2 ‖ --column-force
 time,force_n¶09:00,94¶09:05,95¶ ‖ - ‖ times ‖ --column-vehicles
-time,vehicles,force_n¶09:00,5,94¶08:55,7,95¶ ‖ - ‖ cell.csv:3 ‖ earlier
+time,vehicles,force_n¶09:00,5,94¶08:55,7,95¶ ‖ - ‖ cell.csv:3 ‖ "08:55" ‖ rows in the order of their times
 vehicles,force_n¶3,1¶5,2¶9,3¶12,4¶20,5¶ ‖ - ‖ running total ‖ --column-pass
 pass,force_n¶1,94¶2,many¶ ‖ - ‖ cell.csv:3 ‖ force_n ‖ many
 pass,force_n¶1,94 m¶ ‖ - ‖ cell.csv:2 ‖ 94 m ‖ unit
@@ -401,10 +401,10 @@ x,force_n¶1,94¶ ‖ - ‖ no column pass
 Station 4, joint¶number,cell force¶1,94¶ ‖ - ‖ cell.csv:2 ‖ no column pass
 pass,force_n¶1,94¶ ‖ header=7 ‖ cell.csv:7 ‖ nothing
 pass,deflection [um],position [m]¶1,115,3¶ ‖ - ‖ cell.csv:2 ‖ a place beside a deflection ‖ under the first vehicle
-pass,force_n¶1,3000-3999¶ ‖ - ‖ cell.csv:2: force_n: found "3000-3999", a range
+pass,force_n¶1,3000-3999¶ ‖ - ‖ cell.csv:2: force_n: found "3000-3999"
 pass,force_n¶Total,3000¶ ‖ - ‖ cell.csv:2: pass: found "Total"
 pass,A,A¶1,94,95¶ ‖ force=A ‖ second column A
-pass;force_n¶1;0,113¶2;1.5¶ ‖ - ‖ cell.csv:3 ‖ 1.5 ‖ a decimal point where other numbers have a comma
+pass;force_n¶1;0,113¶2;1.5¶ ‖ - ‖ cell.csv:3 ‖ 1.5 ‖ decimals after a comma
 "#;
 
 /// What is wrong is named: the file, words that the message holds.
@@ -429,7 +429,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
     let no_text = Readings::from_csv("photo.jpg", &[0xFF, 0xD8, 0xFF, 0xE0, 0, 16, 1, 2]).unwrap_err();
     assert!(no_text.to_string().contains("no text"), "{no_text}");
     let archive = Readings::from_csv("notes.docx", b"PK\x03\x04 and more").unwrap_err();
-    assert!(archive.to_string().contains("not a table"), "{archive}");
+    assert!(archive.to_string().contains("cannot be read"), "{archive}");
 }
 
 fn read(text: &str, words: &str) -> Readings {

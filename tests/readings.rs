@@ -47,7 +47,7 @@ fn too_few_readings_for_the_parameters_are_refused() {
             .starts_with("cell.csv:2: 1 readings; allowed: 3 or more"),
         "{error}"
     );
-    assert!(matches!(read(""), Err(DataError::Empty(_))));
+    assert!(read("").unwrap_err().to_string().starts_with("cell.csv: no rows"));
 }
 
 #[test]
@@ -55,7 +55,10 @@ fn what_is_no_text_is_an_error() {
     let error = Readings::from_csv("cell.csv", b"pass,force_n\n1,\xff\xfe\n").unwrap_err();
     assert!(matches!(&error, DataError::Line { line: 2, .. }), "{error}");
     let error = Readings::from_csv("cell.csv", b"pass,force_n\n1,\x01\x00\n").unwrap_err();
-    assert!(matches!(&error, DataError::NoText { .. }), "{error}");
+    assert!(
+        matches!(&error, DataError::Line { line: 0, found, .. } if found == "bytes that are no text"),
+        "{error}"
+    );
     let missing = Readings::from_file("no/such/file.csv", &ReadOptions::default()).unwrap_err();
     assert!(matches!(missing, DataError::Unreadable { .. }));
 }
@@ -65,11 +68,11 @@ fn what_is_too_large_for_readings_is_not_read() {
     let endless = vec![b'\n'; (64 << 20) + 1];
     let error = Readings::from_csv("endless", &endless).unwrap_err();
     assert!(
-        matches!(error, DataError::TooLarge { allowed, .. } if allowed == 64 << 20),
+        error.to_string().ends_with("a table of at most 67108864 bytes"),
         "{error}"
     );
     let error = Readings::from_csv("empty", &endless[1..]).unwrap_err();
-    assert!(matches!(error, DataError::Empty { .. }), "{error}");
+    assert!(error.to_string().starts_with("empty: no rows"), "{error}");
     let cell = "n".repeat(1_000_000);
     let error = read(&format!("pass,force_n\n1,{cell}\n"))
         .unwrap_err()

@@ -148,11 +148,11 @@ fn a_slope_that_nothing_holds_is_refused_at_its_key() {
     let free = "ends.downstream=free";
     let message = refused(&["duct.slope=30 %", free]);
     assert!(
-        message.starts_with("--set duct.slope=30 %: `duct.slope`: found 30 % between free ends"),
+        message.starts_with("--set duct.slope=30 %: `duct.slope`: found slopes between free ends that draw the cable with 937.9 N"),
         "{message}"
     );
     assert!(
-        message.contains("less than what friction holds, 0.25,"),
+        message.contains("less than friction and clamps hold, 781.6 N, or an end"),
         "{message}"
     );
     assert!(refused(&["duct.slope=1 %", free, "friction.dynamic_coefficient=0"]).contains("`duct.slope`"));

@@ -132,7 +132,10 @@ fn a_row_is_the_run_of_its_point_and_a_failing_point_stops_nothing() {
         let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
         if (4..8).contains(&index) {
             assert_eq!(row[column("status")], "error");
-            assert!(row[column("error")].contains("out of range: found -1"), "{row:?}");
+            assert!(
+                row[column("error")].contains("`friction.dynamic_coefficient`: found -1"),
+                "{row:?}"
+            );
             assert!(row[column("downstream_force_n")].is_empty());
             continue;
         }

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::terminal;
-use crate::scene::{Dimension, QuantityError, Unit, did_you_mean, nearest};
+use crate::scene::{Dimension, Unit, did_you_mean, nearest};
 use crate::shown::exact;
 use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units, Verdict};
 
@@ -75,12 +75,8 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     let unit = dimension.unit_of(value);
     let value = dimension.parse_argument(value).map_err(|error| {
         let units: Vec<&str> = dimension.units().collect();
-        let meant = match error {
-            QuantityError::UnknownUnit { nearest, .. } => did_you_mean(nearest),
-            _ => String::new(),
-        };
         format!(
-            "{error}{meant}; allowed: {} (units: {}); another limit is another option",
+            "{error}; allowed: {} (units: {}); another limit is another option",
             dimension.noun(),
             units.join(", ")
         )

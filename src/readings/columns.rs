@@ -36,11 +36,7 @@ pub struct Columns<'o> {
 pub fn columns(mut table: Table, options: &ReadOptions) -> Result<Columns<'_>, DataError> {
     refuse_cut_decimals(&table)?;
     let pass = table.one(PASS)?;
-    let vehicles = if pass.is_none() {
-        table.one(VEHICLES)?
-    } else {
-        None
-    };
+    let vehicles = pass.map_or_else(|| table.one(VEHICLES), |_| Ok(None))?;
     // A number of passes has no unit, whatever a logger writes below its name.
     for column in pass.into_iter().chain(vehicles) {
         table.names[column].unit = None;
@@ -70,8 +66,7 @@ fn refuse_cut_decimals(table: &Table) -> Result<(), DataError> {
         return Ok(());
     }
     let cells = rows[0].cells.join(",");
-    let found =
-        format!("\"{cells}\": three whole numbers, or a decimal comma between cells separated by commas");
+    let found = format!("\"{cells}\": three whole numbers, or a decimal comma between two cells");
     let allowed = "a header that names the columns, or cells separated by semicolons";
     Err(table.wrong(table.line, found, allowed))
 }
@@ -93,19 +88,14 @@ fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError
             return Err(table.wrong(table.line, found, LAYOUT.allowed));
         }
         if let Some(unit) = name.unit.as_ref().filter(|unit| si(kind, "1", unit).is_err()) {
-            let of = if is_told_unit(options, kind) {
-                "--unit"
-            } else {
-                &name.text
-            };
-            return Err(table.wrong(table.line, format!("{of}: the unit `{unit}`"), UNITS));
+            let found = format!("{}: the unit `{unit}`", name.text);
+            return Err(table.wrong(table.line, found, UNITS));
         }
-        let sigma = None;
         values.push(Values {
             column,
             kind,
             end,
-            sigma,
+            sigma: None,
         });
     }
     let has_force = values.iter().any(|value| value.kind == FORCE);

@@ -32,26 +32,19 @@ impl Readings {
         if self.list.len() >= needed {
             return Ok(());
         }
-        Err(DataError::Line {
-            file: self.file.clone(),
-            line: self.list.last().map_or(0, |reading| reading.line),
-            found: format!("{} readings", self.list.len()),
-            allowed: format!("{needed} or more, needed for {parameters} parameters"),
-        })
+        let line = self.list.last().map_or(0, |reading| reading.line);
+        let allowed = format!("{needed} or more, needed for {parameters} parameters");
+        Err(DataError::line(
+            &self.file,
+            line,
+            format!("{} readings", self.list.len()),
+            allowed,
+        ))
     }
 
     /// The readings, in the order of the file.
     pub fn readings(&self) -> &[Reading] {
         &self.list
-    }
-
-    /// The index of the run of this name.
-    pub(super) fn run(&mut self, name: &str) -> usize {
-        let known = self.runs.iter().position(|run| run == name);
-        known.unwrap_or_else(|| {
-            self.runs.push(name.to_owned());
-            self.runs.len() - 1
-        })
     }
 
     /// Those of the readings that are to be kept.

@@ -69,8 +69,12 @@ impl Columns<'_> {
         let (mut blank, mut unusable) = (Vec::new(), Vec::new());
         for row in &self.table.rows {
             let label = self.run.map_or("", |column| row.cell(column));
-            let run = readings.run(label);
-            counted.resize(readings.runs.len(), 0);
+            let known = readings.runs.iter().position(|run| run == label);
+            let run = known.unwrap_or(readings.runs.len());
+            if known.is_none() {
+                readings.runs.push(label.to_owned());
+                counted.push(0);
+            }
             if let Some(column) = given(row, self.vehicles) {
                 let count = self.table.value(row, column, column)?;
                 counted[run] = counted[run].saturating_add(count as u64);
@@ -87,11 +91,8 @@ impl Columns<'_> {
         self.check(&readings.list, unusable.first())?;
         let measured = measured(self.values[0].kind, Place::Natural).name();
         let blank = left_out(&format!("rows without a {measured}"), &blank);
-        readings.notes.extend(
-            blank
-                .into_iter()
-                .chain(left_out("cells without a number", &unusable)),
-        );
+        let unusable = left_out("cells without a number", &unusable);
+        readings.notes.extend(blank.into_iter().chain(unusable));
         if self.run.or(self.vehicles).is_none() {
             runs::split_where_passes_begin_anew(&mut readings);
         }
@@ -104,9 +105,8 @@ impl Columns<'_> {
         let table = &self.table;
         let value = |column| table.value(row, column, column);
         let force = value(values.column)?;
-        let passes = self
-            .pass
-            .map_or(Ok(counted), |pass| value(pass).map(|pass| pass as u64))?;
+        let passes = self.pass.map(value).transpose()?;
+        let passes = passes.map_or(counted, |pass| pass as u64);
         let place = match given(row, self.position) {
             None => values.end.map_or(Place::Natural, Place::End),
             Some(_) if values.kind == DEFLECTION => {
@@ -134,14 +134,15 @@ impl Columns<'_> {
         let name = &self.table.names[self.values[0].column].text;
         let blank = list.iter().find(|reading| reading.sigma.is_none());
         let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
+        let is_zero = list.iter().all(|reading| reading.pass == 0);
         let (line, found, allowed) = match (list.first(), unusable, blank) {
-            (None, None, _) => return Err(DataError::Empty(self.table.file.clone())),
+            (None, None, _) => (0, "no rows".into(), LAYOUT.allowed),
             (None, Some((line, text)), _) => (
                 *line,
                 format!("{name}: found \"{text}\", and no number anywhere"),
                 "a finite number",
             ),
-            (Some(first), ..) if list.iter().all(|reading| reading.pass == 0) => (
+            (Some(first), ..) if is_zero => (
                 first.line,
                 "pass: found \"0\" alone".into(),
                 "readings after at least one pass",

@@ -2,10 +2,6 @@
 
 use super::DataError;
 use super::columns::Columns;
-use crate::scene::shortened;
-
-/// Longest time that a message repeats \[characters\].
-const LONGEST: usize = 80;
 
 impl Columns<'_> {
     /// Refuses vehicles that are not in the order of their times: they are counted from row to row.
@@ -14,13 +10,10 @@ impl Columns<'_> {
             return Ok(());
         };
         for pair in self.table.rows.windows(2) {
-            let [earlier, later] = [0, 1].map(|row| pair[row].cell(column));
             let is_one_run = self.run.is_none_or(|run| pair[0].cell(run) == pair[1].cell(run));
-            if is_one_run && is_earlier(later, earlier) {
-                let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
-                let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
+            if is_one_run && is_earlier(pair[1].cell(column), pair[0].cell(column)) {
                 let allowed = "rows in the order of their times";
-                return Err(self.table.wrong(pair[1].line, found, allowed));
+                return Err(self.table.wrong_cell(&pair[1], column, allowed));
             }
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use creepage_tables::{Layout, Name, Options, Row, Table, TableError};
+use creepage_tables::{Layout, Name, Options, Row, Table};
 
 use super::distribution::{ID, TEXTS};
 use super::error::SweepError;
@@ -11,6 +11,8 @@ use super::samples::Samples;
 use super::table::Format;
 use crate::SceneFile;
 use crate::scene::Dimension;
+
+type Result<T> = std::result::Result<T, SweepError>;
 
 const LAYOUT: Layout = Layout {
     kinds: &[],
@@ -38,12 +40,7 @@ impl Sweep {
     /// # Errors
     ///
     /// As for [`read`] and [`Sweep::of_table`].
-    pub fn of_rows(
-        file: SceneFile,
-        table: &Path,
-        options: &Options,
-        samples: Samples,
-    ) -> Result<Self, SweepError> {
+    pub fn of_rows(file: SceneFile, table: &Path, options: &Options, samples: Samples) -> Result<Self> {
         Self::of_table(file, read(table, options)?, samples)
     }
 }
@@ -56,19 +53,24 @@ impl Sweep {
 ///
 /// [`SweepError::Rows`] where there is no such table, [`SweepError::Unfit`] where the name ends
 /// otherwise.
-pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>, SweepError> {
+pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>> {
     Format::of(file)?;
     let table = Table::from_file(file, options, &LAYOUT)?;
-    let mut columns = Vec::new();
-    for (column, name) in table.names.iter().enumerate() {
-        let value = |row: &Row| {
-            let number = (LAYOUT.is_number)(name).then(|| table.quantity(row, column, column));
-            let number = number.transpose()?.flatten();
-            let written = number.map(|(digits, unit)| format!("{digits} {unit}").trim_end().to_owned());
-            Ok(written.unwrap_or_else(|| row.cell(column).to_owned()))
-        };
-        let values: Result<Vec<String>, TableError> = table.rows.iter().map(value).collect();
-        columns.push((name.bare.clone(), values?));
-    }
-    Ok(columns)
+    let value = |row: &Row, column: usize| -> Result<String> {
+        let is_number = (LAYOUT.is_number)(&table.names[column]);
+        let number = is_number.then(|| table.quantity(row, column, column));
+        let number = number.transpose()?.flatten();
+        let written = number.map(|(digits, unit)| format!("{digits} {unit}").trim_end().to_owned());
+        Ok(written.unwrap_or_else(|| row.cell(column).to_owned()))
+    };
+    let values = |column| {
+        table
+            .rows
+            .iter()
+            .map(|row| value(row, column))
+            .collect::<Result<_>>()
+    };
+    let columns = table.names.iter().enumerate();
+    let columns = columns.map(|(column, name)| Ok((name.bare.clone(), values(column)?)));
+    columns.collect()
 }

@@ -11,7 +11,7 @@ use super::point::PointLimits;
 use super::samples::Samples;
 use creepage_run::hash::fnv1a;
 
-use crate::scene::{SceneError, TypedValue, Wrong, WrongKind, did_you_mean, nearest_key};
+use crate::scene::{SceneError, Wrong, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -142,7 +142,7 @@ impl Sweep {
         for group in groups {
             let index = if self.by_row { group } else { 0 } * self.samples.count.max(1);
             if let Err(SceneError::Wrong(wrong)) = self.scene(index)
-                && matches!(wrong.kind, WrongKind::UnknownKey | WrongKind::Override)
+                && wrong.is_unknown
             {
                 let column = self.unknown_column(&wrong);
                 return Err(column.unwrap_or(SceneError::Wrong(wrong).into()));
@@ -155,7 +155,7 @@ impl Sweep {
     fn unknown_column(&self, wrong: &Wrong) -> Option<SweepError> {
         let inside = format!("{}.", wrong.key);
         let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
-        let is_unknown = self.by_row && wrong.kind == WrongKind::UnknownKey;
+        let is_unknown = self.by_row && wrong.is_unknown;
         let Axis { key, .. } = self.axes.iter().find(is_meant).filter(|_| is_unknown)?;
         let meant = did_you_mean(nearest_key(key).as_deref());
         Some(SweepError::Unfit {
@@ -304,7 +304,7 @@ impl Sweep {
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
         let typed = self.file.typed().into_iter();
-        let scene: Vec<_> = typed.map(|typed| (typed.key, typed.value)).collect();
+        let scene: Vec<_> = typed.map(|typed| (typed.key, typed.text)).collect();
         let files = self.files().into_iter();
         let files: Vec<_> = files.map(|file| std::fs::read(file).ok()).collect();
         let Self {
@@ -327,9 +327,7 @@ fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
         .filter(|_| by_row)
         .map_or(1, |axis| axis.values.len());
     for typed in file.typed() {
-        let (key, TypedValue::Text(text)) = (typed.key, typed.value) else {
-            continue;
-        };
+        let (key, text) = (typed.key, typed.text);
         if drawn(&key, &text).is_none() {
             continue;
         }

@@ -139,7 +139,7 @@ fn a_geometry_that_is_not_possible_is_refused() {
     };
     let message = refused(&thick("trefoil-upper", "93 mm"));
     for part in [
-        "bad.toml, line 11: `cable.diameter`: out of range: found \"93 mm\"",
+        "bad.toml, line 11: `cable.diameter`: found \"0.093 m\"",
         "at most 0.0928 m, so that three cables fit into the duct's 0.2 m",
     ] {
         assert!(message.contains(part), "{message}");

@@ -212,7 +212,7 @@ fn a_bad_table_is_refused_with_its_line() {
         (
             "load,count\n40,3\n130,1\n80,2\n",
             &[
-                "axles.csv:3: load: found \"130\", in N,",
+                "axles.csv:3: load: 130 N as the heaviest axle",
                 "\"130 kN\"",
                 "\"load [kN]\"",
             ],
@@ -224,7 +224,7 @@ fn a_bad_table_is_refused_with_its_line() {
         ("load,count\n20 kN,5,7\n", &["axles.csv:2: 3 cells"]),
         (
             "load [kg],count\n3000-3999,3\n",
-            &["axles.csv:2: load", "\"3000-3999\", a range"],
+            &["axles.csv:2: load", "found \"3000-3999\""],
         ),
         (
             "class,load [kN],count\n1,50,3\n,,3\n",
@@ -233,10 +233,6 @@ fn a_bad_table_is_refused_with_its_line() {
         (
             "load from [kN],load to [kN],count\n40,50,3\n",
             &["axles.csv:1: a second column load to"],
-        ),
-        (
-            "load [kN];count\n50;75 %\n100;25\n",
-            &["axles.csv:3: count: found \"25\"", "beside others in %"],
         ),
         ("load [m],count\n40,3\n", &["load [m]: found \"40\"", "a force"]),
         (
@@ -280,7 +276,7 @@ fn what_contradicts_a_histogram_is_refused() {
     let both = format!("{SCENE}[[vehicles]]\nload = \"20 tf\"\nspeed = 10\n");
     let message = Scene::from_toml("both.toml", &both).unwrap_err().to_string();
     assert!(
-        message.contains("both `traffic.histogram` and [[vehicles]]"),
+        message.contains("both `vehicles` and `traffic.histogram`"),
         "{message}"
     );
     // What was set later counts.

@@ -95,8 +95,8 @@ fn an_override_beats_a_key_of_the_file_that_excludes_it() {
 
 /// Overrides, one after the other | parts of the message
 const REFUSED: &str = r"
-duct.depth=1.2 kN | --set duct.depth=1.2 kN: `duct.depth`: wrong dimension
-duct.depth=-1 | --set duct.depth=-1: `duct.depth`: out of range: found -1
+duct.depth=1.2 kN | --set duct.depth=1.2 kN: `duct.depth`: found 1.2 kN: `kN` is the unit of a force
+duct.depth=-1 | --set duct.depth=-1: `duct.depth`: found -1
 frction.law=coulomb | unknown key `frction` | did you mean `friction`?
 friction.lwa=coulomb | unknown key `friction.lwa` | did you mean `law`?
 ends={} | --set ends={}: key `ends.upstream` is missing
@@ -105,7 +105,7 @@ friction.law | --set friction.law:  | KEY=VALUE
 duct..length=3 | --set duct..length=3: 
 vehicles.2.speed=3 | found `2` | an index from 0 to 1
 vehicles.truck.speed=3 | found `truck` | an index from 0 to 1
-restraints.1.position=3 | the index 0
+restraints.1.position=3 | an index from 0 to 0
 vehicles=[] | --set vehicles=[]: `vehicles` | found an empty list; allowed: 
 ground.layers=[] | `ground.layers` | found an empty list
 vehicles.1.wheels=[] | `vehicles.1.wheels` | found an empty list

@@ -48,13 +48,13 @@ const UNUSUAL: &str = r#"
 ground.rigid_base_depth=1 m | `ground.rigid_base_depth` is 1 m and the duct lies at 1.5 m
 ground.rigid_base_depth=1.5 m | within the rock
 ground.layers.2.young_modulus=300 kPa | `ground.layers.2.young_modulus` (layer 3) is 0.3 MPa, softer than peat
-ground.layers.1.young_modulus=3000 | did you mean "3000 MPa"?
+ground.layers.1.young_modulus=3000 | `ground.layers.1.young_modulus` (layer 2) is 0.003 MPa, softer than peat
 ground.layers.0.young_modulus=300 GPa | `ground.layers.0.young_modulus` (layer 1) is 300 GPa, stiffer than granite
 ground.rigid_base_depth=12 m ; ground.layers.2.young_modulus={ top = "60 MPa", bottom = "600 GPa" } | `ground.layers.2.young_modulus.bottom` (layer 3) is 600 GPa
 ground.layers.2.young_modulus=1.9 MPa | 105 times less than that of the layer on it
 ground.layers.0.young_modulus=20 MPa ; ground.layers.2.young_modulus=3 GPa | layers stand from the top down
 friction.dynamic_coefficient=2.5 | `friction.dynamic_coefficient` is 2.5
-duct.lateral_offset=-50 m | `duct.lateral_offset` is 50 m
+duct.lateral_offset=-50 m | `duct.lateral_offset`: the lane of "vehicle 1" is 50 m from the duct
 vehicles.0.lateral_offset=20 m ; duct.lateral_offset=-5 m | the lane of "vehicle 1" is 25 m from the duct
 ground.longitudinal_peak=30 um ; vehicles=[{ preset = "t-25" }, { preset = "t-14", lateral_offset = "3.5 m" }] | `ground.longitudinal_peak` is the peak under every vehicle, in whatever lane
 "#;

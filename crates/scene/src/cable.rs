@@ -3,13 +3,14 @@
 use cable_dem::FrictionLaw;
 
 use crate::arrangement::Arrangement;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::key::Form::Number;
 use crate::key::keys;
 use crate::range::{
     AXIAL_STIFFNESS, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, Quantity,
-    SHAPE_FACTOR, WEIGHT, shown,
+    SHAPE_FACTOR, WEIGHT,
 };
+use crate::shown::shown;
 use crate::words::file_words;
 
 keys! {
@@ -37,7 +38,7 @@ keys! {
 
 impl Cable {
     /// Puts EA in place of a modulus and an area.
-    pub(crate) fn resolve(&mut self) -> Result<(), SceneError> {
+    pub(crate) fn resolve(&mut self) -> Result<()> {
         let missing = |key, quantity: Quantity| Err(SceneError::missing(key, quantity.allowed()));
         let (modulus, area) = match (self.young_modulus.take(), self.conductor_area.take()) {
             (Some(modulus), Some(area)) => (modulus, area),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Serialize, Serializer};
 
-use crate::shown::shortened;
+use crate::shown::{quoted, shortened, shown};
 
 /// A place in a file, a preset or an override.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -14,11 +14,11 @@ pub struct Place {
     pub bytes: Range<usize>,
 }
 
-/// A value where it was written; one that a program has was written nowhere.
+/// A value where it was written; the place of one that a program has means nothing.
 #[derive(Debug, Clone)]
 pub struct Node {
     pub place: Place,
-    /// Its text, the first line of it; empty for a value that a program has.
+    /// Its text, the first line of it.
     pub written: String,
     pub content: Content,
 }
@@ -58,19 +58,31 @@ impl Serialize for Content {
     }
 }
 
+/// A value that a program has is written as a file would have it.
 impl From<Content> for Node {
     fn from(content: Content) -> Self {
-        Self::new(Place::default(), "", content)
+        let written = match &content {
+            Content::Text(text) => quoted(text),
+            Content::Whole(whole) => whole.to_string(),
+            Content::Number(value) => shown(*value),
+            _ => String::new(),
+        };
+        let place = Place::default();
+        Self {
+            place,
+            written,
+            content,
+        }
     }
 }
 
 impl Content {
     /// A number that may be whole: `1e6` passes are as good as `1000000`.
     pub fn number(value: f64) -> Self {
-        const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
-        let is_whole = value.fract() == 0.0 && (0.0..=LARGEST_EXACT).contains(&value);
-        if is_whole && value.is_sign_positive() {
-            Self::Whole(value as u64)
+        let whole = value as u64;
+        let is_whole = whole as f64 == value && value.is_sign_positive();
+        if is_whole {
+            Self::Whole(whole)
         } else {
             Self::Number(value)
         }
@@ -132,12 +144,8 @@ impl Node {
         const LONGEST: usize = 60;
         let all = text.get(place.bytes.clone()).unwrap_or_default();
         let line = all.lines().next().unwrap_or_default();
-        let is_cut = line.chars().count() <= LONGEST && line.len() < all.len();
-        let written = if is_cut {
-            format!("{line}…")
-        } else {
-            shortened(line, LONGEST)
-        };
+        let more = if line.len() < all.len() { "…" } else { "" };
+        let written = shortened(line, LONGEST) + more;
         Self {
             place,
             written,

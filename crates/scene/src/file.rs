@@ -1,18 +1,16 @@
 //! A scene file with its overrides, which knows where each value was written.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
-use std::string::FromUtf8Error;
 
-use crate::check::checked;
-use crate::content::Node;
-use crate::document::Document;
-use crate::error::SceneError;
+use crate::content::{Content, Node, Place};
+use crate::error::{Result, SceneError};
 use crate::key::{Form, Section};
 use crate::location::Location;
+use crate::parsed::entries_of;
 use crate::scene::Scene;
-use crate::stored::Stored;
+use crate::stored::{Given, Stored};
 use crate::units::{Dimension, Unit};
 use crate::{histogram, overrides, preset, rules, unusual};
 
@@ -36,8 +34,17 @@ const SCENE: Form = Form::Table(Scene::KEYS);
 /// ```
 #[derive(Debug, Clone)]
 pub struct SceneFile {
-    name: String,
-    document: Document,
+    /// The file, and behind it presets and overrides as they are named.
+    sources: Vec<Source>,
+    pub(crate) root: Node,
+}
+
+/// The text of the file, of an override or of a preset.
+#[derive(Debug, Clone)]
+pub(crate) struct Source {
+    pub name: String,
+    pub text: String,
+    pub is_preset: bool,
 }
 
 impl SceneFile {
@@ -46,22 +53,19 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
-        let path = path.as_ref();
-        let file = path.display().to_string();
-        let mut bytes = Vec::new();
-        let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
-        if let Err(mut source) = read {
-            if path.is_dir() {
-                let what = "this is a folder; a scene is a file, such as my-duct.toml";
-                source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        let file = path.as_ref().display().to_string();
+        let bytes = bytes_of(path.as_ref()).map_err(|source| SceneError::Unreadable(file.clone(), source))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let (valid, text) = (
+                error.utf8_error().valid_up_to(),
+                String::from_utf8_lossy(error.as_bytes()),
+            );
+            SceneError::Syntax {
+                location: Location::new(&file, &text, valid..valid, true),
+                message: "found text that is not UTF-8".to_owned(),
             }
-            return Err(SceneError::Unreadable(file, source));
-        }
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(SceneError::TooLarge(file, LARGEST_FILE));
-        }
-        let text = String::from_utf8(bytes).map_err(|e| not_utf8(&file, &e))?;
+        })?;
         Self::from_toml(&file, &text)
     }
 
@@ -70,11 +74,12 @@ impl SceneFile {
     /// # Errors
     ///
     /// As for [`SceneFile::read`].
-    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
-        let mut document = Document::parse(name, text)?;
-        preset::expand(&mut document)?;
-        let name = name.to_owned();
-        Ok(Self { name, document })
+    pub fn from_toml(name: &str, text: &str) -> Result<Self> {
+        let (sources, root) = (Vec::new(), Content::Table(entries_of(name, text, 0)?).into());
+        let mut file = Self { sources, root };
+        file.add(name.to_owned(), text, false);
+        preset::expand(&mut file)?;
+        Ok(file)
     }
 
     /// The file with each `KEY=VALUE` of `overrides` set in turn.
@@ -82,18 +87,18 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] where an override is not `KEY=VALUE`, or there is nothing at its key.
-    pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self, SceneError> {
+    pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self> {
         let mut file = self.clone();
         for text in overrides {
-            overrides::apply(&mut file.document, text.as_ref())?;
-            preset::expand(&mut file.document)?;
+            overrides::apply(&mut file, text.as_ref())?;
+            preset::expand(&mut file)?;
         }
         Ok(file)
     }
 
     /// The text of the file, without what was set on top of it.
     pub fn text(&self) -> &str {
-        &self.document.sources[0].text
+        &self.sources[0].text
     }
 
     /// The scene.
@@ -101,59 +106,56 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
-    pub fn scene(&self) -> Result<Scene, SceneError> {
+    pub fn scene(&self) -> Result<Scene> {
         let read = || {
-            let mut scene = stored(&self.document.root)?;
-            scene.resolve(&self.name)?;
+            let mut scene = Scene::read(&given(&self.root))?;
+            scene.resolve(&self.sources[0].name)?;
             rules::check(&scene)?;
             Ok(scene)
         };
-        read().map_err(|error| self.document.located(error))
+        read().map_err(|error| self.located(error))
     }
 
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
-        let (node, _) = self.document.find(key);
-        (node.place != self.document.root.place).then(|| self.document.locate(&node.place))
+        let (node, _) = self.find(key);
+        (node.place != self.root.place).then(|| self.location(&node.place))
     }
 
-    /// Warnings of numbers without a unit that someone may have meant in another one, and of masses that stand for weights; each
-    /// with its place.
+    /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
         let mut found = Vec::new();
-        self.document.root.each_value("", &mut |key, node| {
+        self.root.each_value("", &mut |key, node| {
             let words = unusual::slip(key, node);
-            found.extend(words.map(|words| (self.document.locate(&node.place), words)));
+            found.extend(words.map(|words| (self.location(&node.place), words)));
         });
         found
     }
 
     /// Whether the file, an override or a preset gives `key` a value.
     pub fn names(&self, key: &str) -> bool {
-        self.document.find(key).1
+        self.find(key).1
     }
 
     /// The table of axle loads that the scene reads too, if it names one.
     pub fn histogram(&self) -> Option<PathBuf> {
-        let (node, true) = self.document.find("traffic.histogram") else {
+        let (node, true) = self.find("traffic.histogram") else {
             return None;
         };
         let text = node.content.get("file").unwrap_or(node).content.as_text();
-        text.map(|text| histogram::beside(&self.name, text))
+        text.map(|text| histogram::beside(&self.sources[0].name, text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
     pub fn typed(&self) -> Vec<Typed> {
         let mut found = Vec::new();
-        self.document.root.each_value("", &mut |key, node| {
-            let text = || node.content.as_text().unwrap_or(&node.written).to_owned();
+        self.root.each_value("", &mut |key, node| {
+            let number = || node.content.as_number().map(|number| number.to_string());
+            let text = node.content.as_text().map(str::to_owned).or_else(number);
             found.push(Typed {
                 key: key.to_owned(),
-                value: node
-                    .content
-                    .as_number()
-                    .map_or_else(|| TypedValue::Text(text()), TypedValue::Number),
-                source: self.document.source(node).name.clone(),
+                text: text.unwrap_or_else(|| node.written.clone()),
+                source: self.source(node).name.clone(),
             });
         });
         found
@@ -161,9 +163,65 @@ impl SceneFile {
 
     /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
     pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
-        let (node, is_value) = self.document.find(key);
-        let is_typed = is_value && !self.document.source(node).is_preset;
+        let (node, is_value) = self.find(key);
+        let is_typed = is_value && !self.source(node).is_preset;
         dimension.unit_of(node.content.as_text().filter(|_| is_typed)?)
+    }
+
+    /// Adds a text: its number.
+    pub(crate) fn add(&mut self, name: String, text: &str, is_preset: bool) -> usize {
+        let text = text.to_owned();
+        self.sources.push(Source {
+            name,
+            text,
+            is_preset,
+        });
+        self.sources.len() - 1
+    }
+
+    /// The text in which a value stands.
+    pub(crate) fn source(&self, node: &Node) -> &Source {
+        &self.sources[node.place.source]
+    }
+
+    /// The value of `key`, or else the section that would hold it; and whether it is the value.
+    fn find(&self, key: &str) -> (&Node, bool) {
+        let mut node = &self.root;
+        for segment in key.split('.') {
+            match node.content.get(segment) {
+                Some(inner) => node = inner,
+                None => return (node, false),
+            }
+        }
+        (node, true)
+    }
+
+    /// A place as a message shows it.
+    pub(crate) fn location(&self, place: &Place) -> Location {
+        let Source { name, text, .. } = &self.sources[place.source];
+        if *place != self.root.place {
+            return Location::new(name, text, place.bytes.clone(), place.source == 0);
+        }
+        // What the top level lacks would be added at the end, but is not on its last line.
+        let end = text.trim_end().len();
+        Location {
+            text: String::new(),
+            marked: 0..0,
+            ..Location::new(name, &text[..end], end..end, true)
+        }
+    }
+
+    /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
+    pub(crate) fn located(&self, error: SceneError) -> SceneError {
+        let SceneError::Wrong(mut wrong) = error else {
+            return error;
+        };
+        let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
+        let entry = self.find(section).0.content.entry(key);
+        let unknown = entry.filter(|_| wrong.is_unknown);
+        let place = unknown.map_or(&self.find(&wrong.key).0.place, |entry| &entry.place);
+        wrong.location = Some(self.location(place));
+        SceneError::Wrong(wrong)
     }
 }
 
@@ -172,33 +230,30 @@ impl SceneFile {
 pub struct Typed {
     /// The key with the numbers of list items: `vehicles.0.speed`.
     pub key: String,
-    /// What stands there.
-    pub value: TypedValue,
+    /// What stands there, a text without quotes.
+    pub text: String,
     /// The file, the override or the preset that gives it.
     pub source: String,
 }
 
-/// A value of a scene file as it was typed.
-#[derive(Debug, Clone, PartialEq)]
-pub enum TypedValue {
-    /// A bare number.
-    Number(f64),
-    /// A text, quantities with their units among them.
-    Text(String),
+fn given(root: &Node) -> Given<'_> {
+    Given::new(String::new(), root, SCENE)
 }
 
-/// The error for a file whose bytes are not UTF-8.
-fn not_utf8(file: &str, error: &FromUtf8Error) -> SceneError {
-    let valid = error.utf8_error().valid_up_to();
-    let text = String::from_utf8_lossy(error.as_bytes());
-    SceneError::NotUtf8(Location::new(file, &text, valid..valid, true))
-}
-
-/// The scene in a tree, each of whose values is in its range.
-fn stored(root: &Node) -> Result<Scene, SceneError> {
-    let content = checked(root, &SCENE, "")?;
-    // What suits the form can be stored.
-    Scene::read(&content).ok_or_else(|| SceneError::missing("", SCENE.allowed()))
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
+    if path.is_dir() {
+        return Err(Error::other(
+            "this is a folder; a scene is a file, such as my-duct.toml",
+        ));
+    }
+    let mut bytes = Vec::new();
+    let size = File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if size as u64 > LARGEST_FILE {
+        let allowed =
+            format!("found more than {LARGEST_FILE} bytes; allowed: a scene file of at most so many");
+        return Err(Error::other(allowed));
+    }
+    Ok(bytes)
 }
 
 impl Scene {
@@ -207,7 +262,7 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
-    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
         SceneFile::read(path)?.scene()
     }
 
@@ -216,7 +271,7 @@ impl Scene {
     /// # Errors
     ///
     /// As for [`Scene::from_file`].
-    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+    pub fn from_toml(name: &str, text: &str) -> Result<Self> {
         SceneFile::from_toml(name, text)?.scene()
     }
 
@@ -229,15 +284,15 @@ impl Scene {
     /// scene.validate()?;
     /// scene.duct.depth = -1.0;
     /// let error = scene.validate().unwrap_err().to_string();
-    /// assert!(error.starts_with("`duct.depth`: out of range: found \"-1.0 m\"; allowed: a length greater than 0, from 1 cm to 1 km"));
+    /// assert!(error.starts_with("`duct.depth`: found \"-1.0 m\"; allowed: a length greater than 0, from 1 cm to 1 km"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
-    pub fn validate(&self) -> Result<(), SceneError> {
-        checked(&self.write().into(), &SCENE, "")?;
+    pub fn validate(&self) -> Result<()> {
+        Self::read(&given(&self.node()))?;
         rules::check(self)
     }
 
@@ -255,6 +310,11 @@ impl Scene {
     /// ```
     pub fn to_toml(&self) -> String {
         // Tables, lists, numbers and texts: there is nothing among them that TOML cannot write.
-        toml::to_string(&SCENE.in_file(&self.write())).unwrap_or_default()
+        toml::to_string(&self.node().content).unwrap_or_default()
+    }
+
+    /// The tree of the file that it would be.
+    pub(crate) fn node(&self) -> Node {
+        self.write(SCENE).into()
     }
 }

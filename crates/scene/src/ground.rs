@@ -3,12 +3,13 @@
 use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 
 use crate::content::Content;
+use crate::error::Result;
 use crate::key::Form::{Either, List, Number, Table};
 use crate::key::{Form, Key, keys};
 use crate::range::{
     LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, VERTICAL_PEAK,
 };
-use crate::stored::{Stored, value};
+use crate::stored::{Given, Stored};
 use crate::words::file_words;
 
 keys! {
@@ -25,7 +26,7 @@ keys! {
         /// Measured deflection of the duct under the first vehicle, to which the ground is scaled.
         vertical_peak: Option<f64> = Number(VERTICAL_PEAK), "not scaled";
         /// Layers from the surface down.
-        layers: Vec<Layer> = List(&Table(Layer::KEYS), 1, LAYERS);
+        layers: Vec<Layer> = List(&[Table(Layer::KEYS)], 1, LAYERS);
     }
 }
 
@@ -51,25 +52,23 @@ const LAYER_MODULUS: Form = Either(
         Key::required("top", TOP, Number(MODULUS_AT_AN_END)),
         Key::required("bottom", "The same at the bottom.", Number(MODULUS_AT_AN_END)),
     ],
-    None,
 );
 
 impl Stored for Modulus {
-    fn read(content: &Content) -> Option<Self> {
-        match content.as_number() {
-            Some(modulus) => Some(Self::Uniform(modulus)),
-            None => Some(Self::Linear {
-                top: value(content, "top", None)?,
-                bottom: value(content, "bottom", None)?,
-            }),
+    fn read(given: &Given) -> Result<Self> {
+        if !matches!(given.node.content, Content::Table(_)) {
+            return f64::read(given).map(Self::Uniform);
         }
+        given.check_table()?;
+        let (top, bottom) = (given.value("top", None)?, given.value("bottom", None)?);
+        Ok(Self::Linear { top, bottom })
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, form: Form) -> Content {
         match self {
-            Self::Uniform(modulus) => modulus.write(),
+            Self::Uniform(modulus) => modulus.write(form),
             Self::Linear { top, bottom } => {
-                Content::table([("top", top.write()), ("bottom", bottom.write())])
+                Content::table([("top", top.write(form)), ("bottom", bottom.write(form))])
             }
         }
     }
@@ -91,7 +90,7 @@ pub enum GroundModel {
 
 file_words! {
     GroundModel: Auto "auto", Boussinesq "boussinesq", Burmister "burmister", FiniteElements "fem";
-    but "odemark": "the exact \"burmister\" costs no more than this approximation, which is no longer there"
+    "; odemark is no longer there: the exact \"burmister\" costs no more than that approximation"
 }
 
 /// A measured peak displacement of the duct that the ground model is scaled to.

@@ -1,6 +1,6 @@
 //! `[heat]`: how warm the cable gets every day.
 
-use crate::key::Form::{List, Number, Pair};
+use crate::key::Form::{List, Number};
 use crate::key::keys;
 use crate::range::{EXPANSION, OFFSET, SWING, TEMPERATURE, TIME_OF_DAY};
 
@@ -14,7 +14,7 @@ keys! {
         /// The day's lowest temperature above that at laying; added to a profile.
         offset: f64 = Number(OFFSET), "0 K";
         /// Temperatures at times of the day, joined by straight lines, every day the same.
-        profile: Option<Vec<(f64, f64)>> = List(&Pair([&Number(TIME_OF_DAY), &Number(TEMPERATURE)], POINT), 2, POINTS), "`daily_swing` instead";
+        profile: Option<Vec<(f64, f64)>> = List(&[List(&[Number(TIME_OF_DAY), Number(TEMPERATURE)], 2, POINT)], 2, POINTS), "`daily_swing` instead";
     }
 }
 

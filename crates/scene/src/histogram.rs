@@ -6,19 +6,19 @@ use std::path::{Path, PathBuf};
 use creepage_tables::{Kind, Layout, Options, Row, Table, TableError};
 
 use crate::content::Content;
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::key::Form::{Either, Number, Text};
 use crate::key::{Form, Section, keys};
 use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS};
 use crate::stored::Stored;
 use crate::units::Dimension;
-use crate::vehicle::TrafficVehicle;
+use crate::vehicle::{TrafficVehicle, Wheel};
 
 keys! {
     /// The name of a table of axle loads, and how it is to be read where that is not recognised.
     pub struct Histogram {
         /// The table, from the folder of the scene on.
-        file: String = FILE;
+        file: String = Text("the name of a table, such as \"axles.csv\"");
         /// What stands between its cells.
         separator: Option<String> = Text("comma, semicolon, tab, space or |, in quotes"), "recognised";
         /// What stands before its decimals.
@@ -42,10 +42,9 @@ keys! {
     }
 }
 
-const FILE: Form = Text("the name of a table, such as \"axles.csv\"");
 const TEXT: Form = Text("a text in quotes");
 /// The name of a table of axles, or a table that says how it is to be read.
-pub const HISTOGRAM: Form = Either(&FILE, Histogram::KEYS, Some(NAME_OR_TABLE));
+pub const HISTOGRAM: Form = Either(&Text(NAME_OR_TABLE), Histogram::KEYS);
 const NAME_OR_TABLE: &str = "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, or { file = \
                              \"axles.csv\", decimal = \"comma\" }";
 
@@ -70,10 +69,8 @@ const LAYOUT: Layout = Layout {
     measured: Some(LOAD),
     missing: |names| {
         let has = |kind| names.iter().any(|name| name.kind == Some(kind));
-        let wanted = [("count", has(COUNT) || has(SHARE)), ("load", has(LOAD))];
-        wanted
-            .iter()
-            .find_map(|(name, is_there)| (!is_there).then_some(*name))
+        let count = (!has(COUNT) && !has(SHARE)).then_some("count");
+        count.or((!has(LOAD)).then_some("load"))
     },
     is_number: |name| name.kind.is_some(),
     unnamed: &[],
@@ -83,7 +80,7 @@ const LAYOUT: Layout = Layout {
     allowed: "a table whose header names the columns load, count and, if wanted, contact_radius, with units in the cells or in the \
               name, such as \"load [kN]\"",
 };
-/// A heaviest axle without a unit below this was meant in larger units \[N\]: a bicycle's wheel.
+/// A heaviest axle below this was meant in larger units \[N\]: a bicycle's wheel.
 const LIGHTEST: f64 = 1e3;
 
 /// The force that an axle of so much mass weighs, and kips by their other name.
@@ -119,9 +116,10 @@ pub fn beside(name: &str, text: &str) -> PathBuf {
 }
 
 impl Histogram {
-    fn options(&self) -> Result<Options, SceneError> {
+    fn options(&self) -> Result<Options> {
         let mut options = Options::default();
-        for entry in self.write().entries().iter().filter(|entry| entry.key != "file") {
+        // The first is the file.
+        for entry in self.write(HISTOGRAM).entries().iter().skip(1) {
             let text = match &entry.value.content {
                 Content::Whole(number) => number.to_string(),
                 content => content.as_text().unwrap_or_default().to_owned(),
@@ -134,20 +132,16 @@ impl Histogram {
 
     /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\];
     /// `scene` is the file that names it.
-    pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
+    pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>> {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
-        let classes = table.and_then(|table| classes(table, speed));
-        classes.map_err(|error| match error {
-            TableError::Line {
-                file,
-                line,
-                found,
-                allowed,
-            } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
-            error => {
-                let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
-                SceneError::value(KEY, format!("{error}{why}"), LAYOUT.allowed)
-            }
+        table.and_then(|table| classes(table, speed)).map_err(|error| {
+            let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
+            let allowed = match &error {
+                TableError::Line { allowed, .. } => allowed,
+                _ => LAYOUT.allowed,
+            };
+            let found = error.to_string().replace(&format!("; allowed: {allowed}"), "");
+            SceneError::value(KEY, found + &why, allowed)
         })
     }
 }
@@ -164,49 +158,45 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
         let label = row.cells.iter().find(|cell| !cell.is_empty());
         label.is_some_and(|label| LAYOUT.name(label, &Options::default()).has(TOTAL))
     };
-    let rows: Vec<&Row> = table.rows.iter().filter(|row| !is_sum(row)).collect();
-    let is_percent = |row: &&&Row| row.cell(count).contains('%');
-    let bare = rows.iter().find(|row| !is_percent(row));
-    if let (Some(row), true) = (bare, rows.iter().any(|row| is_percent(&row))) {
-        let found = format!("count: found \"{}\" beside others in %", row.cell(count));
-        return Err(table.wrong(row.line, found, "all in %, or none"));
-    }
     let is_grouped = table.names.iter().any(|name| name.has(GROUP));
     let axle = if is_grouped { AXLE_GROUP } else { AXLE };
-    let mut axles: Vec<TrafficVehicle> = Vec::new();
-    let mut heaviest: Option<(f64, &Row)> = None;
-    for row in rows {
+    // The heaviest axle, and its line.
+    let (mut axles, mut heaviest) = (Vec::new(), (0.0, table.line));
+    for row in table.rows.iter().filter(|row| !is_sum(row)) {
         let value = |column| table.value(row, column, column);
-        let (share, force) = (value(count)?, value(load)?);
+        let (share, load) = (value(count)?, value(load)?);
         let contact_radius = radius.map_or(Ok(0.0), value)?;
         // Classes that nothing was counted in are common.
-        if share == 0.0 {
-            continue;
+        if share > 0.0 {
+            let wheel = Wheel {
+                load,
+                contact_radius,
+                ..Wheel::default()
+            };
+            let axle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), load, speed);
+            axles.push(TrafficVehicle {
+                share,
+                load: None,
+                wheels: vec![wheel],
+                ..axle
+            });
+            if load > heaviest.0 {
+                heaviest = (load, row.line);
+            }
         }
-        if heaviest.is_none_or(|(most, _)| force > most) {
-            heaviest = Some((force, row));
-        }
-        let mut vehicle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), force, speed);
-        if contact_radius > 0.0 {
-            vehicle.wheels = vehicle.wheels();
-            vehicle.wheels[0].contact_radius = contact_radius;
-            vehicle.load = None;
-        }
-        axles.push(TrafficVehicle { share, ..vehicle });
     }
-    let Some((force, row)) = heaviest else {
+    if axles.is_empty() {
         return Err(table.wrong(table.line, "no row with axles below the names", LAYOUT.allowed));
-    };
+    }
     if axles.len() > MOST {
-        let found = format!("{} classes", axles.len());
-        return Err(table.wrong(table.line, found, format!("at most {MOST} classes of axles")));
+        let allowed = format!("at most {MOST} classes of axles");
+        return Err(table.wrong(table.line, format!("{} classes", axles.len()), allowed));
     }
-    match table.quantity(row, load, load)? {
-        Some((cell, "")) if force < LIGHTEST => {
-            let found = format!("load: found \"{cell}\", in N, as the heaviest axle");
-            let allowed = format!("a load with its unit, such as \"{cell} kN\", or a column \"load [kN]\"");
-            Err(table.wrong(row.line, found, allowed))
-        }
-        _ => Ok(axles),
+    if heaviest.0 < LIGHTEST {
+        let (load, line) = heaviest;
+        let allowed = format!("a load with its unit, such as \"{load} kN\", or a column \"load [kN]\"");
+        let found = format!("load: {load} N as the heaviest axle");
+        return Err(table.wrong(line, found, allowed));
     }
+    Ok(axles)
 }

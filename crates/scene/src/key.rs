@@ -1,12 +1,11 @@
 //! A section of the file is a type. The macro [`keys!`] declares it: each key with its meaning, its field, what may stand
 //! there, and what counts if it is left out. Reading, writing, `creepage explain` and the JSON Schema follow from that.
 
-use crate::content::Content;
 use crate::range::Quantity;
-use crate::stored::Stored;
+use crate::shown::listed;
 
 /// A type that is a table of the file.
-pub trait Section: Stored {
+pub trait Section {
     const KEYS: &'static [Key];
 }
 
@@ -21,55 +20,47 @@ pub struct Key {
 
 impl Key {
     pub const fn required(name: &'static str, meaning: &'static str, form: Form) -> Self {
+        let absent = None;
         Self {
             name,
             meaning,
             form,
-            absent: None,
+            absent,
         }
     }
 
     pub const fn preset(meaning: &'static str) -> Self {
         Self {
-            name: "preset",
-            meaning,
-            form: Form::Text("a name that `creepage presets` lists"),
             absent: Some("none"),
+            ..Self::required(
+                "preset",
+                meaning,
+                Form::Text("a name that `creepage presets` lists"),
+            )
         }
     }
 }
 
-/// What may stand at a key.
+/// What may stand at a key; words say what is allowed.
 #[derive(Clone, Copy)]
 pub enum Form {
     Number(Quantity),
-    /// A text, and what is allowed in words.
     Text(&'static str),
-    /// A text that is not blank, and what is allowed in words.
-    Name(&'static str),
-    Words {
-        words: &'static [&'static str],
-        /// What is allowed, if that is more than they say.
-        allowed: Option<&'static str>,
-        /// A word that once was one of them, and why it no longer is.
-        gone: Option<(&'static str, &'static str)>,
-    },
+    /// One of these words, and what else is to be said of them.
+    Words(&'static [&'static str], &'static str),
     Table(&'static [Key]),
-    /// A list of so many items at least, and what is allowed in words.
-    List(&'static Form, usize, &'static str),
-    /// A pair of values, and what is allowed in words.
-    Pair([&'static Form; 2], &'static str),
-    /// A value that is no table, or a table, and what is allowed if that is more than for the value alone. A text stands for the
-    /// first key of the table.
-    Either(&'static Form, &'static [Key], Option<&'static str>),
+    /// A list of so many items at least, all of one form or each of its own.
+    List(&'static [Form], usize, &'static str),
+    /// A value that is no table, or a table. A text stands for the first key of the table.
+    Either(&'static Form, &'static [Key]),
 }
 
 impl Form {
     /// The keys of a table, or of the tables of a list.
     pub fn keys(self) -> &'static [Key] {
         match self {
-            Self::Table(keys) | Self::Either(_, keys, _) => keys,
-            Self::List(form, ..) => form.keys(),
+            Self::Table(keys) | Self::Either(_, keys) => keys,
+            Self::List([form, ..], ..) => form.keys(),
             _ => &[],
         }
     }
@@ -78,7 +69,7 @@ impl Form {
     pub fn quantity(self) -> Option<Quantity> {
         match self {
             Self::Number(quantity) => Some(quantity),
-            Self::Either(form, ..) => form.quantity(),
+            Self::Either(form, _) => form.quantity(),
             _ => None,
         }
     }
@@ -87,56 +78,15 @@ impl Form {
     pub fn allowed(self) -> String {
         match self {
             Self::Number(quantity) => quantity.allowed(),
-            Self::Text(allowed)
-            | Self::Name(allowed)
-            | Self::List(_, _, allowed)
-            | Self::Pair(_, allowed) => allowed.to_owned(),
-            Self::Words { words, allowed, .. } => {
-                allowed.map_or_else(|| listed(words.iter().copied()), str::to_owned)
-            }
+            Self::Text(allowed) | Self::List(_, _, allowed) => allowed.to_owned(),
+            Self::Words(words, more) => listed(words.iter().copied()) + more,
             Self::Table(keys) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
                 format!("a table with the keys {}", names.join(", "))
             }
-            Self::Either(form, _, allowed) => allowed.map_or_else(|| form.allowed(), str::to_owned),
+            Self::Either(form, _) => form.allowed(),
         }
     }
-
-    /// A value in SI as it is written in a file.
-    pub fn in_file(self, content: &Content) -> Content {
-        let entry = |key: &Key, content: &Content| {
-            let value = &content.entry(key.name)?.value.content;
-            Some((key.name, key.form.in_file(value)))
-        };
-        match (self, content) {
-            (Self::Number(quantity), Content::Number(value)) => match quantity.unit() {
-                Some(unit) => Content::Text(format!("{value:?} {unit}")),
-                None => content.clone(),
-            },
-            (Self::Table(keys) | Self::Either(_, keys, _), Content::Table(_)) => {
-                Content::table(keys.iter().filter_map(|key| entry(key, content)))
-            }
-            (Self::Either(form, ..), _) => form.in_file(content),
-            (Self::List(form, ..), Content::List(items)) => {
-                let items = items.iter().map(|item| form.in_file(&item.content).into());
-                Content::List(items.collect())
-            }
-            (Self::Pair(forms, _), Content::List(items)) => {
-                let pair = forms.iter().zip(items);
-                Content::List(
-                    pair.map(|(form, item)| form.in_file(&item.content).into())
-                        .collect(),
-                )
-            }
-            _ => content.clone(),
-        }
-    }
-}
-
-/// Words as they are typed, one after the other.
-pub fn listed<'w>(words: impl Iterator<Item = &'w str>) -> String {
-    let quoted: Vec<String> = words.map(|word| format!("\"{word}\"")).collect();
-    quoted.join(", ")
 }
 
 /// The value of a key that is left out: none if it is required, else its own or that of its type.
@@ -181,23 +131,22 @@ macro_rules! keys {
             const KEYS: &'static [$crate::key::Key] = &[
                 $($crate::key::Key::preset($preset),)?
                 $($crate::key::Key {
-                    name: stringify!($key),
-                    meaning: concat!($($meaning),+).trim_ascii(),
-                    form: $form,
                     absent: [$($absent)?].first().copied(),
+                    ..$crate::key::Key::required(stringify!($key), concat!($($meaning),+).trim_ascii(), $form)
                 },)+
             ];
         }
 
         impl $crate::stored::Stored for $name {
-            fn read(content: &$crate::content::Content) -> Option<Self> {
-                use $crate::stored::value;
-                Some(Self { $($key: value(content, stringify!($key), $crate::key::absent!($($absent $(=> $value)?)?))?,)+ })
+            fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
+                given.check_table()?;
+                Ok(Self { $($key: given.value(stringify!($key), $crate::key::absent!($($absent $(=> $value)?)?))?,)+ })
             }
 
-            fn write(&self) -> $crate::content::Content {
-                use $crate::stored::entry;
-                let entries = [$(entry(stringify!($key), &self.$key, $crate::key::absent!($($absent $(=> $value)?)?)),)+];
+            fn write(&self, form: $crate::key::Form) -> $crate::content::Content {
+                let entries = [$($crate::stored::entry(
+                    form.keys(), stringify!($key), &self.$key, $crate::key::absent!($($absent $(=> $value)?)?),
+                ),)+];
                 $crate::content::Content::table(entries.into_iter().flatten())
             }
         }

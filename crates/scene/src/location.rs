@@ -42,36 +42,22 @@ impl Location {
         }
     }
 
-    /// The same place, of which nothing is to be shown.
-    pub(crate) fn without_line(mut self) -> Self {
-        (self.text, self.marked) = (String::new(), 0..0);
-        self
-    }
-
     /// The line with its number and the faulty part underlined; it begins with a line break.
     pub fn excerpt(&self) -> String {
         if self.text.trim().is_empty() {
             return String::new();
         }
         // Of a very long line the part around the mark is shown.
-        let before = self
-            .text
-            .char_indices()
-            .take_while(|(at, _)| *at < self.marked.start)
-            .count();
-        let is_far = before >= LONGEST_EXCERPT * 3 / 4;
-        let skipped = if is_far { before - LONGEST_EXCERPT / 2 } else { 0 };
-        let characters = || self.text.char_indices().skip(skipped).take(LONGEST_EXCERPT);
-        let shown: String = characters()
-            .map(|(_, c)| if c.is_control() { ' ' } else { c })
-            .collect();
-        let mark = |(at, c): (usize, char)| {
+        let before = self.text[..self.marked.start].chars().count();
+        let skipped = before.saturating_sub(LONGEST_EXCERPT * 3 / 4);
+        let (mut shown, mut marks) = (String::new(), String::new());
+        for (at, c) in self.text.char_indices().skip(skipped).take(LONGEST_EXCERPT) {
+            shown.push(if c.is_control() { ' ' } else { c });
             let mark = if self.marked.contains(&at) { "^" } else { " " };
             // Chinese, Japanese and Korean characters take two columns of a terminal.
             let wide = matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{d7a3}' | '\u{f900}'..='\u{ff60}' | '\u{ffe0}'..='\u{ffe6}');
-            mark.repeat(1 + usize::from(wide))
-        };
-        let mut marks: String = characters().map(mark).collect();
+            marks += &mark.repeat(1 + usize::from(wide));
+        }
         if self.marked.start == self.text.len() {
             marks.push('^');
         }
@@ -115,11 +101,8 @@ pub(crate) fn counted(key: &str) -> String {
         Some(format!("{name} {number}"))
     };
     let items: Vec<String> = parts.windows(2).filter_map(item).collect();
-    if items.is_empty() {
-        String::new()
-    } else {
-        format!(" ({})", items.join(", "))
-    }
+    let words = format!(" ({})", items.join(", "));
+    if items.is_empty() { String::new() } else { words }
 }
 
 #[cfg(test)]

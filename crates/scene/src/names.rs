@@ -92,33 +92,17 @@ pub fn si_unit(key: &str) -> Option<&'static str> {
     MEANINGS.iter().find(|meaning| keys.contains(&meaning.key))?.unit
 }
 
-/// What was probably meant by an unknown key beside the `allowed` ones: another word for one of them, a near miss, one with another
-/// beginning, or a key of another section; and words if it belongs elsewhere.
-pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> (Option<&'k str>, String) {
+/// What was probably meant by an unknown key beside the `allowed` ones: another word for one of them, a near miss, or a key of another
+/// section; and words if it belongs above them all.
+pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> (Option<&'k str>, &'static str) {
     let word = key.to_lowercase();
     let is_synonym = |(other, name): &&(&str, &str)| *other == word && allowed.contains(name);
     let synonym = SYNONYMS.iter().find(is_synonym).map(|(_, name)| *name);
-    let ends = |long: &str, short: &str| long.strip_suffix(short).is_some_and(|head| head.ends_with('_'));
-    let ends_alike = || {
-        allowed
-            .iter()
-            .copied()
-            .find(|name| ends(name, key) || ends(key, name))
-    };
-    // Keys of a section, not of a table inside a value.
-    let of_section = |key: &str| {
-        key.matches('.').count() == 1 || key.starts_with("ground.layers.") && key.matches('.').count() == 2
-    };
-    let meant = synonym
-        .or_else(|| nearest(key, allowed.iter().copied()))
-        .or_else(ends_alike)
-        .or_else(|| known().find(|other| of_section(other) && last(other) == key));
-    let elsewhere = match key {
-        "title" => "; `title` stands above the first section".to_owned(),
-        _ if known().any(|other| other == key) => format!("; `{key}` stands for itself, not in a section"),
-        _ => String::new(),
-    };
-    (meant, elsewhere)
+    let meant = synonym.or_else(|| nearest(key, allowed.iter().copied()));
+    let meant = meant.or_else(|| known().find(|other| last(other) == key));
+    let is_outermost = Scene::KEYS.iter().any(|other| other.name == key);
+    let elsewhere = is_outermost.then_some("; it stands above the first section, or for itself");
+    (meant, elsewhere.unwrap_or_default())
 }
 
 #[cfg(test)]

@@ -12,8 +12,8 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         let other = plain(candidate);
         let letters = [&word, &other].map(|text| text.chars().count());
         let (least, most) = (letters[0].min(letters[1]), letters[0].max(letters[1]));
-        let begins = least >= 3 && least < most && (word.starts_with(&other) || other.starts_with(&word));
-        let distance = if begins { 1 } else { osa_distance(&word, &other) };
+        let holds = least >= 3 && least < most && (word.contains(&other) || other.contains(&word));
+        let distance = if holds { 1 } else { osa_distance(&word, &other) };
         // A single letter that differs altogether is no near miss.
         let is_near = distance <= (most / 3).max(1) && distance < most;
         // Of equally near words the one that begins alike.

@@ -3,8 +3,9 @@
 use toml::de::DeTable;
 
 use crate::content::{Content, Entry, Node, Place, joined};
-use crate::document::{Document, node};
-use crate::error::{SceneError, WrongKind};
+use crate::error::{Result, SceneError};
+use crate::file::SceneFile;
+use crate::parsed::node;
 use crate::rivals::gives_way;
 
 /// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
@@ -13,15 +14,14 @@ const DEEPEST: usize = 8;
 /// What was found, and what is allowed.
 type Refused = (String, String);
 
-/// Sets one key of the document, or removes it if the value is empty.
-pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
-    let source = document.add(format!("--set {text}"), text, false);
+/// Sets one key of the file, or removes it if the value is empty.
+pub fn apply(file: &mut SceneFile, text: &str) -> Result<()> {
+    let source = file.add(format!("--set {text}"), text, false);
     let key = text.split('=').next().unwrap_or_default();
     let bytes = 0..key.len();
     let place = Place { source, bytes };
-    set_text(&mut document.root, text, &place).map_err(|(found, allowed)| {
-        let error = SceneError::wrong(WrongKind::Override, key.trim(), found, allowed);
-        error.at(document.locate(&place))
+    set_text(&mut file.root, text, &place).map_err(|(found, allowed)| {
+        SceneError::value(key.trim(), found, allowed).of_override(file.location(&place))
     })
 }
 
@@ -31,27 +31,22 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         return Err((format!("`{text}`, without `=`"), allowed.to_owned()));
     };
     let keys: Vec<&str> = key.split('.').map(str::trim).collect();
-    let found = format!("`{}`", key.trim());
     if keys.len() > DEEPEST || keys.contains(&"") {
-        return Err((found, "a key such as duct.length or vehicles.0.speed".to_owned()));
+        let allowed = "a key such as duct.length or vehicles.0.speed";
+        return Err((format!("`{}`", key.trim()), allowed.to_owned()));
     }
-    if key.contains('[') && key.contains(']') {
-        let meant = found.replace('[', ".").replace(']', "");
-        return Err((
-            found,
-            format!("{meant}: an item of a list by its number, from 0 on"),
-        ));
-    }
-    if value.trim().is_empty() {
-        return remove(root, &keys);
-    }
+    let is_given = !value.trim().is_empty();
     // The table of axles stands in place of `[[vehicles]]`.
-    match &keys[..] {
-        ["vehicles"] => remove(root, &["traffic", "histogram"]).unwrap_or_default(),
-        ["traffic", "histogram"] => remove(root, &["vehicles"]).unwrap_or_default(),
-        _ => {}
+    let rivals = match &keys[..] {
+        ["vehicles"] => &["traffic", "histogram"][..],
+        ["traffic", "histogram"] => &["vehicles"],
+        _ => &[],
+    };
+    if is_given && !rivals.is_empty() {
+        set(root, "", rivals, None, place).unwrap_or_default();
     }
-    set(root, "", &keys, parsed(text, key.len() + 1, place.source), place)
+    let value = is_given.then(|| parsed(text, key.len() + 1, place.source));
+    set(root, "", &keys, value, place)
 }
 
 /// The value that begins at a byte of an override: TOML, or a text if it is not.
@@ -75,56 +70,36 @@ fn parsed(text: &str, start: usize, source: usize) -> Node {
     Node::new(Place { source, bytes }, text, content)
 }
 
-/// The item of a list.
-fn item<'n>(items: &'n mut [Node], number: &str) -> Result<(usize, &'n mut Node), Refused> {
+/// The place of an item in a list.
+fn index(items: &[Node], number: &str) -> Result<usize, Refused> {
     let allowed = match items.len() {
         0 => "nothing: the list is empty".to_owned(),
-        1 => "the index 0, for the only item of the list".to_owned(),
         count => format!("an index from 0 to {} of the list", count - 1),
     };
-    let index = number.parse().unwrap_or(usize::MAX);
-    let item = items.get_mut(index).map(|item| (index, item));
-    item.ok_or_else(|| (format!("`{number}`"), allowed))
+    let index = number.parse().ok().filter(|index| *index < items.len());
+    index.ok_or_else(|| (format!("`{number}`"), allowed))
 }
 
-/// Removes what stands at these `keys` below the node.
-fn remove(node: &mut Node, keys: &[&str]) -> Result<(), Refused> {
-    let nothing = || {
-        let found = "an empty value, which removes the key".to_owned();
-        (found, "a value, or a key that the scene holds".to_owned())
-    };
-    let [key, below @ ..] = keys else {
+/// Sets what stands at these `keys` below the node at `path`, or removes it where there is no value.
+fn set(
+    node: &mut Node,
+    path: &str,
+    keys: &[&str],
+    value: Option<Node>,
+    place: &Place,
+) -> Result<(), Refused> {
+    let Some((key, below)) = keys.split_first() else {
+        *node = value.unwrap_or_else(|| node.clone());
         return Ok(());
     };
-    match &mut node.content {
-        Content::List(items) => match item(items, key)? {
-            (index, _) if below.is_empty() => _ = items.remove(index),
-            (_, item) => return remove(item, below),
-        },
-        Content::Table(entries) => {
-            let at = entries
-                .iter()
-                .position(|entry| entry.key == *key)
-                .ok_or_else(nothing)?;
-            if !below.is_empty() {
-                return remove(&mut entries[at].value, below);
-            }
-            entries.remove(at);
-        }
-        _ => return Err(nothing()),
-    }
-    Ok(())
-}
-
-/// Sets what stands at these `keys` below the node at `path`.
-fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -> Result<(), Refused> {
-    let [key, below @ ..] = keys else {
-        *node = value;
-        return Ok(());
-    };
-    let inner = joined(path, key);
+    let (path_of_key, is_removed) = (joined(path, key), value.is_none() && below.is_empty());
     if let Content::List(items) = &mut node.content {
-        return set(item(items, key)?.1, &inner, below, value, place);
+        let index = index(items, key)?;
+        if is_removed {
+            items.remove(index);
+            return Ok(());
+        }
+        return set(&mut items[index], &path_of_key, below, value, place);
     }
     let table = || Node::new(place.clone(), "", Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
@@ -135,20 +110,28 @@ fn set(node: &mut Node, path: &str, keys: &[&str], value: Node, place: &Place) -
         return Ok(());
     };
     let known = entries.iter().position(|entry| entry.key == *key);
-    let (key, place_of_key) = ((*key).to_owned(), place.clone());
-    let mut entry = match known {
-        Some(at) => entries.remove(at),
-        None => Entry {
+    if known.is_none() && value.is_none() {
+        let found = "an empty value, which removes the key".to_owned();
+        return Err((found, "a value, or a key that the scene holds".to_owned()));
+    }
+    let at = known.unwrap_or_else(|| {
+        let (key, place) = ((*key).to_owned(), place.clone());
+        entries.push(Entry {
             key,
-            place: place_of_key,
+            place,
             value: table(),
-        },
-    };
-    set(&mut entry.value, &inner, below, value, place)?;
+        });
+        entries.len() - 1
+    });
+    if is_removed {
+        entries.remove(at);
+        return Ok(());
+    }
+    set(&mut entries[at].value, &path_of_key, below, value, place)?;
     if below.is_empty() {
-        entry.place = place.clone();
+        entries[at].place = place.clone();
+        let entry = entries[at].clone();
         entries.retain(|present| !gives_way(path, present, &entry));
     }
-    entries.insert(known.unwrap_or(entries.len()).min(entries.len()), entry);
     Ok(())
 }

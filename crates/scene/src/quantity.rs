@@ -3,38 +3,8 @@
 //! A unit is a power of ten times a factor. The power of ten goes into the decimal exponent before the digits become a
 //! binary number, so that `"35.7 um"` is exactly the number written `35.7e-6`.
 
+use crate::error::did_you_mean;
 use crate::units::{Dimension, UNITS, Unit, normalised};
-
-/// Why a text is not a quantity of the wanted dimension.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum QuantityError {
-    /// The text does not begin with a number.
-    #[error("not a number with a unit")]
-    NotANumber,
-    /// The number is written with commas; here it is with a point.
-    #[error("decimals are written with a point: {0}")]
-    Comma(String),
-    /// There is a number but no unit.
-    #[error("the unit is missing")]
-    MissingUnit,
-    /// The unit is not known.
-    #[error("`{unit}` is not a known unit")]
-    UnknownUnit {
-        /// The unit as written.
-        unit: String,
-        /// The nearest unit of the wanted dimension, if one is near.
-        nearest: Option<&'static str>,
-    },
-    /// The unit belongs to another dimension.
-    #[error("`{unit}` is the unit of {}", .dimension.noun())]
-    WrongDimension {
-        /// The unit as written.
-        unit: String,
-        /// Its dimension.
-        dimension: Dimension,
-    },
-}
 
 impl Dimension {
     /// The SI value of `text`, a number followed by one of this dimension's [units](Dimension::units).
@@ -43,7 +13,7 @@ impl Dimension {
     ///
     /// # Errors
     ///
-    /// [`QuantityError`] if the text is anything else, a number without a unit included.
+    /// Why the text is anything else, a number without a unit included.
     ///
     /// # Example
     ///
@@ -51,118 +21,75 @@ impl Dimension {
     /// use creepage_scene::Dimension;
     ///
     /// assert_eq!(Dimension::Force.parse("20 tf"), Ok(196_133.0));
-    /// assert!(Dimension::Force.parse("20 m").is_err());
+    /// assert_eq!(Dimension::Force.parse("20 m"), Err("`m` is the unit of a length".to_owned()));
     /// ```
-    pub fn parse(self, text: &str) -> Result<f64, QuantityError> {
-        let (number, rest) = split(text.trim())
-            .ok_or_else(|| with_point(text.trim()).map_or(QuantityError::NotANumber, QuantityError::Comma))?;
-        let written = rest.trim();
-        if written.is_empty() {
-            return Err(QuantityError::MissingUnit);
+    pub fn parse(self, text: &str) -> Result<f64, String> {
+        let (number, unit) = split(text).ok_or("not a number with a unit, its decimals after a point")?;
+        if unit.is_empty() {
+            return Err("the unit is missing".to_owned());
         }
-        let symbol = normalised(written);
-        let Some(unit) = UNITS.iter().find(|unit| unit.symbol == symbol) else {
-            return Err(QuantityError::UnknownUnit {
-                unit: written.to_owned(),
-                nearest: self.unit_meant_by(&symbol),
-            });
-        };
-        if !self.takes(unit.dimension) {
-            return Err(QuantityError::WrongDimension {
-                unit: written.to_owned(),
-                dimension: unit.dimension,
-            });
+        let symbol = normalised(unit);
+        match UNITS.iter().find(|known| known.symbol == symbol) {
+            Some(known) if self.takes(known.dimension) => {
+                let value = shifted(number, known.exponent).ok_or("not a number")?;
+                Ok(known.in_si(value))
+            }
+            Some(known) => Err(format!("`{unit}` is the unit of {}", known.dimension.noun())),
+            None => {
+                let meant = did_you_mean(self.unit_meant_by(&symbol));
+                Err(format!("`{unit}` is not a known unit{meant}"))
+            }
         }
-        let value = number.shifted(unit.exponent).ok_or(QuantityError::NotANumber)?;
-        Ok(unit.in_si(value))
     }
 
     /// The unit in `text`, a number followed by one of this dimension's units; `None` for anything else.
     pub fn unit_of(self, text: &str) -> Option<Unit> {
-        let (_, rest) = split(text.trim())?;
-        Unit::of(self, rest.trim())
+        Unit::of(self, split(text)?.1)
     }
 
     /// As [`Dimension::parse`], but a number without a unit is taken as SI: for values typed on a command line.
     ///
     /// # Errors
     ///
-    /// As for [`Dimension::parse`], [`QuantityError::MissingUnit`] excepted.
-    pub fn parse_argument(self, text: &str) -> Result<f64, QuantityError> {
-        match (self.parse(text), text.trim().parse()) {
-            (Err(QuantityError::MissingUnit), Ok(value)) => Ok(value),
-            (parsed, _) => parsed,
-        }
+    /// As for [`Dimension::parse`].
+    pub fn parse_argument(self, text: &str) -> Result<f64, String> {
+        text.trim().parse().or_else(|_| self.parse(text))
     }
 }
 
 /// The number that a text begins with, and its unit, which may be empty. `None` where digits or points follow the number.
 pub fn leading_number(text: &str) -> Option<(f64, &str)> {
-    let (number, rest) = split(text.trim())?;
-    let value = number.shifted(0)?;
-    let unit = rest.trim();
+    let (number, unit) = split(text)?;
+    let value: f64 = number.parse().ok()?;
     let goes_on = unit.starts_with(|c: char| c.is_ascii_digit() || c == '.');
     (value.is_finite() && !goes_on).then_some((value, unit))
 }
 
-/// A number written with commas, with or without a unit, as it is to be written; `None` if there is no comma.
-pub fn with_point(text: &str) -> Option<String> {
-    let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
-    let bytes = text.as_bytes();
-    let commas: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i] == b',').collect();
-    let between =
-        |&at: &usize| digit(at.checked_sub(1).and_then(|i| bytes.get(i))) && digit(bytes.get(at + 1));
-    if commas.is_empty() || !commas.iter().all(between) {
-        return None;
+/// A number times a power of ten, which goes into its exponent.
+fn shifted(number: &str, exponent: i32) -> Option<f64> {
+    // A word for a value that is not finite has no exponent.
+    if number.ends_with(|c: char| c.is_ascii_alphabetic()) {
+        return number.parse().ok();
     }
-    // Two commas, or a comma before a point, part thousands.
-    let thousands = commas.len() > 1 || text.contains('.');
-    Some(text.replace(',', if thousands { "" } else { "." }))
+    let (digits, own) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    // An exponent too large for its type is far beyond any number: its sign decides.
+    let beyond = if own.starts_with('-') { i32::MIN } else { i32::MAX };
+    let own: i32 = own.parse().unwrap_or(beyond);
+    format!("{digits}e{}", own.saturating_add(exponent)).parse().ok()
 }
 
-/// A number whose only comma may also part thousands, `3,000 MPa`, without it.
-pub fn without_thousands(text: &str) -> Option<String> {
-    let (before, after) = text.split_once(',')?;
-    let digits = after.bytes().take_while(u8::is_ascii_digit).count();
-    let first = before.trim().trim_start_matches(['+', '-']);
-    let groups = (1..=3).contains(&first.len()) && !first.starts_with('0') && digits == 3;
-    (groups && !after.contains([',', '.'])).then(|| format!("{before}{after}"))
-}
-
-/// The number that a text begins with, and the rest.
-struct Number<'t>(&'t str);
-
-impl Number<'_> {
-    /// The number times a power of ten, which goes into its exponent.
-    fn shifted(&self, exponent: i32) -> Option<f64> {
-        let Some((digits, own)) = self.0.split_once(['e', 'E']) else {
-            // A word for a value that is not finite has no exponent.
-            let is_word = self.0.ends_with(|c: char| c.is_ascii_alphabetic());
-            let shifted = || format!("{}e{exponent}", self.0).parse();
-            return if is_word {
-                self.0.parse().ok()
-            } else {
-                shifted().ok()
-            };
-        };
-        // An exponent too large for its type is far beyond any number: its sign decides.
-        let beyond = if own.starts_with('-') { i32::MIN } else { i32::MAX };
-        let own: i32 = own.parse().unwrap_or(beyond);
-        format!("{digits}e{}", own.saturating_add(exponent)).parse().ok()
-    }
-}
-
-/// Splits a text into the number it begins with and the rest.
-fn split(text: &str) -> Option<(Number<'_>, &str)> {
+/// The number that a text begins with, and what follows, both without space around them.
+fn split(text: &str) -> Option<(&str, &str)> {
     // No number is longer than this.
     const LONGEST: usize = 400;
+    let text = text.trim();
     let is_number = |end: &usize| text.get(..*end).is_some_and(|text| text.parse::<f64>().is_ok());
     let end = (1..=text.len().min(LONGEST)).rev().find(is_number)?;
     let (number, rest) = text.split_at(end);
     let is_word = number.ends_with(|c: char| c.is_ascii_alphabetic());
     // A decimal comma, a second point, a digit separator, another word: not a number in this notation.
     let goes_on = |c: char| matches!(c, ',' | '.' | '_' | '+' | '-') || is_word && c.is_alphanumeric();
-    (!rest.starts_with(goes_on)).then_some((Number(number), rest))
+    (!rest.starts_with(goes_on)).then_some((number, rest.trim()))
 }
 
 #[cfg(test)]
@@ -226,29 +153,27 @@ mod tests {
     fn what_is_no_quantity_is_refused() {
         let length = |text| Dimension::Length.parse(text).unwrap_err();
         for text in [
-            "", "m", "abc", "1.2.3 m", "1_000 m", "--1 m", "+", ".", "１ m", "e5 m", "nano m",
+            "", "m", "abc", "1.2.3 m", "1_000 m", "--1 m", "+", ".", "１ m", "e5 m", "nano m", "1,2 m",
+            "1,200.5",
         ] {
-            assert_eq!(length(text), QuantityError::NotANumber, "{text}");
-        }
-        let with_point = "1.2 m".to_owned();
-        assert_eq!(length("1,2 m"), QuantityError::Comma(with_point));
-        for text in ["1.2", "1e3", "-4 ", "inf"] {
-            assert_eq!(length(text), QuantityError::MissingUnit, "{text}");
-        }
-        for (text, unit, nearest) in [
-            ("1 M", "M", Some("m")),
-            ("1 MM", "MM", Some("mm")),
-            ("1 mE", "mE", Some("m")),
-            ("1 furlong", "furlong", None),
-            ("1e", "e", None),
-            ("1 2 m", "2 m", Some("m")),
-        ] {
-            let unit = unit.to_owned();
             assert_eq!(
                 length(text),
-                QuantityError::UnknownUnit { unit, nearest },
+                "not a number with a unit, its decimals after a point",
                 "{text}"
             );
+        }
+        for text in ["1.2", "1e3", "-4 ", "inf"] {
+            assert_eq!(length(text), "the unit is missing", "{text}");
+        }
+        for (text, expected) in [
+            ("1 M", "`M` is not a known unit (did you mean `m`?)"),
+            ("1 MM", "`MM` is not a known unit (did you mean `mm`?)"),
+            ("1 mE", "`mE` is not a known unit (did you mean `m`?)"),
+            ("1 furlong", "`furlong` is not a known unit"),
+            ("1e", "`e` is not a known unit"),
+            ("1 2 m", "`2 m` is not a known unit (did you mean `m`?)"),
+        ] {
+            assert_eq!(length(text), expected, "{text}");
         }
     }
 
@@ -258,18 +183,11 @@ mod tests {
             let text = format!("1 {}", unit.symbol);
             for other in UNITS {
                 let parsed = other.dimension.parse(&text);
+                let wrong = format!("`{}` is the unit of {}", unit.symbol, unit.dimension.noun());
                 if other.dimension.takes(unit.dimension) {
                     assert!(parsed.is_ok(), "{text}");
                 } else {
-                    let unit_symbol = unit.symbol.to_owned();
-                    let dimension = unit.dimension;
-                    assert_eq!(
-                        parsed,
-                        Err(QuantityError::WrongDimension {
-                            unit: unit_symbol,
-                            dimension
-                        })
-                    );
+                    assert_eq!(parsed, Err(wrong));
                 }
             }
         }
@@ -300,33 +218,5 @@ mod tests {
         assert_eq!(Dimension::Force.parse_argument("0.5 kN"), Ok(500.0));
         assert!(Dimension::Force.parse_argument("0.5 m").is_err());
         assert!(Dimension::Force.parse_argument("much").is_err());
-    }
-
-    #[test]
-    fn only_a_comma_before_three_digits_may_part_thousands() {
-        assert_eq!(without_thousands("3,000 MPa").as_deref(), Some("3000 MPa"));
-        assert_eq!(without_thousands("-12,500").as_deref(), Some("-12500"));
-        for text in [
-            "3,00 m",
-            "0,300 m",
-            "3,0000 m",
-            "1234,500 m",
-            "3,000.5 m",
-            "1,000,000",
-            "3",
-        ] {
-            assert_eq!(without_thousands(text), None, "{text}");
-        }
-    }
-
-    #[test]
-    fn commas_become_points_or_go() {
-        assert_eq!(with_point("1,2 m").as_deref(), Some("1.2 m"));
-        assert_eq!(with_point("-0,25").as_deref(), Some("-0.25"));
-        assert_eq!(with_point("1,200,000 N").as_deref(), Some("1200000 N"));
-        assert_eq!(with_point("1,200.5 N").as_deref(), Some("1200.5 N"));
-        for text in ["1.2 m", ",", "1, 2", ",5", "5,", ""] {
-            assert_eq!(with_point(text), None, "{text}");
-        }
     }
 }

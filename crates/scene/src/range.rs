@@ -115,44 +115,4 @@ impl Quantity {
     pub fn unit(self) -> Option<&'static str> {
         self.dimension.and_then(Dimension::si)
     }
-
-    /// A value as a program has it: in SI.
-    pub fn written(self, value: f64) -> String {
-        match self.unit() {
-            Some(unit) => format!("\"{value:?} {unit}\""),
-            None => shown(value),
-        }
-    }
-
-    /// What a bare number out of its range was probably meant in.
-    pub fn bare_number_meant(self, value: f64) -> String {
-        let (unit, si) = match self.dimension {
-            None if value > 1.0 && !self.whole && self.contains(value / 100.0) => {
-                return format!("; did you mean {}?", value / 100.0);
-            }
-            // Tables give it in millionths.
-            Some(D::InverseTemperature) => ("e-6 1/K", "in 1/K"),
-            Some(D::Length) => (" mm", "in m"),
-            Some(D::Pressure) => (" MPa", "in Pa"),
-            Some(D::Area) => (" mm2", "in m2"),
-            Some(D::Ratio) => (" %", "a share of 1"),
-            Some(D::Slope) => (" %", "the rise over a distance of 1"),
-            _ => return String::new(),
-        };
-        let meant = format!("{value}{unit}");
-        let parsed = self.dimension.and_then(|dimension| dimension.parse(&meant).ok());
-        let words = || format!("; a bare number is {si}: did you mean \"{meant}\"?");
-        parsed
-            .filter(|&value| self.contains(value))
-            .map_or_else(String::new, |_| words())
-    }
-}
-
-/// A number of this program in a message, such as the end of a range.
-pub fn shown(value: f64) -> String {
-    if (1e-6..1e9).contains(&value.abs()) || value == 0.0 {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
 }

@@ -6,7 +6,7 @@ use cable_dem::{End, Order, Restraint, Section};
 
 use crate::cable::{Cable, Friction};
 use crate::content::Content;
-use crate::error::SceneError;
+use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
 use crate::key::Form::{Either, List, Number, Table, Text, Words};
@@ -16,7 +16,7 @@ use crate::range::{
 };
 use crate::route::RouteSection;
 use crate::solver::Solver;
-use crate::stored::{Stored, value};
+use crate::stored::{Given, Stored, entry};
 use crate::traffic::{Following, Traffic};
 use crate::vehicle::TrafficVehicle;
 
@@ -29,7 +29,7 @@ keys! {
         /// Where the duct lies: as deep everywhere below a road that slopes and bends as it does.
         duct: Duct = Table(Duct::KEYS);
         /// Sections of a duct that slopes or bends, in place of `duct.slope`.
-        route: Vec<RouteSection> = List(&Table(RouteSection::KEYS), 0, "a list of [[route]] sections, from x = 0 on"), "straight, with `duct.slope`";
+        route: Vec<RouteSection> = List(&[Table(RouteSection::KEYS)], 0, "a list of [[route]] sections, from x = 0 on"), "straight, with `duct.slope`";
         /// The ground around the duct.
         ground: Ground = Table(Ground::KEYS);
         /// The cable in the duct.
@@ -39,9 +39,9 @@ keys! {
         /// What holds the cable's two ends.
         ends: Ends = Table(Ends::KEYS);
         /// Clamps along the cable.
-        restraints: Vec<Restraint> = List(&Table(Restraint::KEYS), 0, "a list of [[restraints]]"), "none";
+        restraints: Vec<Restraint> = List(&[Table(Restraint::KEYS)], 0, "a list of [[restraints]]"), "none";
         /// Who drives above the duct.
-        vehicles: Vec<TrafficVehicle> = List(&Table(TrafficVehicle::KEYS), 1, VEHICLES), "traffic.histogram instead";
+        vehicles: Vec<TrafficVehicle> = List(&[Table(TrafficVehicle::KEYS)], 1, VEHICLES), "traffic.histogram instead";
         /// How much traffic, and in which order.
         traffic: Traffic = Table(Traffic::KEYS);
         /// How warm the cable gets every day; needs `traffic.per_day`.
@@ -94,28 +94,25 @@ keys! {
     }
 }
 
-const HELD: Form = Words {
-    words: &["free", "fixed"],
-    allowed: Some("\"free\", \"fixed\" or { spring = \"3 MN/m\" }"),
-    gone: None,
-};
+const HELD: Form = Words(&["free", "fixed"], " or { spring = \"3 MN/m\" }");
+const ENDS: &[(&str, End)] = &[("free", End::Free), ("fixed", End::Fixed)];
 const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is understood too.";
-const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))], None);
+const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))]);
 
 impl Stored for End {
-    fn read(content: &Content) -> Option<Self> {
-        match content.as_text() {
-            Some("free") => Some(Self::Free),
-            Some(_) => Some(Self::Fixed),
-            None => value(content, "spring", None).map(Self::Spring),
+    fn read(given: &Given) -> Result<Self> {
+        if !matches!(given.node.content, Content::Table(_)) {
+            return given.word(ENDS, given.form.allowed());
         }
+        given.check_table()?;
+        given.value("spring", None).map(Self::Spring)
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, form: Form) -> Content {
         match self {
             Self::Free => Content::Text("free".to_owned()),
             Self::Fixed => Content::Text("fixed".to_owned()),
-            Self::Spring(stiffness) => Content::table([("spring", stiffness.write())]),
+            Self::Spring(stiffness) => Content::table(entry(form.keys(), "spring", stiffness, None)),
         }
     }
 }
@@ -136,31 +133,29 @@ impl Scene {
         self.normal_load_factor() * self.cable.weight
     }
 
+    /// The route from x = 0 on; one section if there is none.
+    fn whole_route(&self) -> Vec<RouteSection> {
+        let mut whole = RouteSection::default();
+        (whole.length, whole.slope) = (Some(self.duct.length), self.duct.slope);
+        if self.route.is_empty() {
+            vec![whole]
+        } else {
+            self.route.clone()
+        }
+    }
+
     /// The sections of the duct from x = 0 on, each with friction, weight along the duct and bend; one if there is no route.
     pub fn sections(&self) -> Vec<Section> {
-        let whole = RouteSection {
-            length: Some(self.duct.length),
-            slope: self.duct.slope,
-            ..RouteSection::default()
-        };
-        let route = if self.route.is_empty() {
-            &[whole][..]
-        } else {
-            &self.route
-        };
         let section = |section: &RouteSection| {
             let (sine, cosine) = section.angle();
-            let friction = section
-                .dynamic_coefficient
-                .unwrap_or(self.friction.dynamic_coefficient);
-            Section::new(
-                section.length.unwrap_or(0.0),
-                friction * self.normal_load() * cosine,
-            )
-            .with_body_force(-self.cable.weight * sine)
-            .with_bend(section.bend_radius.map_or(0.0, |radius| friction / radius))
+            let of_scene = self.friction.dynamic_coefficient;
+            let friction = section.dynamic_coefficient.unwrap_or(of_scene);
+            let limit = friction * self.normal_load() * cosine;
+            Section::new(section.length.unwrap_or(0.0), limit)
+                .with_body_force(-self.cable.weight * sine)
+                .with_bend(section.bend_radius.map_or(0.0, |radius| friction / radius))
         };
-        route.iter().map(section).collect()
+        self.whole_route().iter().map(section).collect()
     }
 
     /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\], with the friction coefficient of the scene and the mean of cos θ.
@@ -175,16 +170,13 @@ impl Scene {
 
     /// The mean over the duct's length.
     fn mean(&self, of: impl Fn(&RouteSection) -> f64) -> f64 {
-        let whole = RouteSection {
-            slope: self.duct.slope,
-            ..RouteSection::default()
-        };
-        let first = of(self.route.first().unwrap_or(&whole));
-        if self.route.iter().all(|section| of(section) == first) {
+        let route = self.whole_route();
+        let first = of(&route[0]);
+        if route.iter().all(|section| of(section) == first) {
             return first;
         }
         let part = |section: &RouteSection| of(section) * section.length.unwrap_or(0.0);
-        self.route.iter().map(part).sum::<f64>() / self.duct.length
+        route.iter().map(part).sum::<f64>() / self.duct.length
     }
 
     /// Gives the last section of the route what is left of the duct.
@@ -233,7 +225,7 @@ impl Scene {
     }
 
     /// Puts what is computed once in place of what it follows from; `file` is the scene's.
-    pub(crate) fn resolve(&mut self, file: &str) -> Result<(), SceneError> {
+    pub(crate) fn resolve(&mut self, file: &str) -> Result<()> {
         if self.title.is_empty() {
             let stem = Path::new(file).file_stem().unwrap_or_default();
             self.title = stem.to_string_lossy().into_owned();

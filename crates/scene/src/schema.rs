@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::content::{joined, other_name};
 use crate::key::{Form, Key, Section};
-use crate::presets::{PresetKind, of};
+use crate::presets::of_section;
 use crate::range::Quantity;
 use crate::rivals::rivals;
 use crate::scene::Scene;
@@ -24,7 +24,7 @@ pub fn schema() -> Value {
 fn table(keys: &[Key], path: &str) -> Value {
     let property = |key: &Key| {
         let mut property = match key.name {
-            "preset" => json!({ "enum": presets(path) }),
+            "preset" => json!({ "enum": of_section(path).map(|preset| &preset.name).collect::<Vec<_>>() }),
             name => form(&key.form, &joined(path, name)),
         };
         let default = key.absent.map(|default| format!("if omitted: {default}"));
@@ -62,14 +62,13 @@ fn form(form: &Form, path: &str) -> Value {
     match form {
         Form::Number(quantity) => number(*quantity),
         Form::Text(_) => json!({ "type": "string" }),
-        Form::Name(_) => json!({ "type": "string", "minLength": 1 }),
-        Form::Words { words, .. } => json!({ "enum": words }),
+        Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
-        Form::List(item, least, _) => {
+        Form::List([item], least, _) => {
             json!({ "type": "array", "minItems": least, "items": self::form(item, path) })
         }
-        Form::Pair(..) => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
-        Form::Either(one, keys, _) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
+        Form::List(items, ..) => json!({ "type": "array", "minItems": items.len(), "maxItems": items.len() }),
+        Form::Either(one, keys) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
     }
 }
 
@@ -109,12 +108,4 @@ fn unit(symbol: &str) -> String {
     }
     let letters = symbol.chars().enumerate().map(letter);
     letters.collect::<Vec<_>>().join("\\s*")
-}
-
-fn presets(section: &str) -> Vec<&'static str> {
-    let kind = PresetKind::of_section(section);
-    kind.into_iter()
-        .flat_map(of)
-        .map(|preset| &*preset.name)
-        .collect()
 }

@@ -54,5 +54,5 @@ pub enum SolverMethod {
 
 file_words! {
     SolverMethod: Auto "auto", QuasiStatic "quasi-static", Explicit "explicit", PassLaw "pass-law";
-    but "dynamic": "inertia is computed by \"explicit\", and below 200 km/h it changes next to nothing"
+    "; inertia is computed by \"explicit\": dynamic is no longer there, since below 200 km/h it changes next to nothing"
 }

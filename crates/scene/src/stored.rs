@@ -1,94 +1,213 @@
-//! Types whose values stand in a file.
+//! Types whose values stand in a file. Each is read beside the form of its key: an error says what is allowed.
 
-use crate::content::{Content, Node};
+use crate::content::{Content, Entry, Node, joined, other_name};
+use crate::error::{Result, SceneError, did_you_mean};
+use crate::key::{Form, Key};
+use crate::names::meant_by;
+use crate::nearest::nearest;
+use crate::range::Quantity;
+use crate::rivals::contradiction;
+use crate::units::Dimension;
 
-/// A type whose values stand in a file, here in SI.
+/// A type whose values stand in a file.
 pub trait Stored: Sized {
-    /// The value of a content that suits the form of its key.
-    fn read(content: &Content) -> Option<Self>;
-    fn write(&self) -> Content;
+    /// The value in SI.
+    fn read(given: &Given) -> Result<Self>;
+    /// The value as it is written, quantities in SI with their units.
+    fn write(&self, form: Form) -> Content;
 }
 
-/// The value at `key` of a table, or what counts if it is left out.
-pub fn value<T: Stored>(table: &Content, key: &str, absent: Option<T>) -> Option<T> {
-    table.get(key).map_or(absent, |node| T::read(&node.content))
+/// What stands at a key, and what may stand there.
+pub struct Given<'n> {
+    pub path: String,
+    pub node: &'n Node,
+    pub form: Form,
+}
+
+impl<'n> Given<'n> {
+    pub fn new(path: String, node: &'n Node, form: Form) -> Self {
+        Self { path, node, form }
+    }
+
+    /// The error of a value that is not allowed.
+    fn wrong(&self, found: impl AsRef<str>) -> SceneError {
+        SceneError::value(&self.path, found, self.form.allowed())
+    }
+
+    /// The error of a value of a kind that is not allowed.
+    fn of_other_kind(&self) -> SceneError {
+        self.wrong(self.node.described())
+    }
+
+    /// Refuses what is no table, and keys of a table that are not known or exclude each other. An unknown key is told before one that
+    /// is missing: a misspelt one is both.
+    pub fn check_table(&self) -> Result<()> {
+        let keys = self.form.keys();
+        let entries = match (&self.node.content, self.form) {
+            (Content::Table(entries), _) => entries,
+            (Content::Text(_), Form::Either(..)) => return Ok(()),
+            _ => return Err(self.of_other_kind()),
+        };
+        let is_known = |name: &str| keys.iter().any(|key| key.name == name);
+        let is_known = |name: &str| is_known(name) || other_name(name).is_some_and(is_known);
+        match entries.iter().find(|entry| !is_known(&entry.key)) {
+            Some(entry) => Err(unknown_key(entry, keys, &self.path)),
+            None => contradiction(&self.path, self.node),
+        }
+    }
+
+    /// The value at a key of a table, or what counts if it is left out. A text in place of a table stands at the first of its keys.
+    pub fn value<T: Stored>(&self, name: &str, absent: Option<T>) -> Result<T> {
+        let keys = self.form.keys();
+        let node = match self.node.content {
+            Content::Text(_) => Some(self.node).filter(|_| keys.first().is_some_and(|key| key.name == name)),
+            _ => self.node.content.get(name),
+        };
+        let (path, form) = (joined(&self.path, name), form_of(keys, name));
+        match node {
+            Some(node) => T::read(&Given::new(path, node, form)),
+            None => absent.ok_or_else(|| SceneError::missing(&path, form.allowed())),
+        }
+    }
+
+    /// What the word that is given stands for.
+    pub fn word<T: Copy>(&self, words: &[(&str, T)], allowed: String) -> Result<T> {
+        let Some(text) = self.node.content.as_text() else {
+            return Err(SceneError::value(&self.path, self.node.described(), allowed));
+        };
+        let known = words.iter().find(|(word, _)| *word == text);
+        known.map(|(_, value)| *value).ok_or_else(|| {
+            let meant = did_you_mean(nearest(text, words.iter().map(|(word, _)| *word)));
+            SceneError::value(&self.path, self.node.written.clone() + &meant, allowed)
+        })
+    }
+}
+
+fn form_of(keys: &[Key], name: &str) -> Form {
+    let key = keys.iter().find(|key| key.name == name);
+    key.map_or(Form::Text(""), |key| key.form)
+}
+
+fn unknown_key(entry: &Entry, keys: &[Key], path: &str) -> SceneError {
+    let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
+    let (meant, elsewhere) = meant_by(&entry.key, &names);
+    SceneError::unknown(&joined(path, &entry.key), meant, names.join(", ") + elsewhere)
 }
 
 /// The entry of a table for a value, unless it counts without one.
 pub fn entry<'k, T: Stored + PartialEq>(
-    key: &'k str,
+    keys: &[Key],
+    name: &'k str,
     value: &T,
     absent: Option<T>,
 ) -> Option<(&'k str, Content)> {
     match absent {
         Some(absent) if absent == *value => None,
-        _ => Some((key, value.write())),
+        _ => Some((name, value.write(form_of(keys, name)))),
     }
 }
 
 impl Stored for f64 {
-    fn read(content: &Content) -> Option<Self> {
-        content.as_number()
+    fn read(given: &Given) -> Result<Self> {
+        let (content, quantity) = (&given.node.content, given.form.quantity());
+        let dimension = quantity.and_then(|quantity| quantity.dimension);
+        let value = match (content.as_number(), content.as_text(), dimension) {
+            (Some(value), ..) => value,
+            (_, Some(text), Some(dimension)) => {
+                let wrong = |why| given.wrong(format!("{}: {why}", given.node.written));
+                dimension.parse(text).map_err(wrong)?
+            }
+            _ => return Err(given.of_other_kind()),
+        };
+        if quantity.is_none_or(|quantity| quantity.contains(value)) {
+            return Ok(value);
+        }
+        let unit = |dimension: Dimension| dimension.si().unwrap_or("1, not in %");
+        let bare = dimension.filter(|_| content.as_text().is_none()).map(unit);
+        let bare = bare.map_or_else(String::new, |unit| format!("; a bare number is in {unit}"));
+        Err(SceneError::value(
+            &given.path,
+            &given.node.written,
+            given.form.allowed() + &bare,
+        ))
     }
 
-    fn write(&self) -> Content {
-        Content::Number(*self)
+    fn write(&self, form: Form) -> Content {
+        let unit = form.quantity().and_then(Quantity::unit);
+        let text = unit.map(|unit| Content::Text(format!("{self:?} {unit}")));
+        text.unwrap_or(Content::Number(*self))
     }
 }
 
 impl Stored for u64 {
-    fn read(content: &Content) -> Option<Self> {
-        match content {
-            Content::Whole(whole) => Some(*whole),
-            _ => None,
+    fn read(given: &Given) -> Result<Self> {
+        f64::read(given)?;
+        match given.node.content {
+            Content::Whole(whole) => Ok(whole),
+            _ => Err(given.wrong(&given.node.written)),
         }
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, _: Form) -> Content {
         Content::Whole(*self)
     }
 }
 
 impl Stored for String {
-    fn read(content: &Content) -> Option<Self> {
-        content.as_text().map(str::to_owned)
+    fn read(given: &Given) -> Result<Self> {
+        let text = given.node.content.as_text().map(str::to_owned);
+        text.ok_or_else(|| given.of_other_kind())
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, _: Form) -> Content {
         Content::Text(self.clone())
     }
 }
 
 impl<T: Stored> Stored for Option<T> {
-    fn read(content: &Content) -> Option<Self> {
-        T::read(content).map(Some)
+    fn read(given: &Given) -> Result<Self> {
+        T::read(given).map(Some)
     }
 
-    fn write(&self) -> Content {
-        self.as_ref().map_or(Content::Other, T::write)
+    fn write(&self, form: Form) -> Content {
+        self.as_ref().map_or(Content::Other, |value| value.write(form))
     }
 }
 
 impl<T: Stored> Stored for Vec<T> {
-    fn read(content: &Content) -> Option<Self> {
-        match content {
-            Content::List(items) => items.iter().map(|item| T::read(&item.content)).collect(),
-            _ => None,
+    fn read(given: &Given) -> Result<Self> {
+        let (Form::List(forms, least, _), Content::List(items)) = (given.form, &given.node.content) else {
+            return Err(given.of_other_kind());
+        };
+        if items.len() < least {
+            return Err(given.wrong(["an empty list", "one item"][items.len().min(1)]));
         }
+        let items = items.iter().zip(forms.iter().cycle()).enumerate();
+        let path = |index| joined(&given.path, index);
+        let read =
+            |(index, (node, form)): (usize, (_, &Form))| T::read(&Given::new(path(index), node, *form));
+        items.map(read).collect()
     }
 
-    fn write(&self) -> Content {
-        Content::List(self.iter().map(|item| item.write().into()).collect())
+    fn write(&self, form: Form) -> Content {
+        let Form::List(forms, ..) = form else {
+            return Content::Other;
+        };
+        let items = self.iter().zip(forms.iter().cycle());
+        Content::List(items.map(|(item, form)| item.write(*form).into()).collect())
     }
 }
 
-impl<T: Stored> Stored for (T, T) {
-    fn read(content: &Content) -> Option<Self> {
-        let item = |index| content.get(index).and_then(|node| T::read(&node.content));
-        Some((item("0")?, item("1")?))
+/// A list of two.
+impl<T: Stored + Copy> Stored for (T, T) {
+    fn read(given: &Given) -> Result<Self> {
+        match Vec::<T>::read(given)?[..] {
+            [first, second] => Ok((first, second)),
+            _ => Err(given.of_other_kind()),
+        }
     }
 
-    fn write(&self) -> Content {
-        Content::List([&self.0, &self.1].map(|item| Node::from(item.write())).into())
+    fn write(&self, form: Form) -> Content {
+        vec![self.0, self.1].write(form)
     }
 }

@@ -1,10 +1,11 @@
 //! `[traffic]`: how much traffic, and in which order.
 
-use crate::error::SceneError;
+use crate::error::{Result, SceneError};
 use crate::histogram::{HISTOGRAM, Histogram};
 use crate::key::Form::{List, Number, Text};
 use crate::key::keys;
-use crate::range::{ANY_WHOLE, PASSES, PER_DAY, SPEED, YEARS, shown};
+use crate::range::{ANY_WHOLE, PASSES, PER_DAY, SPEED, YEARS};
+use crate::shown::shown;
 use crate::words::file_words;
 
 keys! {
@@ -25,7 +26,7 @@ keys! {
         /// Seed of a random order.
         seed: u64 = Number(ANY_WHOLE), "1" => 1;
         /// Vehicles in this order, over and over; shares do not count.
-        sequence: Vec<String> = List(&Text("a vehicle's name"), 1, NAMES), "none";
+        sequence: Vec<String> = List(&[Text("a vehicle's name")], 1, NAMES), "none";
     }
 }
 
@@ -54,7 +55,7 @@ impl Traffic {
     }
 
     /// Puts whole passes in place of years.
-    pub(crate) fn resolve(&mut self) -> Result<(), SceneError> {
+    pub(crate) fn resolve(&mut self) -> Result<()> {
         let Some(years) = self.years.take() else {
             return Ok(());
         };

@@ -3,23 +3,24 @@
 use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle};
 
 use crate::content::Content;
-use crate::key::Form::{List, Name, Number, Table, Words};
+use crate::error::Result;
+use crate::key::Form::{List, Number, Table, Text, Words};
 use crate::key::{Form, keys};
 use crate::range::{CONTACT_RADIUS, LANE, LOAD, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y};
-use crate::stored::Stored;
+use crate::stored::{Given, Stored};
 
 keys! {
     /// A vehicle and how often it drives, in SI. It has a load or wheels.
     pub struct TrafficVehicle {
         preset "A vehicle by its name; keys beside it override its values.";
         /// Name of the vehicle.
-        name: String = Name("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
+        name: String = Text("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
         /// Speed of the vehicle.
         speed: f64 = Number(SPEED);
         /// One concentrated load.
         load: Option<f64> = Number(LOAD), "`wheels` instead";
         /// Wheels of the vehicle.
-        wheels: Vec<Wheel> = List(&Table(Wheel::KEYS), 1, WHEELS), "`load` instead";
+        wheels: Vec<Wheel> = List(&[Table(Wheel::KEYS)], 1, WHEELS), "`load` instead";
         /// Its lane: how far its axis lies to the left of the first lane's, seen along forward traffic.
         lateral_offset: f64 = Number(LANE), "0 m";
         /// Forward is toward growing x.
@@ -46,19 +47,15 @@ keys! {
     }
 }
 
-const DIRECTION: Form = Words {
-    words: &["forward", "reverse"],
-    allowed: Some("\"forward\", toward the downstream end, or \"reverse\""),
-    gone: None,
-};
+const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("reverse", Direction::Reverse)];
+const DIRECTION: Form = Words(&["forward", "reverse"], "; forward is toward the downstream end");
 
 impl Stored for Direction {
-    fn read(content: &Content) -> Option<Self> {
-        let forward = content.as_text()? == "forward";
-        Some(if forward { Self::Forward } else { Self::Reverse })
+    fn read(given: &Given) -> Result<Self> {
+        given.word(DIRECTIONS, given.form.allowed())
     }
 
-    fn write(&self) -> Content {
+    fn write(&self, _: Form) -> Content {
         Content::Text(self.to_string())
     }
 }

@@ -29,25 +29,21 @@ macro_rules! words {
     };
 }
 
-/// The same for words of the file, with their `FORM`; a word that once was one of them is refused with the reason.
+/// The same for words of the file, with their `FORM` and what else is to be said of them.
 macro_rules! file_words {
-    ($type:ident: $($variant:ident $word:literal),+ $(; but $gone:literal: $why:literal)?) => {
+    ($type:ident: $($variant:ident $word:literal),+ $(; $more:literal)?) => {
         $crate::words!($type: $($variant $word),+);
 
         impl $type {
-            pub(crate) const FORM: $crate::key::Form = $crate::key::Form::Words {
-                words: &[$($word),+],
-                allowed: None,
-                gone: [$(($gone, $why))?].first().copied(),
-            };
+            pub(crate) const FORM: $crate::key::Form = $crate::key::Form::Words(&[$($word),+], concat!($($more)?));
         }
 
         impl $crate::stored::Stored for $type {
-            fn read(content: &$crate::content::Content) -> Option<Self> {
-                content.as_text()?.parse().ok()
+            fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
+                given.word(Self::WORDS, given.form.allowed())
             }
 
-            fn write(&self) -> $crate::content::Content {
+            fn write(&self, _: $crate::key::Form) -> $crate::content::Content {
                 $crate::content::Content::Text(self.to_string())
             }
         }

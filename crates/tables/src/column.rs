@@ -60,9 +60,9 @@ pub struct Name {
 impl Name {
     /// Whether one of its words is among these.
     pub fn has(&self, kind: Kind) -> bool {
-        kind.0
-            .split(' ')
-            .any(|word| self.words.iter().any(|own| own == word))
+        self.words
+            .iter()
+            .any(|own| kind.0.split(' ').any(|word| own == word))
     }
 
     /// Whether it was chosen, or is the word of its program for its kind and nothing else.
@@ -74,12 +74,8 @@ impl Name {
 impl Layout {
     /// The names in a header of one or more rows.
     pub(crate) fn names(&self, rows: &[Row], options: &Options) -> Vec<Name> {
-        let text = |column| {
-            rows.iter()
-                .map(|row| row.cell(column))
-                .collect::<Vec<_>>()
-                .join(" ")
-        };
+        let cells = |column| rows.iter().map(move |row| row.cell(column));
+        let text = |column| cells(column).collect::<Vec<_>>().join(" ");
         let columns = 0..rows.first().map_or(0, |row| row.cells.len());
         let mut names: Vec<Name> = columns.map(|column| self.name(&text(column), options)).collect();
         // Excel writes columns that were used once.
@@ -108,16 +104,12 @@ impl Layout {
             bare,
             ..Name::default()
         };
-        let columns = |kind: Kind| {
-            options
-                .columns
-                .iter()
-                .filter(move |column| column.0 == kind.name())
-        };
-        let is_chosen = |kind: &&Kind| columns(**kind).any(|(_, column)| is_same(column, text));
+        let columns = options.columns.iter();
+        let said = |kind: Kind| columns.clone().filter(move |(said, _)| said == kind.name());
+        let is_chosen = |kind: &&Kind| said(**kind).any(|(_, column)| is_same(column, text));
         let chosen = self.kinds.iter().find(is_chosen);
         let by_words = self.kinds.iter().find(|kind| name.has(**kind));
-        let is_open = |kind: &&Kind| columns(**kind).next().is_none();
+        let is_open = |kind: &&Kind| said(**kind).next().is_none();
         name.chosen = chosen.is_some();
         name.kind = chosen.or(by_words.filter(is_open)).copied();
         if name.kind.is_some() && name.kind == self.measured && options.unit.is_some() {

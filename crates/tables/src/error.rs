@@ -1,31 +1,18 @@
 //! What is wrong with a table, and where.
 
+use std::error::Error;
+
 pub type Result<T> = std::result::Result<T, TableError>;
 
-/// What is wrong with a table, and where. The first text of each is the name of the file.
+/// What is wrong with a table, and where.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// The file cannot be read, and why.
+    /// The file of this name cannot be read, or is no workbook though it looks like one, and why.
     #[error("{0}: cannot be read")]
-    Unreadable(String, #[source] std::io::Error),
-    /// The file is far larger than any table of its kind.
-    #[error("{file}: found more than {allowed} bytes; allowed: a table of at most {allowed} bytes")]
-    TooLarge {
-        /// The file.
-        file: String,
-        /// Largest size allowed \[bytes\].
-        allowed: u64,
-    },
-    /// The bytes are no text, in the encoding that was asked for if any.
-    #[error("{0}: found bytes that are no text{named}; allowed: a table as text (UTF-8, UTF-16, Latin-1, Shift_JIS; `encoding` chooses) or an Excel workbook (.xlsx)",
-        named = .1.map_or_else(String::new, |named| format!(" in {named}")))]
-    NoText(String, Option<&'static str>),
-    /// The file looks like a workbook and is none.
-    #[error("{0}:0: not a table")]
-    NotTable(String, #[source] Box<dyn std::error::Error + Send + Sync>),
-    /// A line does not hold what it should.
-    #[error("{file}:{line}: {found}; allowed: {allowed}")]
+    Unreadable(String, #[source] Box<dyn Error + Send + Sync>),
+    /// A line does not hold what it should, or the file as a whole.
+    #[error("{file}{}: {found}; allowed: {allowed}", if *line > 0 { format!(":{line}") } else { String::new() })]
     Line {
         /// The file.
         file: String,
@@ -36,7 +23,17 @@ pub enum TableError {
         /// What is allowed.
         allowed: String,
     },
-    /// There is nothing in the file.
-    #[error("{0}: no rows; allowed: a table with names of its columns")]
-    Empty(String),
+}
+
+impl TableError {
+    /// What was found in a line of a file, and what is allowed.
+    pub fn line(file: &str, line: u64, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        let (file, found, allowed) = (file.to_owned(), found.into(), allowed.into());
+        Self::Line {
+            file,
+            line,
+            found,
+            allowed,
+        }
+    }
 }

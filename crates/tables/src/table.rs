@@ -43,7 +43,7 @@ impl Table {
         let read = File::open(path).and_then(|open| open.take(layout.most + 1).read_to_end(&mut bytes));
         match read {
             Ok(_) => Self::read(&file, &bytes, options, layout),
-            Err(source) => Err(TableError::Unreadable(file, source)),
+            Err(source) => Err(TableError::Unreadable(file, source.into())),
         }
     }
 
@@ -53,19 +53,18 @@ impl Table {
     ///
     /// [`TableError`] with the first thing that is wrong: a column that is missing, a row of another length.
     pub fn read(file: &str, bytes: &[u8], options: &Options, layout: &'static Layout) -> Result<Self> {
-        let (file, allowed) = (file.to_owned(), layout.most);
-        if bytes.len() as u64 > allowed {
-            return Err(TableError::TooLarge { file, allowed });
+        if bytes.len() as u64 > layout.most {
+            let most = format!("a table of at most {} bytes", layout.most);
+            return Err(TableError::line(file, 0, "a file that is far larger", most));
         }
-        let (rows, separator, sheets) = rows_of(&file, bytes, options)?;
+        let (rows, separator, sheets) = rows_of(file, bytes, options)?;
         let Some(first) = rows.first() else {
-            return Err(TableError::Empty(file));
+            return Err(TableError::line(file, 0, "no rows", layout.allowed));
         };
-        let (line, names) = (first.line, Vec::new());
         let mut table = Self {
-            file,
-            line,
-            names,
+            file: file.to_owned(),
+            line: first.line,
+            names: Vec::new(),
             rows,
             layout,
             separator,
@@ -113,30 +112,23 @@ impl Table {
             return place.map(joined).ok_or_else(wrong);
         }
         let places = 0..rows.len().min(PREAMBLE);
-        let is_header = |rows: &Range<usize>| {
-            (self.layout.missing)(&self.layout.names(&self.rows[rows.clone()], options)).is_none()
+        let is_header = |header: &Range<usize>| {
+            (self.layout.missing)(&self.layout.names(&rows[header.clone()], options)).is_none()
         };
-        let mut alone = places.clone().map(|place| place..place + 1);
-        if let Some(found) = alone
-            .find(is_header)
-            .or_else(|| places.clone().map(joined).find(is_header))
-        {
+        let alone = places.clone().map(|place| place..place + 1);
+        if let Some(found) = alone.chain(places.clone().map(joined)).find(is_header) {
             return Ok(joined(found.start));
         }
         if !rows[0].is_numbers() {
-            return Ok(joined(
-                places.max_by_key(|&place| rows[place].words()).unwrap_or(0),
-            ));
+            let place = places.max_by_key(|&place| rows[place].words());
+            return Ok(joined(place.unwrap_or(0)));
         }
-        let names = self.layout.unnamed.iter().take(rows[0].cells.len());
-        let cells = names.map(|&name| name.to_owned()).collect();
-        self.rows.insert(
-            0,
-            Row {
-                cells,
-                ..rows[0].clone()
-            },
-        );
+        let mut unnamed = rows[0].clone();
+        unnamed.cells.truncate(self.layout.unnamed.len());
+        for (cell, name) in unnamed.cells.iter_mut().zip(self.layout.unnamed) {
+            (*name).clone_into(cell);
+        }
+        self.rows.insert(0, unnamed);
         Ok(0..1)
     }
 
@@ -165,15 +157,14 @@ impl Table {
     /// another column.
     fn find_decimal_signs(&mut self, said: Option<char>) {
         let said = said.or(self.separator.is_none().then_some('.'));
-        let certain = |row: &Row, column: usize| match both(row.cell(column)) {
-            [Some(_), None] => Some('.'),
-            [None, Some(_)] => Some(','),
-            _ => None,
-        };
         for (column, name) in self.names.iter_mut().enumerate() {
             let is_number = (self.layout.is_number)(name);
-            let mut rows = self.rows.iter().filter(|_| is_number);
-            name.decimal = said.or_else(|| rows.find_map(|row| certain(row, column)));
+            let certain = |row: &Row| match both(row.cell(column)) {
+                [Some(_), None] => Some('.'),
+                [None, Some(_)] => Some(','),
+                _ => None,
+            };
+            name.decimal = said.or_else(|| self.rows.iter().filter(|_| is_number).find_map(certain));
         }
         let any = self.names.iter().find_map(|name| name.decimal);
         for name in &mut self.names {
@@ -183,29 +174,19 @@ impl Table {
 
     /// What is wrong in a line of it.
     pub fn wrong(&self, line: u64, found: impl Into<String>, allowed: impl Into<String>) -> TableError {
-        let (file, found, allowed) = (self.file.clone(), found.into(), allowed.into());
-        TableError::Line {
-            file,
-            line,
-            found,
-            allowed,
-        }
+        TableError::line(&self.file, line, found, allowed)
     }
 
-    /// That a column is missing, what there is, and what may be the cause.
+    /// That a column is missing, and what there is.
     fn missing(&self, column: &str) -> TableError {
         let names = self.names.iter().map(|name| &*name.text);
         let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
         let listed = shortened(&names.join(" | "), LONGEST);
         let separated = |sign| format!("separated by {}s", word(sign));
         let read_as = self.separator.map_or_else(|| "a workbook".to_owned(), separated);
-        // One name that another separator would cut.
-        let cuts = |sign: &char| matches!(names[..], [only] if only.contains(*sign));
-        let looks = [';', '\t', ',', ' '].into_iter().find(cuts).map(separated);
-        let looks = looks.map_or_else(String::new, |separated| format!("; it looks {separated}"));
         let sheets = format!("; other sheets: {}", self.sheets.join(", "));
         let sheets = if self.sheets.is_empty() { "" } else { &sheets };
-        let found = format!("no column {column} in \"{listed}\" (read as {read_as}{looks}{sheets})");
+        let found = format!("no column {column} in \"{listed}\" (read as {read_as}{sheets})");
         self.wrong(self.line, found, self.layout.allowed)
     }
 
@@ -276,24 +257,12 @@ impl Table {
 
     /// That the cell of `row` in `column` does not hold what is `allowed`.
     pub fn wrong_cell(&self, row: &Row, column: usize, allowed: impl Into<String>) -> TableError {
-        let name = &self.names[column];
-        let (cell, decimal) = (row.cell(column), name.decimal.unwrap_or('.'));
-        let is = |text: &str, decimal| number(text, decimal).is_some();
-        let ends = cell.split_once(['-', '–']);
-        let cause = match decimal {
-            _ if ends.is_some_and(|(from, to)| is(from, decimal) && is(to, decimal)) => {
-                ", a range in place of one number"
-            }
-            '.' if cell.contains(',') && is(cell, ',') => {
-                ", a decimal comma where other numbers have a point"
-            }
-            ',' if cell.contains('.') && is(cell, '.') => {
-                ", a decimal point where other numbers have a comma"
-            }
-            _ => "",
-        };
-        let found = format!("{}: found \"{}\"{cause}", name.text, shortened(cell, LONGEST));
-        self.wrong(row.line, found, allowed)
+        let (name, cell) = (&self.names[column], shortened(row.cell(column), LONGEST));
+        let decimals = name
+            .decimal
+            .map(|sign| format!(", decimals after a {}", word(sign)));
+        let allowed = allowed.into() + &decimals.unwrap_or_default();
+        self.wrong(row.line, format!("{}: found \"{cell}\"", name.text), allowed)
     }
 }
 

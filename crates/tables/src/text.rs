@@ -20,7 +20,14 @@ pub fn decoded(file: &str, bytes: &[u8], encoding: Option<&'static Encoding>) ->
         c => c,
     };
     if malformed || !text.chars().all(printed) {
-        return Err(TableError::NoText(file.to_owned(), encoding.map(Encoding::name)));
+        let named = encoding.map_or_else(String::new, |encoding| format!(" in {}", encoding.name()));
+        let allowed = "a table as text (UTF-8, UTF-16, Latin-1, Shift_JIS; `encoding` chooses) or an Excel workbook (.xlsx)";
+        return Err(TableError::line(
+            file,
+            0,
+            format!("bytes that are no text{named}"),
+            allowed,
+        ));
     }
     Ok(text.chars().map(narrow).collect())
 }

@@ -13,18 +13,16 @@ pub const MARK: &[u8] = b"PK\x03\x04";
 
 /// The rows of the sheet that is `named`, or of the first that has any, and the other sheets.
 pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<(Vec<Row>, Vec<String>)> {
-    let wrong = |source: XlsxError| TableError::NotTable(file.to_owned(), source.into());
+    let wrong = |source: XlsxError| TableError::Unreadable(file.to_owned(), source.into());
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(wrong)?;
     let mut sheets = book.sheet_names();
     if let Some(name) = named.filter(|name| !sheets.iter().any(|sheet| sheet == name)) {
-        let (file, line, allowed) = (file.to_owned(), 0, sheets.join(", "));
-        let found = format!("no sheet \"{name}\"");
-        return Err(TableError::Line {
+        return Err(TableError::line(
             file,
-            line,
-            found,
-            allowed,
-        });
+            0,
+            format!("no sheet \"{name}\""),
+            sheets.join(", "),
+        ));
     }
     for sheet in 0..sheets.len() {
         if named.is_none_or(|name| sheets[sheet] == name) {
@@ -56,11 +54,8 @@ fn rows(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> std::result::Result<Vec<
         let place = region.start.0.checked_sub(top).map(|place| place as usize);
         if let Some(row) = rows.iter_mut().take(PREAMBLE).nth(place.unwrap_or(PREAMBLE)) {
             let whole = row.cell(first).to_owned();
-            row.cells
-                .iter_mut()
-                .take(last + 1)
-                .skip(first)
-                .for_each(|cell| cell.clone_from(&whole));
+            let cells = row.cells.iter_mut().take(last + 1).skip(first);
+            cells.for_each(|cell| cell.clone_from(&whole));
             row.is_merged = true;
         }
     }

@@ -17,10 +17,11 @@ use std::sync::LazyLock;
 use serde::{Deserialize, Serialize};
 
 /// What a preset describes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PresetKind {
     /// `[[vehicles]]`
+    #[default]
     Vehicle,
     /// `[cable]`
     Cable,
@@ -30,24 +31,12 @@ pub enum PresetKind {
     Pavement,
 }
 
-impl PresetKind {
-    /// The kind of preset that a section takes.
-    pub(crate) fn of_section(section: &str) -> Option<Self> {
-        match section {
-            "cable" => Some(Self::Cable),
-            "friction" => Some(Self::Friction),
-            "ground" => Some(Self::Pavement),
-            "vehicles" => Some(Self::Vehicle),
-            _ => None,
-        }
-    }
-}
-
 /// A named set of values.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Preset {
     /// The part of a scene that it fills.
+    #[serde(default)]
     pub kind: PresetKind,
     /// Its name in scene files.
     pub name: String,
@@ -56,11 +45,12 @@ pub struct Preset {
     /// Its values as a scene file has them.
     pub toml: String,
     /// Where its values are from.
+    #[serde(default)]
     pub sources: Vec<Source>,
 }
 
 /// Where a value is from.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Source {
     /// The key, with those around it.
@@ -68,20 +58,16 @@ pub struct Source {
     /// The document, or why the value was assumed.
     pub source: String,
     /// Whether there is no document.
+    #[serde(default)]
     pub assumed: bool,
 }
 
-/// A data file, or a preset of it. Presets without sources have those of their file.
+/// A data file. Presets without sources have those of their file.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Data {
-    name: String,
-    summary: String,
-    values: String,
-    /// Lines of `KEY: SOURCE`.
-    sources: String,
-    assumed: String,
-    presets: Vec<Data>,
+    sources: Vec<Source>,
+    presets: Vec<Preset>,
 }
 
 const FILES: [(PresetKind, &str); 4] = [
@@ -103,31 +89,25 @@ pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
     all().iter().filter(move |preset| preset.kind == kind)
 }
 
-/// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
-fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
-    let file: Data = toml::from_str(text).unwrap_or_default();
-    let shared = sources(&file.sources, &file.assumed);
-    let preset = |preset: Data| {
-        let own = sources(&preset.sources, &preset.assumed);
-        Preset {
-            kind,
-            name: preset.name,
-            summary: preset.summary,
-            toml: preset.values,
-            sources: if own.is_empty() { shared.clone() } else { own },
-        }
+/// The presets that a section of a scene takes.
+pub(crate) fn of_section(section: &str) -> impl Iterator<Item = &'static Preset> {
+    let is_meant = move |preset: &&Preset| match preset.kind {
+        PresetKind::Vehicle => section == "vehicles",
+        PresetKind::Cable => section == "cable",
+        PresetKind::Friction => section == "friction",
+        PresetKind::Pavement => section == "ground",
     };
-    file.presets.into_iter().map(preset).collect()
+    all().iter().filter(is_meant)
 }
 
-fn sources(documents: &str, assumed: &str) -> Vec<Source> {
-    let source = |line: &str, assumed| {
-        let (key, source) = line.split_once(": ")?;
-        let (key, source) = (key.to_owned(), source.to_owned());
-        Some(Source { key, source, assumed })
-    };
-    let documents = documents.lines().filter_map(|line| source(line, false));
-    documents
-        .chain(assumed.lines().filter_map(|line| source(line, true)))
-        .collect()
+/// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
+fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
+    let Data { sources, mut presets } = toml::from_str(text).unwrap_or_default();
+    for preset in &mut presets {
+        preset.kind = kind;
+        if preset.sources.is_empty() {
+            preset.sources.clone_from(&sources);
+        }
+    }
+    presets
 }
