@@ -144,19 +144,25 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
     let units = arguments.limits.units(&first);
+    let is_coarse = samples.count > 0 && !first.names("solver.tolerance");
     arguments
         .json
-        .print(&summary, || print(&summary, &sweep, arguments, &units))
+        .print(&summary, || print(&summary, arguments, is_coarse, &units))
 }
 
-fn print(summary: &SweepSummary, sweep: &Sweep, arguments: &Arguments, units: &Units) -> Result<(), Failure> {
+fn print(
+    summary: &SweepSummary,
+    arguments: &Arguments,
+    is_coarse: bool,
+    units: &Units,
+) -> Result<(), Failure> {
     let mut out = terminal::out();
     write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
     if summary.resumed > 0 {
         write!(out, ", {} of them done before", summary.resumed)?;
     }
     writeln!(out)?;
-    if sweep.has_sample_tolerance() {
+    if is_coarse {
         let tolerance = exact_percent(SAMPLE_TOLERANCE);
         writeln!(
             out,

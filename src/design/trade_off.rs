@@ -143,7 +143,7 @@ impl Spring {
     }
 
     /// The valid scene with these springs.
-    pub(super) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, Error> {
+    pub(crate) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, Error> {
         let mut scene = scene.clone();
         for spring in springs {
             let stiffness = spring.stiffness();

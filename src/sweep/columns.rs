@@ -1,59 +1,122 @@
-//! The columns of a table, and the cells of its rows.
+//! The columns of a table: what each is called, and what its cells say of a point.
 
-use serde_json::{Map, Value};
+use csv::StringRecord;
 
 use super::axis::Axis;
 use super::distribution::ID;
 use super::grid::Sweep;
 use super::numbers::si;
-use super::point::Row;
-use crate::Units;
 use crate::answer::si_of_field;
 use crate::scene::{Unit, si_unit};
+use crate::{DayExtremes, PassRecord, Run, Units, Verdict};
 
-/// Columns of an answer, by the names of its fields.
-const ANSWER: [&str; 8] = [
-    "downstream_force_n",
-    "upstream_force_n",
-    "max_compression_n",
-    "saturation_force_n",
-    PASSES,
-    "upstream_displacement_m",
-    "downstream_displacement_m",
-    "error_estimate",
+/// A row of the table, as it stands in CSV: numbers in SI, and nothing where there is none.
+pub type Row = StringRecord;
+
+/// What there is to say of a point.
+#[derive(Clone, Copy)]
+pub struct Answer<'a> {
+    pub run: &'a Run,
+    pub last: &'a PassRecord,
+    /// Those of the sweep's limits.
+    pub verdicts: &'a [Verdict],
+}
+
+/// A cell's text; `None` where it is empty.
+type Cell = for<'a> fn(&Answer<'a>) -> Option<String>;
+/// A column of the answer: its name, what it holds, and its cell.
+type Field = (&'static str, AnswerValues, Cell);
+
+const NUMBERS: AnswerValues = AnswerValues::Numbers(Vec::new());
+const TEXTS: AnswerValues = AnswerValues::Texts(Vec::new());
+
+/// Columns of every answer, after the last pass.
+const ANSWER: [Field; 8] = [
+    ("downstream_force_n", NUMBERS, |of| {
+        text(of.last.downstream_force_n)
+    }),
+    ("upstream_force_n", NUMBERS, |of| text(of.last.upstream_force_n)),
+    ("max_compression_n", NUMBERS, |of| text(of.last.max_compression_n)),
+    ("saturation_force_n", NUMBERS, |of| {
+        text(of.run.saturation?.force_n)
+    }),
+    ("passes_to_95_percent", AnswerValues::Counts(Vec::new()), |of| {
+        text(of.run.saturation?.passes_to_95_percent)
+    }),
+    ("upstream_displacement_m", NUMBERS, |of| {
+        text(of.last.upstream_displacement_m)
+    }),
+    ("downstream_displacement_m", NUMBERS, |of| {
+        text(of.last.downstream_displacement_m)
+    }),
+    ("error_estimate", NUMBERS, |of| {
+        text(of.run.error_estimate.relative)
+    }),
 ];
-/// Those of a cable that is heated, where the file says so.
-const HEAT_ANSWER: [&str; 5] = [
-    "downstream_max_n",
-    "downstream_min_n",
-    "upstream_max_n",
-    "upstream_min_n",
-    "drift_per_day_m",
+/// Those of a cable that is heated: forces over all days, and its movement from day to day in the
+/// end, where days repeat but for that.
+const HEAT_ANSWER: [Field; 5] = [
+    ("downstream_max_n", NUMBERS, |of| {
+        text(all_days(of)?.downstream_max_n)
+    }),
+    ("downstream_min_n", NUMBERS, |of| {
+        text(all_days(of)?.downstream_min_n)
+    }),
+    ("upstream_max_n", NUMBERS, |of| text(all_days(of)?.upstream_max_n)),
+    ("upstream_min_n", NUMBERS, |of| text(all_days(of)?.upstream_min_n)),
+    ("drift_per_day_m", NUMBERS, |of| {
+        text(of.run.heat.as_ref()?.drift_per_day_m?)
+    }),
 ];
-/// Those of limits, where there are some.
-const LIMITS: [&str; 2] = [EXCEEDED, "limit_reached_after_years"];
-const EXCEEDED: &str = "limit_exceeded";
-/// Columns of counts.
-const PASSES: &str = "passes_to_95_percent";
-const SAMPLE: &str = "sample";
-/// Columns of texts at the end.
-const STATUS: [&str; 2] = ["status", "error"];
+/// Those of limits: whether any is exceeded, and when the first of them is.
+const LIMITS: [Field; 2] = [
+    ("limit_exceeded", AnswerValues::Flags(Vec::new()), |of| {
+        text(of.verdicts.iter().any(Verdict::is_exceeded))
+    }),
+    ("limit_reached_after_years", NUMBERS, |of| {
+        let years = |verdict: &Verdict| verdict.reached_after?.years;
+        text(of.verdicts.iter().filter_map(years).min_by(f64::total_cmp)?)
+    }),
+];
 
 /// The section of a scene that heats the cable.
 const HEAT: &str = "heat";
 
+fn text(value: impl ToString) -> Option<String> {
+    Some(value.to_string())
+}
+
+fn all_days<'a>(answer: &Answer<'a>) -> Option<&'a DayExtremes> {
+    Some(&answer.run.heat.as_ref()?.all_days)
+}
+
 /// A column of a sweep's table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 #[cfg_attr(not(feature = "xlsx"), allow(dead_code, reason = "CSV shows no units"))]
 pub struct AnswerColumn {
-    /// Its name: a key, or a field of [`Answer`](super::Answer).
+    /// Its name: a key, or what it says of the run.
     pub name: String,
     /// A value a row, in SI.
     pub values: AnswerValues,
+    source: Source,
     /// Name for a reader of a workbook, and the unit there.
     pub(super) heading: (String, &'static str),
     /// That unit, if it is not SI.
     pub(super) unit: Option<Unit>,
+}
+
+/// Where the cells of a column come from.
+#[derive(Debug, Clone, Copy)]
+enum Source {
+    /// The key of this number.
+    Key(usize),
+    /// The number of the sample.
+    Sample,
+    Answer(Cell),
+    /// Whether there is an answer.
+    Status,
+    /// Why there is none.
+    Error,
 }
 
 /// The values of a column; `None` where a row has none.
@@ -71,12 +134,15 @@ pub enum AnswerValues {
 
 impl AnswerColumn {
     /// Adds a cell; of another kind it is none.
-    pub(super) fn push(&mut self, cell: &Value) {
+    pub(super) fn push(&mut self, cell: &str) {
         match &mut self.values {
-            AnswerValues::Numbers(values) => values.push(cell.as_f64()),
-            AnswerValues::Counts(values) => values.push(cell.as_u64()),
-            AnswerValues::Flags(values) => values.push(cell.as_bool()),
-            AnswerValues::Texts(values) => values.push(cell.as_str().map(str::to_owned)),
+            AnswerValues::Numbers(values) => values.push(cell.parse().ok()),
+            AnswerValues::Counts(values) => values.push(cell.parse().ok()),
+            AnswerValues::Flags(values) => values.push(cell.parse().ok()),
+            AnswerValues::Texts(values) => {
+                let is_there = !cell.is_empty() || matches!(self.source, Source::Key(_));
+                values.push(is_there.then(|| cell.to_owned()));
+            }
         }
     }
 }
@@ -86,7 +152,7 @@ impl Sweep {
     pub fn columns(&self) -> Vec<AnswerColumn> {
         let units = self.file_at(0).map(|file| Units::typed(&file, None, None));
         let units = units.unwrap_or_default();
-        let column = |name: &str, values, typed: Option<Unit>| {
+        let column = |name: &str, values, source, typed: Option<Unit>| {
             let typed = typed.map(|unit| (name, unit)).or(units.of_field(name));
             let si = || si_unit(name).or(si_of_field(name).map(|(_, unit)| unit));
             let (shown, unit) = match typed {
@@ -96,89 +162,75 @@ impl Sweep {
             AnswerColumn {
                 name: name.to_owned(),
                 values,
+                source,
                 heading: (shown.to_owned(), unit),
                 unit: typed.map(|(_, unit)| unit),
             }
         };
-        let numbers = || AnswerValues::Numbers(Vec::new());
-        let counts = || AnswerValues::Counts(Vec::new());
-        let texts = || AnswerValues::Texts(Vec::new());
-        let varied = self.axes.iter().map(|axis| {
-            let are_numbers = || {
-                axis.values
-                    .iter()
-                    .all(|value| value.is_empty() || si(value).is_some())
-            };
+        let mut columns = Vec::new();
+        for (place, axis) in self.axes.iter().enumerate() {
+            let mut values = axis.values.iter().filter(|value| !value.is_empty());
             // What is drawn is a number: a text beside it fails in its row.
-            if axis.key != ID && (self.drawn_keys.contains(&axis.key) || are_numbers()) {
-                column(&axis.key, numbers(), axis.unit())
+            let holds_numbers = axis.key != ID
+                && (self.drawn_keys.contains(&axis.key) || values.all(|value| si(value).is_some()));
+            let (values, unit) = if holds_numbers {
+                (NUMBERS, axis.unit())
             } else {
-                column(&axis.key, texts(), None)
-            }
-        });
-        let sample = (self.samples.count > 0).then_some(SAMPLE);
+                (TEXTS, None)
+            };
+            columns.push(column(&axis.key, values, Source::Key(place), unit));
+        }
+        if self.samples.count > 0 {
+            let counts = AnswerValues::Counts(Vec::new());
+            columns.push(column("sample", counts, Source::Sample, None));
+        }
         let sets_heat = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
         let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets_heat);
         let heat = HEAT_ANSWER.into_iter().filter(|_| is_heated);
         let limits = LIMITS.into_iter().filter(|_| self.limits.is_some());
-        let answer = sample.into_iter().chain(ANSWER).chain(heat).chain(limits);
-        let answer = answer.map(|name| match name {
-            PASSES | SAMPLE => column(name, counts(), None),
-            EXCEEDED => column(name, AnswerValues::Flags(Vec::new()), None),
-            _ => column(name, numbers(), None),
-        });
-        let status = STATUS.map(|name| column(name, texts(), None));
-        varied.chain(answer).chain(status).collect()
+        for (name, values, cell) in ANSWER.into_iter().chain(heat).chain(limits) {
+            columns.push(column(name, values, Source::Answer(cell), None));
+        }
+        columns.push(column("status", TEXTS, Source::Status, None));
+        columns.push(column("error", TEXTS, Source::Error, None));
+        columns
     }
 
-    /// The cells of a row: numbers, texts, or null where there is none.
-    pub(super) fn cells(&self, row: &Row, columns: &[AnswerColumn]) -> Vec<Value> {
-        let varied = self.values(row.index).into_iter().zip(columns);
-        let mut cells: Vec<Value> = varied
-            .map(|(value, column)| match column.values {
-                AnswerValues::Texts(_) => Value::from(value),
-                _ => si(&value).map_or(Value::Null, Value::from),
-            })
-            .collect();
-        let mut fields = serde_json::json!(row.outcome.as_ref().ok());
-        if self.samples.count > 0 {
-            cells.push(Value::from(row.index % self.samples.count));
-        }
-        let answer = columns[cells.len()..columns.len() - STATUS.len()].iter();
-        cells.extend(answer.map(|column| fields.get_mut(&column.name).map_or(Value::Null, Value::take)));
-        cells.extend(match &row.outcome {
-            Ok(_) => [Value::from("ok"), Value::Null],
-            Err(error) => [Value::from("error"), Value::from(error.as_str())],
-        });
-        cells
+    /// The row of a point with its answer, or why there is none.
+    pub(super) fn row(
+        &self,
+        index: usize,
+        answer: Result<Answer<'_>, &str>,
+        columns: &[AnswerColumn],
+    ) -> Row {
+        let values = self.values(index);
+        let cell = |column: &AnswerColumn| match (column.source, answer) {
+            (Source::Key(place), _) => match column.values {
+                AnswerValues::Texts(_) => Some(values[place].clone()),
+                _ => text(si(&values[place])?),
+            },
+            (Source::Sample, _) => text(index % self.samples.count),
+            (Source::Answer(cell), Ok(answer)) => cell(&answer),
+            (Source::Status, _) => text(if answer.is_ok() { "ok" } else { "error" }),
+            (Source::Error, Err(error)) => text(error),
+            _ => None,
+        };
+        columns
+            .iter()
+            .map(|column| cell(column).unwrap_or_default())
+            .collect()
     }
 }
 
-/// Whether a column holds a field of an answer.
-fn is_answer(name: &str) -> bool {
-    let all = [&ANSWER[..], &HEAT_ANSWER, &LIMITS];
-    all.iter().any(|names| names.contains(&name))
+/// Why a row has no answer, if it has none.
+pub fn error_of(row: &Row) -> Option<&str> {
+    let [status, error] = [2, 1].map(|from_end| row.get(row.len().checked_sub(from_end)?));
+    error.filter(|_| status != Some("ok"))
 }
 
-/// The row of number `index` whose cells stand in a file; `None` for a record that is none.
-pub fn row_of(index: usize, record: &csv::StringRecord, columns: &[AnswerColumn]) -> Option<Row> {
-    let end = columns.len() - STATUS.len();
-    let outcome = match record.get(end)? {
-        "ok" => {
-            let value = |text: &str| match (text.parse::<u64>(), text.parse::<bool>()) {
-                (Ok(count), _) => Value::from(count),
-                (_, Ok(flag)) => Value::from(flag),
-                _ => text.parse::<f64>().map_or(Value::Null, Value::from),
-            };
-            let fields = columns[..end].iter().zip(record);
-            let fields: Map<String, Value> = fields
-                .filter(|(column, _)| is_answer(&column.name))
-                .map(|(column, text)| (column.name.clone(), value(text)))
-                .collect();
-            Ok(serde_json::from_value(Value::from(fields)).ok()?)
-        }
-        "error" => Err(record.get(end + 1)?.to_owned()),
-        _ => return None,
-    };
-    Some(Row { index, outcome })
+/// The numbers of the column of this `name`, one a row.
+pub fn numbers(name: &str, columns: &[AnswerColumn], rows: &[Row]) -> Vec<Option<f64>> {
+    let place = columns.iter().position(|column| column.name == name);
+    let number = |row: &Row| row.get(place?)?.parse().ok();
+    rows.iter().map(number).collect()
 }

@@ -54,7 +54,7 @@ impl Sweep {
 ///
 /// # Errors
 ///
-/// [`SweepError::Rows`] where there is no such table, [`SweepError::Unfit`] where the name ends
+/// [`SweepError::Rows`] where there is no such table, [`SweepError::Invalid`] where the name ends
 /// otherwise.
 pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>, SweepError> {
     Format::of(file)?;

@@ -7,7 +7,7 @@
 //! All cores work, each on one point. The rows stand in the order of the grid, in a file beside the
 //! output until the last is done, so that a sweep that was interrupted or killed goes on behind
 //! them and ends with the same file, byte for byte. A point that fails is a row with its error.
-//! What was computed behind a point that still goes on is lost with it. Memory: about 200 bytes a
+//! What was computed behind a point that still goes on is lost with it. Memory: about 400 bytes a
 //! point.
 //!
 //! In place of a grid a sweep may have rows ([`Sweep::of_rows`], [`Sweep::of_table`]): a table of
@@ -38,10 +38,10 @@ mod duct_list;
 mod error;
 mod grid;
 mod known_ground;
+mod limits;
 #[cfg(feature = "plot")]
 mod map;
 mod numbers;
-mod point;
 mod run;
 mod samples;
 mod table;
@@ -54,9 +54,9 @@ pub use distribution::Distribution;
 pub use duct_list::read as read_rows;
 pub use error::SweepError;
 pub use grid::{SAMPLE_TOLERANCE, Sweep};
+pub use limits::PointLimits;
 #[cfg(feature = "plot")]
 pub use map::MapValue;
-pub use point::{Answer, HeatAnswer, PointLimits, Row};
 pub use run::{Evaluate, SweepOptions, SweepSummary};
 pub use samples::Samples;
 #[cfg(feature = "cli")]

@@ -5,10 +5,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::bands::Band;
-use super::columns::AnswerColumn;
+use super::columns::{AnswerColumn, Row, error_of};
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::point::Row;
 use super::table::Format;
 use super::unfinished::Unfinished;
 use crate::output::Files;
@@ -45,7 +44,7 @@ pub struct SweepSummary {
     pub bands: Vec<Band>,
     /// All points, in the order of the grid.
     #[serde(skip)]
-    pub rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
 }
 
 impl Sweep {
@@ -70,12 +69,17 @@ impl Sweep {
     /// table.
     pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
         let mut columns = self.columns();
-        self.compute(0, options, &mut |row| {
-            let cells = self.cells(&row, &columns);
-            let both = columns.iter_mut().zip(&cells);
-            both.for_each(|(column, cell)| column.push(cell));
+        let mut rows = Vec::new();
+        self.compute(0, &columns, options, &mut |row| {
+            rows.push(row);
             Ok(())
         })?;
+        for row in &rows {
+            columns
+                .iter_mut()
+                .zip(row)
+                .for_each(|(column, cell)| column.push(cell));
+        }
         Ok(columns)
     }
 
@@ -93,33 +97,27 @@ impl Sweep {
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
         if self.count() > format.most_rows() {
-            return Err(SweepError::Unfit {
-                found: format!("{} points for {}", self.count(), output.display()),
-                allowed: "at most 1048574, as many as Excel has rows; more in .csv",
-            });
+            return Err(SweepError::unfit(
+                format!("{} points for {}", self.count(), output.display()),
+                "at most 1048574, as many as Excel has rows; more in .csv",
+            ));
         }
         let output = Files::reading([], options.force).output(output, format.ending())?;
         let columns = self.columns();
         let mut unfinished = Unfinished::open(output.path(), self, &columns)?;
         let resumed = unfinished.rows.len();
-        self.compute(resumed, options, &mut |row| {
-            let cells = self.cells(&row, &columns);
-            unfinished.keep(row, &cells)
-        })?;
-        let rows = unfinished.rows.iter();
-        let table = rows.map(|row| self.cells(row, &columns));
-        let failed = |source| SweepError::File(output.path().display().to_string(), source);
+        self.compute(resumed, &columns, options, &mut |row| unfinished.keep(row))?;
         // It comes into its place when it is whole.
-        let draft = format.write(output.begin()?, &columns, &self.file, table);
-        draft.map_err(failed)?.finish()?;
+        let draft = format.write(output.begin()?, &columns, &self.file, &unfinished.rows);
+        draft.map_err(SweepError::of_file(output.path()))?.finish()?;
         let rows = unfinished.remove()?;
-        let errors = || rows.iter().filter_map(|row| row.outcome.as_ref().err());
+        let errors = || rows.iter().filter_map(error_of);
         Ok(SweepSummary {
             points: rows.len(),
             resumed,
             failed: errors().count(),
-            first_error: errors().next().cloned(),
-            bands: self.bands(&rows),
+            first_error: errors().next().map(str::to_owned),
+            bands: self.bands(&columns, &rows),
             rows,
         })
     }

@@ -3,9 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use serde_json::Value;
-
-use super::columns::AnswerColumn;
+use super::columns::{AnswerColumn, AnswerValues, Row};
 use super::error::SweepError;
 use super::numbers::si;
 use crate::SceneFile;
@@ -36,10 +34,10 @@ impl Format {
             Some("csv") => Ok(Self::Csv),
             #[cfg(feature = "xlsx")]
             Some("xlsx") => Ok(Self::Xlsx),
-            _ => Err(SweepError::Unfit {
-                found: format!("the table {}", file.display()),
-                allowed: ALLOWED,
-            }),
+            _ => Err(SweepError::unfit(
+                format!("the table {}", file.display()),
+                ALLOWED,
+            )),
         }
     }
 
@@ -72,73 +70,73 @@ impl Format {
         draft: Draft,
         columns: &[AnswerColumn],
         scene: &SceneFile,
-        mut rows: impl Iterator<Item = Vec<Value>>,
+        rows: &[Row],
     ) -> io::Result<Draft> {
         match self {
             Self::Csv => {
                 let mut writer = csv::Writer::from_writer(draft);
                 writer.write_record(columns.iter().map(|column| &column.name))?;
-                rows.try_for_each(|cells| writer.write_record(texts(&cells)))?;
+                for row in rows {
+                    writer.write_record(row.iter().map(harmless))?;
+                }
                 let draft = writer.into_inner();
                 draft.map_err(|error| io::Error::other(error.to_string()))
             }
             #[cfg(feature = "xlsx")]
-            Self::Xlsx => write_book(draft, columns, scene, rows),
+            Self::Xlsx => {
+                let book = book(columns, scene, rows).map_err(io::Error::other)?;
+                let mut draft = draft;
+                io::Write::write_all(&mut draft, &book)?;
+                Ok(draft)
+            }
         }
     }
-}
-
-/// Cells as texts.
-pub fn texts(cells: &[Value]) -> impl Iterator<Item = String> {
-    cells.iter().map(|cell| match cell {
-        Value::String(text) => harmless(text),
-        Value::Number(number) if number.is_f64() => number.as_f64().unwrap_or_default().to_string(),
-        Value::Number(count) => count.to_string(),
-        Value::Bool(flag) => flag.to_string(),
-        _ => String::new(),
-    })
 }
 
 /// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one,
 /// unless it is a number.
 fn harmless(text: &str) -> String {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none() {
-        format!("'{text}")
-    } else {
-        text.to_owned()
-    }
+    let begins_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none();
+    let apostrophe = if begins_formula { "'" } else { "" };
+    format!("{apostrophe}{text}")
 }
 
 #[cfg(feature = "xlsx")]
-fn write_book(
-    mut draft: Draft,
+fn book(
     columns: &[AnswerColumn],
     scene: &SceneFile,
-    rows: impl Iterator<Item = Vec<Value>>,
-) -> io::Result<Draft> {
-    let fill = || {
-        let title = scene.scene().map_or(String::new(), |scene| scene.title);
-        let mut book = Book::new(&title)?;
-        let headings = columns
-            .iter()
-            .map(|column| (&*column.heading.0, column.heading.1));
-        book.sheet("sweep", &headings.collect::<Vec<_>>())?;
-        for cells in rows {
-            let cells = cells.into_iter().zip(columns).map(|(cell, column)| match cell {
-                Value::String(text) => Cell::Text(text),
-                Value::Bool(flag) => Cell::Text(if flag { "yes" } else { "no" }.to_owned()),
-                cell => cell.as_f64().map_or(Cell::Absent, |si| {
-                    Cell::Number(column.unit.map_or(si, |unit| unit.of_si(si)))
-                }),
-            });
-            book.row(cells, false)?;
+    rows: &[Row],
+) -> Result<Vec<u8>, rust_xlsxwriter::XlsxError> {
+    let title = scene.scene().map_or(String::new(), |scene| scene.title);
+    let mut book = Book::new(&title)?;
+    let headings = columns
+        .iter()
+        .map(|AnswerColumn { heading, .. }| (&*heading.0, heading.1));
+    book.sheet("sweep", &headings.collect::<Vec<_>>())?;
+    for row in rows {
+        book.row(
+            row.iter().zip(columns).map(|(cell, column)| column.cell(cell)),
+            false,
+        )?;
+    }
+    workbook::scene(&mut book, scene)?;
+    book.finish()
+}
+
+#[cfg(feature = "xlsx")]
+impl AnswerColumn {
+    /// The cell of a workbook, in the unit of the column.
+    fn cell(&self, cell: &str) -> Cell {
+        let number = |si: f64| self.unit.map_or(si, |unit| unit.of_si(si));
+        match (&self.values, cell) {
+            (_, "") => Cell::Absent,
+            (AnswerValues::Texts(_), text) => Cell::Text(text.to_owned()),
+            (AnswerValues::Flags(_), flag) => {
+                Cell::Text(if flag == "true" { "yes" } else { "no" }.to_owned())
+            }
+            (_, si) => si.parse().map_or(Cell::Absent, |si| Cell::Number(number(si))),
         }
-        workbook::scene(&mut book, scene)?;
-        book.finish()
-    };
-    let bytes = fill().map_err(|error: rust_xlsxwriter::XlsxError| io::Error::other(error))?;
-    io::Write::write_all(&mut draft, &bytes)?;
-    Ok(draft)
+    }
 }
 
 #[cfg(test)]

@@ -5,16 +5,12 @@
 //! survives a killed process. The sweep goes on behind the last whole row.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{Read, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
-use super::columns::{AnswerColumn, row_of};
+use super::columns::{AnswerColumn, Row};
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::point::Row;
-use super::table::texts;
 use crate::output::OutputError;
 
 pub struct Unfinished {
@@ -30,35 +26,32 @@ impl Unfinished {
         let mut path = output.as_os_str().to_owned();
         path.push(".unfinished");
         let path = PathBuf::from(path);
-        let failed = |source| SweepError::File(path.display().to_string(), source);
+        let failed = SweepError::of_file(&path);
         let other = |what| Err(SweepError::OtherRows(path.display().to_string(), what));
         if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
             return other("a link or something that is no file");
         }
         let mut options = OpenOptions::new();
-        let mut file = options
-            .read(true)
-            .append(true)
-            .create(true)
-            .open(&path)
-            .map_err(|source| OutputError::unwritable(&path, source))?;
+        let file = options.read(true).append(true).create(true).open(&path);
+        let mut file = file.map_err(|source| OutputError::unwritable(&path, source))?;
         file.try_lock().map_err(|error| match error {
             TryLockError::WouldBlock => SweepError::Busy(path.display().to_string()),
             TryLockError::Error(source) => failed(source),
         })?;
         let mut text = Vec::new();
-        file.read_to_end(&mut text).map_err(failed)?;
-        let head = head(sweep, columns).map_err(failed)?;
+        file.read_to_end(&mut text).map_err(&failed)?;
+        let remark = format!("# creepage sweep {:016x}, not finished\n", sweep.name());
+        let names: Row = columns.iter().map(|column| &column.name).collect();
+        let head = [remark.into_bytes(), line(&names).map_err(&failed)?].concat();
         let mut rows = Vec::new();
         if let Some(table) = text.strip_prefix(&*head) {
             let length;
-            (rows, length) = read(table, sweep, columns);
-            file.set_len((head.len() + length) as u64).map_err(failed)?;
+            (rows, length) = whole_rows(table, sweep.count(), columns.len());
+            file.set_len((head.len() + length) as u64).map_err(&failed)?;
         } else if head.starts_with(&text) {
             // One that was cut off so early has nothing to lose.
-            file.set_len(0)
-                .and_then(|()| file.write_all(&head))
-                .map_err(failed)?;
+            let emptied = file.set_len(0);
+            emptied.and_then(|()| file.write_all(&head)).map_err(&failed)?;
         } else {
             return other("something else, or the rows of another sweep");
         }
@@ -66,47 +59,41 @@ impl Unfinished {
         Ok(Self { path, writer, rows })
     }
 
-    /// Keeps a finished row and its cells.
-    pub fn keep(&mut self, row: Row, cells: &[Value]) -> Result<(), SweepError> {
-        let written = self.writer.write_record(texts(cells)).map_err(Into::into);
-        written
-            .and_then(|()| self.writer.flush())
-            .map_err(|source| SweepError::File(self.path.display().to_string(), source))?;
+    /// Keeps a finished row.
+    pub fn keep(&mut self, row: Row) -> Result<(), SweepError> {
+        let written = self.writer.write_record(&row).map_err(io::Error::from);
+        let written = written.and_then(|()| self.writer.flush());
+        written.map_err(SweepError::of_file(&self.path))?;
         self.rows.push(row);
         Ok(())
     }
 
     /// Removes the file, once the output is in place, and returns its rows.
     pub fn remove(self) -> Result<Vec<Row>, SweepError> {
-        fs::remove_file(&self.path)
-            .map_err(|source| SweepError::File(self.path.display().to_string(), source))?;
+        fs::remove_file(&self.path).map_err(SweepError::of_file(&self.path))?;
         Ok(self.rows)
     }
 }
 
-/// The first lines of the file: which sweep it is, and the names of the columns.
-fn head(sweep: &Sweep, columns: &[AnswerColumn]) -> std::io::Result<Vec<u8>> {
-    let remark = format!("# creepage sweep {:016x}, not finished\n", sweep.name());
-    let mut writer = csv::Writer::from_writer(remark.into_bytes());
-    writer.write_record(columns.iter().map(|column| &column.name))?;
-    writer
-        .into_inner()
-        .map_err(|error| std::io::Error::other(error.to_string()))
+fn line(row: &Row) -> io::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(row)?;
+    let line = writer.into_inner();
+    line.map_err(|error| io::Error::other(error.to_string()))
 }
 
-/// The whole rows at the beginning of `table`, and their length in bytes.
-fn read(table: &[u8], sweep: &Sweep, columns: &[AnswerColumn]) -> (Vec<Row>, usize) {
+/// The whole rows of so many cells at the beginning of `table`, at most `count`, and their length in
+/// bytes.
+fn whole_rows(table: &[u8], count: usize, cells: usize) -> (Vec<Row>, usize) {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(table);
     let (mut rows, mut end) = (Vec::new(), 0);
-    let mut record = csv::StringRecord::new();
-    while rows.len() < sweep.count() && reader.read_record(&mut record).unwrap_or(false) {
+    let mut row = Row::new();
+    while rows.len() < count && reader.read_record(&mut row).unwrap_or(false) {
         let position = reader.position().byte() as usize;
-        let is_whole = record.len() == columns.len() && table[..position].ends_with(b"\n");
-        let row = row_of(rows.len(), &record, columns);
-        let Some(row) = row.filter(|_| is_whole) else {
+        if row.len() != cells || !table[..position].ends_with(b"\n") {
             break;
-        };
-        rows.push(row);
+        }
+        rows.push(row.clone());
         end = position;
     }
     (rows, end)

@@ -44,7 +44,7 @@ pub fn limits(all: &[Given]) -> Limits {
 
 pub fn designed(scene: &Scene, places: &[Place], all: &[Given]) -> Design {
     let mut options = DesignOptions::new(places[0], limits(all));
-    options.second = places.get(1).copied();
+    options.places = places.to_vec();
     design(scene, &options).unwrap_or_else(|error| panic!("{places:?}, {all:?}: {error}"))
 }
 

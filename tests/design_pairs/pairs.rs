@@ -141,7 +141,7 @@ fn limits_and_places_that_have_no_meaning_are_refused() {
         (&[Place::Clamp(3.0)], &[(Place::Clamp(3.0), Limited::Force, -1.0)]),
     ] {
         let mut options = DesignOptions::new(places[0], limits(all));
-        options.second = places.get(1).copied();
+        options.places = places.to_vec();
         let refused = design(&scene, &options);
         assert!(
             refused.is_err_and(|error| error.is_bad_input()),
