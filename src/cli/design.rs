@@ -104,7 +104,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let candidates: &[Design] = if designs.len() > 1 { &designs } else { &[] };
     let compared = Compared { best, candidates };
-    let words = || print(best, candidates, &input.scene, &units);
+    let words = || print(best, &designs, &input.scene, &units);
     arguments.json.print(&compared, words)?;
     match best.answer {
         Some(_) => Ok(()),

@@ -12,38 +12,30 @@ use crate::{Limited, Scene, Units};
 /// The names of a table's columns, and its rows.
 type Table = (Vec<String>, Vec<Vec<String>>);
 
-/// The `best` design with all its runs, or beside the others that it was compared with.
-pub fn print(best: &Design, compared: &[Design], scene: &Scene, units: &Units) -> Result<(), Failure> {
+/// The best of all `designs`: with its runs where it is alone, or beside the others.
+pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
-    let is_alone = compared.is_empty();
-    let held = match compared.len() {
-        0 => places(&best.places),
-        ways => format!("{ways} ways to hold the cable"),
+    let (title, held) = (terminal::line(&best.title), places(&best.places));
+    let (what, (names, rows)) = match designs {
+        [_] => (held.clone(), curve(best, scene, units)),
+        _ => {
+            let ways = format!("{} ways to hold the cable", designs.len());
+            (ways, beside(designs, units))
+        }
     };
-    let title = terminal::line(&best.title);
-    writeln!(out, "{title}: {held}, {} passes", best.passes)?;
+    writeln!(out, "{title}: {what}, {} passes", best.passes)?;
     let mut limits: Vec<String> = Vec::new();
-    let all = if is_alone {
-        std::slice::from_ref(best)
-    } else {
-        compared
-    };
-    for (place, quantity, limit) in all.iter().flat_map(|design| design.limits.all()) {
+    for (place, quantity, limit) in designs.iter().flat_map(|design| design.limits.all()) {
         let limit = format!("{} {}", quantity.at(place), quantity.given_in(units, limit));
         if !limits.contains(&limit) {
             limits.push(limit);
         }
     }
     writeln!(out, "limits: {}\n", limits.join("; "))?;
-    let (names, rows) = if is_alone {
-        curve(best, scene, units)
-    } else {
-        beside(compared, units)
-    };
     terminal::table(&mut out, &names, &rows)?;
     writeln!(out)?;
-    if !is_alone && best.answer.is_some() {
-        writeln!(out, "best: {}", places(&best.places))?;
+    if designs.len() > 1 && best.answer.is_some() {
+        writeln!(out, "best: {held}")?;
     }
     conclusion(&mut out, best, units)
 }
@@ -55,32 +47,29 @@ fn beside(all: &[Design], units: &Units) -> Table {
     let row = |design: &Design| {
         let found = design.found()?;
         let springs = found.springs.iter().map(|spring| stiffness(units, spring));
-        let clamps = found.clamps.iter().filter(|clamp| {
+        let mut on_clamps = Vec::new();
+        for clamp in &found.clamps {
             let mut places = design.places.iter();
-            places.any(|place| place.is_clamp_at(clamp.position_m))
-        });
-        let on_clamp = clamps.map(|clamp| {
-            let force = Limited::Force.shown_in(units, clamp.force_n);
-            format!("{force}, {}", Limited::Movement.shown_in(units, clamp.movement_m))
-        });
-        let on_clamps = on_clamp.collect::<Vec<_>>().join(" and ");
+            if places.any(|place| place.is_clamp_at(clamp.position_m)) {
+                let force = Limited::Force.shown_in(units, clamp.force_n);
+                let movement = Limited::Movement.shown_in(units, clamp.movement_m);
+                on_clamps.push(format!("{force}, {movement}"));
+            }
+        }
+        if on_clamps.is_empty() {
+            on_clamps.push("–".to_owned());
+        }
         Some(vec![
             places(&design.places),
             springs.collect::<Vec<_>>().join(" and "),
             percent(design.excess()),
             named(&found.tightest(&design.limits)),
-            if on_clamps.is_empty() {
-                "–".to_owned()
-            } else {
-                on_clamps
-            },
+            on_clamps.join(" and "),
             within(found) + words_if(is_near(design), ", nearer than the error"),
         ])
     };
-    (
-        names.map(str::to_owned).into(),
-        all.iter().filter_map(row).collect(),
-    )
+    let rows = all.iter().filter_map(row).collect();
+    (names.map(str::to_owned).into(), rows)
 }
 
 fn places(places: &[Place]) -> String {
@@ -97,22 +86,16 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
         (Place::Clamp(position), _) => format!("at {position} m"),
         (_, end) => end.map_or_else(String::new, |end| end.name().to_owned()),
     };
-    let held = &design.places;
     let symbol = units.stiffness.symbol();
-    let mut names: Vec<String> = match held[..] {
-        [_] => vec![format!("stiffness, {symbol}")],
-        _ => held
-            .iter()
-            .map(|place| format!("{}, {symbol}", short(*place)))
-            .collect(),
+    let spring = |place: &Place| match design.places.len() {
+        1 => format!("stiffness, {symbol}"),
+        _ => format!("{}, {symbol}", short(*place)),
     };
-    let limited = design
-        .limits
-        .clamps
-        .iter()
-        .map(|clamp| Place::Clamp(clamp.position_m));
+    let mut names: Vec<String> = design.places.iter().map(spring).collect();
+    let limited = design.limits.clamps.iter();
+    let limited = limited.map(|clamp| Place::Clamp(clamp.position_m));
     let mut places = vec![Place::Upstream, Place::Downstream];
-    for place in held.iter().copied().chain(limited) {
+    for place in design.places.iter().copied().chain(limited) {
         if !places.contains(&place) {
             places.push(place);
         }
@@ -138,10 +121,8 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
             }
         };
         let springs = point.springs.iter().map(|spring| number(units, spring));
-        springs
-            .chain(columns.iter().map(cell))
-            .chain([within(point)])
-            .collect()
+        let cells = springs.chain(columns.iter().map(cell));
+        cells.chain([within(point)]).collect()
     };
     (names, design.curve.iter().map(row).collect())
 }
@@ -155,12 +136,8 @@ fn within(point: &TradeOff) -> String {
 /// The answer or what comes nearest, and which limits decide.
 fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<(), Failure> {
     if let Some(nearest) = &design.nearest {
-        writeln!(
-            out,
-            "{}; nearest: {}",
-            none(design),
-            reached(design, nearest, units)
-        )?;
+        let nearest = reached(design, nearest, units);
+        writeln!(out, "{}; nearest: {nearest}", none(design))?;
     }
     if let Some(answer) = &design.answer {
         let only = format!("only in these {} passes:", design.passes);
@@ -168,28 +145,18 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<()
         deciding(out, design, answer, units)?;
         if is_near(design) {
             let error = percent(answer.error_estimate);
-            writeln!(
-                out,
-                "nearer to a limit than the estimated error of {error}: repeat the search with limits smaller by that"
-            )?;
+            let near = format!("nearer to a limit than the estimated error of {error}");
+            writeln!(out, "{near}: repeat the search with limits smaller by that")?;
         }
         if answer.still_growing {
             writeln!(out, "{only} the forces still grow after them")?;
         }
-        for Binding {
-            end,
-            quantity,
-            limit,
-            value,
-            ..
-        } in &answer.exceeded_later
-        {
-            let (value, limit) = (quantity.shown_in(units, *value), quantity.given_in(units, *limit));
-            let what = quantity.at(*end);
-            writeln!(
-                out,
-                "{only} with more the {what} levels off at {value}, above its limit of {limit}"
-            )?;
+        for later in &answer.exceeded_later {
+            let (quantity, what) = (later.quantity, later.quantity.at(later.end));
+            let value = quantity.shown_in(units, later.value);
+            let limit = quantity.given_in(units, later.limit);
+            let level = format!("levels off at {value}, above its limit of {limit}");
+            writeln!(out, "{only} with more the {what} {level}")?;
         }
     }
     clamps(out, design, units)?;
@@ -271,11 +238,8 @@ fn deciding(out: &mut impl Write, design: &Design, answer: &TradeOff, units: &Un
     }
     let tightest = by(None);
     if !tightest.is_empty() {
-        writeln!(
-            out,
-            "least room: {tightest}: {} of the limit",
-            percent(design.excess())
-        )?;
+        let share = percent(design.excess());
+        writeln!(out, "least room: {tightest}: {share} of the limit")?;
     }
     Ok(())
 }

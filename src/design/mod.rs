@@ -24,6 +24,7 @@
 //! single one then.
 
 mod answer;
+pub(crate) mod compare;
 mod error;
 mod options;
 mod pair_map;
@@ -33,10 +34,8 @@ mod trade_off;
 
 pub use crate::{ClampLimits, Limits, Place};
 pub use answer::{Design, best};
+pub use compare::compare;
 pub use error::DesignError;
 pub use options::DesignOptions;
-pub use runs::compare;
-#[cfg(feature = "plot")]
-pub(crate) use runs::compare_over;
 pub use search::design;
 pub use trade_off::{Binding, ClampPeak, Side, Spring, TradeOff};

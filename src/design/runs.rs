@@ -6,49 +6,12 @@ use rayon::prelude::*;
 
 use super::error::DesignError;
 use super::trade_off::{Spring, TradeOff};
-use crate::ground::{Ground, road};
+use crate::ground::Ground;
 use crate::run::{run_over, run_shown};
-use crate::{Error, FixedMesh, Limits, Place, Progress, RunOptions, Scene};
+use crate::{FixedMesh, Limits, Place, Progress, RunOptions, Scene};
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
 const DECADES: i32 = 2;
-
-/// Runs `scene` once with each of `springs`, all on one mesh, on all cores. A run that fails is an
-/// error in its own place; `progress` is called after each run.
-///
-/// # Errors
-///
-/// [`DesignError`] where the run that chooses the mesh fails, or `progress` stops the runs.
-pub fn compare(
-    scene: &Scene,
-    springs: &[Spring],
-    progress: Progress<'_>,
-) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
-    scene.validate().map_err(Error::from)?;
-    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
-    compare_over(scene, &ground, springs, progress)
-}
-
-/// The same over a `ground` that is known to be that of a valid `scene`.
-pub(crate) fn compare_over(
-    scene: &Scene,
-    ground: &Arc<Ground>,
-    springs: &[Spring],
-    progress: Progress<'_>,
-) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
-    let mut places = springs.iter().map(|spring| spring.place);
-    let end = places.find(|place| place.end().is_some());
-    let limits = Limits::default();
-    let runs = Runs::new(scene, ground, end.as_slice(), &limits, progress, springs.len())?;
-    let run = |spring: &Spring| {
-        let checked = spring.check(scene);
-        match checked.and_then(|()| Ok(runs.run(&[*spring])?)) {
-            Err(DesignError::Analysis(Error::Stopped)) => Err(Error::Stopped.into()),
-            answer => Ok(answer),
-        }
-    };
-    springs.par_iter().map(run).collect()
-}
 
 /// A scene on the mesh that its stiffest variant needs, its ground, and what was run: runs that are
 /// to be compared are made on the same ones, and where the end is nearly free there is no force
@@ -74,7 +37,7 @@ impl<'a> Runs<'a> {
         limits: &'a Limits,
         progress: Progress<'a>,
         expected: usize,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, DesignError> {
         // This run may be stopped, but its share of the work is not counted.
         let options = RunOptions {
             progress: progress.part(0.0, 0.0),
@@ -98,7 +61,7 @@ impl<'a> Runs<'a> {
         })
     }
 
-    fn compute(&self, springs: &[Spring], mesh: Option<FixedMesh>) -> Result<TradeOff, Error> {
+    fn compute(&self, springs: &[Spring], mesh: Option<FixedMesh>) -> Result<TradeOff, DesignError> {
         let options = RunOptions {
             mesh,
             ..RunOptions::default()
@@ -113,7 +76,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Runs the scene with these springs, or finds the run in what was done.
-    pub fn run(&self, springs: &[Spring]) -> Result<TradeOff, Error> {
+    pub fn run(&self, springs: &[Spring]) -> Result<TradeOff, DesignError> {
         let done = self.done().iter().find(|point| point.springs == springs).cloned();
         if let Some(done) = done {
             return Ok(done);
@@ -126,7 +89,7 @@ impl<'a> Runs<'a> {
     }
 
     /// The same of several, on all cores.
-    pub fn run_all(&self, springs: Vec<Vec<Spring>>) -> Result<Vec<TradeOff>, Error> {
+    pub fn run_all(&self, springs: Vec<Vec<Spring>>) -> Result<Vec<TradeOff>, DesignError> {
         springs
             .into_par_iter()
             .map(|springs| self.run(&springs))
@@ -135,7 +98,7 @@ impl<'a> Runs<'a> {
 
     /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own,
     /// unless its forces so differ just enough to be on the other side of a limit.
-    pub fn judged(&self, point: TradeOff) -> Result<TradeOff, Error> {
+    pub fn judged(&self, point: TradeOff) -> Result<TradeOff, DesignError> {
         let own = self.compute(&point.springs, None)?;
         if own.within_limits == point.within_limits {
             return Ok(own);

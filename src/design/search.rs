@@ -111,7 +111,7 @@ fn one_spring<'a>(
 
 /// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
 /// worst limit of softer springs is as far exceeded as that of stiffer ones.
-fn approach(runs: &Runs<'_>, curve: &[TradeOff], limits: &[Limit]) -> Result<(), Error> {
+fn approach(runs: &Runs<'_>, curve: &[TradeOff], limits: &[Limit]) -> Result<(), DesignError> {
     let worst = |point: &TradeOff| {
         let by_share = |a: &&Limit, b: &&Limit| point.share(**a).total_cmp(&point.share(**b));
         limits.iter().max_by(by_share).copied()
@@ -128,7 +128,11 @@ fn approach(runs: &Runs<'_>, curve: &[TradeOff], limits: &[Limit]) -> Result<(),
 /// Bisection in ln k between two runs, of which the stiffer one `is_upper`, until they differ by
 /// [`ACCURACY`]. Beyond the ends of the curve a stiffness means as little as none, or as much as a
 /// fixed end.
-fn halve(runs: &Runs<'_>, ends: [&TradeOff; 2], is_upper: impl Fn(&TradeOff) -> bool) -> Result<(), Error> {
+fn halve(
+    runs: &Runs<'_>,
+    ends: [&TradeOff; 2],
+    is_upper: impl Fn(&TradeOff) -> bool,
+) -> Result<(), DesignError> {
     let place = ends[0].springs[0].place;
     let [mut softer, mut stiffer] = ends.map(TradeOff::stiffness);
     while softer > 0.0 && stiffer.is_finite() && stiffer > (1.0 + ACCURACY) * softer {

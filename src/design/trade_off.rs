@@ -135,31 +135,35 @@ impl Spring {
                 let allowed = "a position in the duct, from 0 m to its length";
                 ("position of the clamp", position, allowed)
             }
-            Place::Upstream | Place::Downstream if stiffness >= 0.0 => return Ok(()),
-            Place::Clamp(_) if stiffness >= 0.0 && stiffness.is_finite() => return Ok(()),
+            place if stiffness >= 0.0 && (place.end().is_some() || stiffness.is_finite()) => return Ok(()),
             _ => ("stiffness", stiffness, "at least 0, and finite for a clamp"),
         };
         Err(DesignError::Invalid { name, found, allowed })
     }
 
     /// The valid scene with these springs.
-    pub(crate) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, Error> {
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError`] where one has no meaning there.
+    pub(crate) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, DesignError> {
         let mut scene = scene.clone();
         for spring in springs {
+            spring.check(&scene)?;
             let stiffness = spring.stiffness();
-            let end = match stiffness {
+            let held = match stiffness {
                 0.0 => End::Free,
                 f64::INFINITY => End::Fixed,
                 _ => End::Spring(stiffness),
             };
             match spring.place {
-                Place::Upstream => scene.ends.upstream = end,
-                Place::Downstream => scene.ends.downstream = end,
-                Place::Clamp(_) if stiffness == 0.0 => {}
+                Place::Upstream => scene.ends.upstream = held,
+                Place::Downstream => scene.ends.downstream = held,
+                Place::Clamp(_) if held == End::Free => {}
                 Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
             }
         }
-        scene.validate()?;
+        scene.validate().map_err(Error::from)?;
         Ok(scene)
     }
 }

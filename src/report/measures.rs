@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::quantity::Shown;
-
-use crate::design::{DesignError, Place, Spring, TradeOff, compare_over};
+use crate::design::compare::compare_over;
+use crate::design::{DesignError, Place, Spring, TradeOff};
 use crate::ground::Ground;
 use crate::scene::End;
 use crate::{CableEnd, Error, Limits, PassRecord, Progress, Run, Scene};

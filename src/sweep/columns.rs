@@ -6,8 +6,7 @@ use super::axis::Axis;
 use super::distribution::ID;
 use super::grid::Sweep;
 use super::numbers::si;
-use crate::answer::si_of_field;
-use crate::scene::{Unit, si_unit};
+use crate::scene::Unit;
 use crate::{DayExtremes, PassRecord, Run, Units, Verdict};
 
 /// A row of the table, as it stands in CSV: numbers in SI, and nothing where there is none.
@@ -28,7 +27,10 @@ type Cell = for<'a> fn(&Answer<'a>) -> Option<String>;
 type Field = (&'static str, AnswerValues, Cell);
 
 const NUMBERS: AnswerValues = AnswerValues::Numbers(Vec::new());
+const COUNTS: AnswerValues = AnswerValues::Counts(Vec::new());
 const TEXTS: AnswerValues = AnswerValues::Texts(Vec::new());
+/// The column that says why a row has no answer.
+const ERROR: &str = "error";
 
 /// Columns of every answer, after the last pass.
 const ANSWER: [Field; 8] = [
@@ -40,7 +42,7 @@ const ANSWER: [Field; 8] = [
     ("saturation_force_n", NUMBERS, |of| {
         text(of.run.saturation?.force_n)
     }),
-    ("passes_to_95_percent", AnswerValues::Counts(Vec::new()), |of| {
+    ("passes_to_95_percent", COUNTS, |of| {
         text(of.run.saturation?.passes_to_95_percent)
     }),
     ("upstream_displacement_m", NUMBERS, |of| {
@@ -92,31 +94,14 @@ fn all_days<'a>(answer: &Answer<'a>) -> Option<&'a DayExtremes> {
 
 /// A column of a sweep's table.
 #[derive(Debug, Clone)]
-#[cfg_attr(not(feature = "xlsx"), allow(dead_code, reason = "CSV shows no units"))]
 pub struct AnswerColumn {
     /// Its name: a key, or what it says of the run.
     pub name: String,
     /// A value a row, in SI.
     pub values: AnswerValues,
-    source: Source,
-    /// Name for a reader of a workbook, and the unit there.
-    pub(super) heading: (String, &'static str),
-    /// That unit, if it is not SI.
+    /// Its unit in a workbook, if that is not SI.
+    #[cfg_attr(not(feature = "xlsx"), allow(dead_code, reason = "CSV shows no units"))]
     pub(super) unit: Option<Unit>,
-}
-
-/// Where the cells of a column come from.
-#[derive(Debug, Clone, Copy)]
-enum Source {
-    /// The key of this number.
-    Key(usize),
-    /// The number of the sample.
-    Sample,
-    Answer(Cell),
-    /// Whether there is an answer.
-    Status,
-    /// Why there is none.
-    Error,
 }
 
 /// The values of a column; `None` where a row has none.
@@ -140,7 +125,7 @@ impl AnswerColumn {
             AnswerValues::Counts(values) => values.push(cell.parse().ok()),
             AnswerValues::Flags(values) => values.push(cell.parse().ok()),
             AnswerValues::Texts(values) => {
-                let is_there = !cell.is_empty() || matches!(self.source, Source::Key(_));
+                let is_there = !cell.is_empty() || self.name != ERROR;
                 values.push(is_there.then(|| cell.to_owned()));
             }
         }
@@ -148,52 +133,38 @@ impl AnswerColumn {
 }
 
 impl Sweep {
+    /// What its table says of a run.
+    fn fields(&self) -> impl Iterator<Item = Field> {
+        let sets_heat = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
+        let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets_heat);
+        let heat = HEAT_ANSWER.into_iter().filter(move |_| is_heated);
+        let limits = LIMITS.into_iter().filter(|_| self.limits.is_some());
+        ANSWER.into_iter().chain(heat).chain(limits)
+    }
+
     /// The columns of its table, without rows.
     pub fn columns(&self) -> Vec<AnswerColumn> {
         let units = self.file_at(0).map(|file| Units::typed(&file, None, None));
         let units = units.unwrap_or_default();
-        let column = |name: &str, values, source, typed: Option<Unit>| {
-            let typed = typed.map(|unit| (name, unit)).or(units.of_field(name));
-            let si = || si_unit(name).or(si_of_field(name).map(|(_, unit)| unit));
-            let (shown, unit) = match typed {
-                Some((shown, unit)) => (shown, unit.symbol()),
-                None => (name, si().unwrap_or_default()),
-            };
-            AnswerColumn {
-                name: name.to_owned(),
-                values,
-                source,
-                heading: (shown.to_owned(), unit),
-                unit: typed.map(|(_, unit)| unit),
-            }
+        let column = |name: &str, values, typed: Option<Unit>| AnswerColumn {
+            name: name.to_owned(),
+            values,
+            unit: typed.or(units.of_field(name).map(|(_, unit)| unit)),
         };
-        let mut columns = Vec::new();
-        for (place, axis) in self.axes.iter().enumerate() {
+        let varied = self.axes.iter().map(|axis| {
             let mut values = axis.values.iter().filter(|value| !value.is_empty());
             // What is drawn is a number: a text beside it fails in its row.
-            let holds_numbers = axis.key != ID
-                && (self.drawn_keys.contains(&axis.key) || values.all(|value| si(value).is_some()));
-            let (values, unit) = if holds_numbers {
-                (NUMBERS, axis.unit())
+            let is_drawn = self.drawn_keys.contains(&axis.key);
+            if axis.key != ID && (is_drawn || values.all(|value| si(value).is_some())) {
+                column(&axis.key, NUMBERS, axis.unit())
             } else {
-                (TEXTS, None)
-            };
-            columns.push(column(&axis.key, values, Source::Key(place), unit));
-        }
-        if self.samples.count > 0 {
-            let counts = AnswerValues::Counts(Vec::new());
-            columns.push(column("sample", counts, Source::Sample, None));
-        }
-        let sets_heat = |axis: &Axis| axis.key == HEAT || axis.key.starts_with("heat.");
-        let is_heated = self.file.locate(HEAT).is_some() || self.axes.iter().any(sets_heat);
-        let heat = HEAT_ANSWER.into_iter().filter(|_| is_heated);
-        let limits = LIMITS.into_iter().filter(|_| self.limits.is_some());
-        for (name, values, cell) in ANSWER.into_iter().chain(heat).chain(limits) {
-            columns.push(column(name, values, Source::Answer(cell), None));
-        }
-        columns.push(column("status", TEXTS, Source::Status, None));
-        columns.push(column("error", TEXTS, Source::Error, None));
-        columns
+                column(&axis.key, TEXTS, None)
+            }
+        });
+        let sample = (self.samples.count > 0).then(|| column("sample", COUNTS, None));
+        let fields = self.fields().map(|(name, values, _)| column(name, values, None));
+        let status = ["status", ERROR].map(|name| column(name, TEXTS, None));
+        varied.chain(sample).chain(fields).chain(status).collect()
     }
 
     /// The row of a point with its answer, or why there is none.
@@ -203,22 +174,19 @@ impl Sweep {
         answer: Result<Answer<'_>, &str>,
         columns: &[AnswerColumn],
     ) -> Row {
-        let values = self.values(index);
-        let cell = |column: &AnswerColumn| match (column.source, answer) {
-            (Source::Key(place), _) => match column.values {
-                AnswerValues::Texts(_) => Some(values[place].clone()),
-                _ => text(si(&values[place])?),
-            },
-            (Source::Sample, _) => text(index % self.samples.count),
-            (Source::Answer(cell), Ok(answer)) => cell(&answer),
-            (Source::Status, _) => text(if answer.is_ok() { "ok" } else { "error" }),
-            (Source::Error, Err(error)) => text(error),
-            _ => None,
+        let varied = self.values(index).into_iter().zip(columns);
+        let varied = varied.map(|(value, column)| match column.values {
+            AnswerValues::Texts(_) => Some(value),
+            _ => text(si(&value)?),
+        });
+        let sample = (self.samples.count > 0).then(|| text(index % self.samples.count));
+        let fields = self.fields().map(|(.., cell)| cell(&answer.ok()?));
+        let status = match answer {
+            Ok(_) => [text("ok"), None],
+            Err(error) => [text("error"), text(error)],
         };
-        columns
-            .iter()
-            .map(|column| cell(column).unwrap_or_default())
-            .collect()
+        let cells = varied.chain(sample).chain(fields).chain(status);
+        cells.map(Option::unwrap_or_default).collect()
     }
 }
 

@@ -1,6 +1,5 @@
 //! Computing the points of a sweep, each in one thread.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -15,45 +14,22 @@ use crate::error::with_causes;
 use crate::run::run_over;
 use crate::{Error, Progress, Run, RunOptions, Scene, finite};
 
-/// Finished rows on their way to `keep`, which gets each after the one before it.
-struct Queue<'a, K> {
-    next: usize,
-    waiting: BTreeMap<usize, Row>,
-    keep: &'a mut K,
-}
-
-impl<K: FnMut(Row) -> Result<(), SweepError>> Queue<'_, K> {
-    fn take(&mut self, index: usize, row: Row) -> Result<(), SweepError> {
-        self.waiting.insert(index, row);
-        while let Some(row) = self.waiting.remove(&self.next) {
-            (self.keep)(row)?;
-            self.next += 1;
-        }
-        Ok(())
-    }
-}
-
 impl Sweep {
-    /// Computes all points from the one of number `first` on, and gives their rows to `keep` in the
-    /// order of the grid.
+    /// Computes the points of these numbers, and gives their rows to `keep` as they are finished.
     pub(super) fn compute(
         &self,
-        first: usize,
+        points: &[usize],
         columns: &[AnswerColumn],
         options: &SweepOptions<'_>,
-        keep: &mut (impl FnMut(Row) -> Result<(), SweepError> + Send),
+        keep: impl FnMut(usize, Row) -> Result<(), SweepError> + Send,
     ) -> Result<(), SweepError> {
         let count = self.count();
-        let (begun, done) = (AtomicUsize::new(first), AtomicUsize::new(first));
+        let (begun, done) = (AtomicUsize::new(0), AtomicUsize::new(count - points.len()));
         let report = || options.progress.report(done.load(Relaxed) as f64 / count as f64);
         report().map_err(|_| SweepError::Stopped)?;
         // A point that takes long can be stopped too.
         let within = |_| report().map_or(ControlFlow::Break(()), ControlFlow::Continue);
-        let queue = Mutex::new(Queue {
-            next: first,
-            waiting: BTreeMap::new(),
-            keep,
-        });
+        let keep = Mutex::new(keep);
         let work = || -> Result<(), SweepError> {
             let mut ground = KnownGround::default();
             let run_options = RunOptions {
@@ -64,22 +40,17 @@ impl Sweep {
                 Some(evaluate) => evaluate(scene),
                 None => run_over(scene, ground.of(scene)?, &run_options),
             };
-            loop {
-                let index = begun.fetch_add(1, Relaxed);
-                if index >= count {
-                    return Ok(());
-                }
+            while let Some(&index) = points.get(begun.fetch_add(1, Relaxed)) {
                 let row = self.computed(index, columns, &mut run)?;
-                let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
-                queue.take(index, row)?;
-                drop(queue);
+                keep.lock().unwrap_or_else(PoisonError::into_inner)(index, row)?;
                 done.fetch_add(1, Relaxed);
                 report().map_err(|_| SweepError::Stopped)?;
             }
+            Ok(())
         };
         let ends = rayon::broadcast(|_| {
             // Where one thread fails, no other begins another point.
-            work().inspect_err(|_| begun.store(count, Relaxed))
+            work().inspect_err(|_| begun.store(points.len(), Relaxed))
         });
         ends.into_iter().collect()
     }

@@ -8,7 +8,7 @@ use super::distribution::{ID, TEXTS};
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::samples::Samples;
-use super::table::Format;
+use super::table;
 use crate::SceneFile;
 use crate::scene::Dimension;
 
@@ -57,7 +57,7 @@ impl Sweep {
 /// [`SweepError::Rows`] where there is no such table, [`SweepError::Invalid`] where the name ends
 /// otherwise.
 pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>, SweepError> {
-    Format::of(file)?;
+    table::ending(file)?;
     let table = Table::from_file(file, options, &LAYOUT)?;
     let mut columns = Vec::new();
     for (column, name) in table.names.iter().enumerate() {

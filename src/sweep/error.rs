@@ -1,7 +1,5 @@
 //! What can go wrong in a sweep as a whole; what goes wrong at one point is recorded there.
 
-use std::path::Path;
-
 use crate::SceneError;
 use crate::output::OutputError;
 
@@ -49,9 +47,6 @@ pub enum SweepError {
     /// The output cannot be written, or would replace what must not be lost.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The file of this name cannot be written or read back, and why.
-    #[error("{0}: cannot be written or read")]
-    File(String, #[source] std::io::Error),
 }
 
 impl SweepError {
@@ -63,17 +58,11 @@ impl SweepError {
         }
     }
 
-    /// What becomes of an error of `file`.
-    pub(super) fn of_file<E: Into<std::io::Error>>(file: &Path) -> impl Fn(E) -> Self + use<E> {
-        let name = file.display().to_string();
-        move |source| Self::File(name.clone(), source.into())
-    }
-
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Output(error) => error.is_bad_input(),
-            Self::File(..) | Self::Busy(_) | Self::Stopped => false,
+            Self::Busy(_) | Self::Stopped => false,
             _ => true,
         }
     }

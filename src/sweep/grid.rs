@@ -261,15 +261,15 @@ impl Sweep {
 
     /// The files that its scenes read beside their own: tables of axle loads.
     pub fn files(&self) -> BTreeSet<PathBuf> {
-        let axes = self.axes.iter();
-        let named = axes.filter(|axis| matches!(&*axis.key, "traffic" | "traffic.histogram"));
-        let values: BTreeSet<String> = named
-            .flat_map(|axis| axis.values.iter().map(|value| format!("{}={value}", axis.key)))
-            .collect();
-        let of_values = values
-            .iter()
-            .filter_map(|value| self.file.with(&[value]).ok()?.histogram());
-        self.file.histogram().into_iter().chain(of_values).collect()
+        let mut files = BTreeSet::from_iter(self.file.histogram());
+        let named = |axis: &&Axis| matches!(&*axis.key, "traffic" | "traffic.histogram");
+        for Axis { key, values } in self.axes.iter().filter(named) {
+            for value in BTreeSet::from_iter(values) {
+                let file = self.file.with(&[format!("{key}={value}")]);
+                files.extend(file.ok().and_then(|file| file.histogram()));
+            }
+        }
+        files
     }
 
     /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in
@@ -280,14 +280,8 @@ impl Sweep {
         let scene: Vec<_> = typed.map(|typed| (typed.key, typed.value)).collect();
         let files = self.files().into_iter();
         let files: Vec<_> = files.map(|file| std::fs::read(file).ok()).collect();
-        let Self {
-            axes,
-            samples,
-            by_row,
-            limits,
-            ..
-        } = self;
-        let text = format!("{version}\0{scene:?}\0{axes:?}\0{samples:?}\0{by_row}\0{files:?}\0{limits:?}");
+        let rest = (&self.axes, &self.samples, &self.by_row, &self.limits);
+        let text = format!("{version}\0{scene:?}\0{files:?}\0{rest:?}");
         fnv1a(text.into_bytes())
     }
 }

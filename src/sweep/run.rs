@@ -1,5 +1,6 @@
 //! All points of a sweep, and their table in memory or in a file.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -8,7 +9,7 @@ use super::bands::Band;
 use super::columns::{AnswerColumn, Row, error_of};
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::table::Format;
+use super::table;
 use super::unfinished::Unfinished;
 use crate::output::Files;
 use crate::{Error, Progress, Run, Scene};
@@ -69,16 +70,15 @@ impl Sweep {
     /// table.
     pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
         let mut columns = self.columns();
-        let mut rows = Vec::new();
-        self.compute(0, &columns, options, &mut |row| {
-            rows.push(row);
+        let mut rows = BTreeMap::new();
+        let points: Vec<usize> = (0..self.count()).collect();
+        self.compute(&points, &columns, options, |point, row| {
+            rows.insert(point, row);
             Ok(())
         })?;
-        for row in &rows {
-            columns
-                .iter_mut()
-                .zip(row)
-                .for_each(|(column, cell)| column.push(cell));
+        for row in rows.values() {
+            let cells = columns.iter_mut().zip(row);
+            cells.for_each(|(column, cell)| column.push(cell));
         }
         Ok(columns)
     }
@@ -95,21 +95,21 @@ impl Sweep {
     /// [`SweepError`] when the output cannot be written, or what stands beside it is no part of
     /// this sweep. What fails at a point is a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
-        let format = Format::of(output)?;
-        if self.count() > format.most_rows() {
-            return Err(SweepError::unfit(
-                format!("{} points for {}", self.count(), output.display()),
-                "at most 1048574, as many as Excel has rows; more in .csv",
-            ));
-        }
-        let output = Files::reading([], options.force).output(output, format.ending())?;
+        let ending = table::ending(output)?;
+        table::check_count(self.count(), output)?;
+        let output = Files::reading([], options.force).output(output, ending)?;
         let columns = self.columns();
         let mut unfinished = Unfinished::open(output.path(), self, &columns)?;
         let resumed = unfinished.rows.len();
-        self.compute(resumed, &columns, options, &mut |row| unfinished.keep(row))?;
+        let is_missing = |point: &usize| !unfinished.rows.contains_key(point);
+        let points: Vec<usize> = (0..self.count()).filter(is_missing).collect();
+        self.compute(&points, &columns, options, |point, row| {
+            unfinished.keep(point, row)
+        })?;
         // It comes into its place when it is whole.
-        let draft = format.write(output.begin()?, &columns, &self.file, &unfinished.rows);
-        draft.map_err(SweepError::of_file(output.path()))?.finish()?;
+        let rows = unfinished.rows.values();
+        let draft = table::write(output.begin()?, ending, &columns, &self.file, rows);
+        draft.map_err(|source| output.failed(source))?.finish()?;
         let rows = unfinished.remove()?;
         let errors = || rows.iter().filter_map(error_of);
         Ok(SweepSummary {
