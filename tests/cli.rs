@@ -910,18 +910,6 @@ fn bad_sweeps_have_status_2() {
             "a STEP that leads",
         ),
         (
-            &["--out", text(&out), "--vary", "duct.deepth=1,2"],
-            "did you mean `depth`?",
-        ),
-        (
-            &["--out", text(&out), "--vary", "duct.depth=normal(1, 0.1)"],
-            "samples",
-        ),
-        (
-            &["--out", text(&out), "--vary", depth, "--samples", "5"],
-            "samples and no distribution",
-        ),
-        (
             &["--out", text(&out), "--vary", depth, "--threads", "0"],
             "--threads",
         ),

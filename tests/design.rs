@@ -225,24 +225,6 @@ fn years_of_traffic_are_passes_of_the_law() {
 }
 
 #[test]
-fn what_has_no_meaning_is_refused() {
-    let scene = scene();
-    for (force, movement, place) in [
-        (0.0, None, Place::Downstream),
-        (f64::NAN, None, Place::Downstream),
-        (f64::INFINITY, None, Place::Upstream),
-        (1.0, Some(-1.0), Place::Downstream),
-        (1.0, Some(f64::NAN), Place::Downstream),
-        (1.0, None, Place::Clamp(15.5)),
-        (1.0, None, Place::Clamp(f64::NAN)),
-    ] {
-        assert!(designed(&scene, place, force, movement).is_err_and(|error| error.is_bad_input()));
-    }
-    let none = DesignOptions::new(Place::Downstream, Limits::default());
-    assert!(design(&scene, &none).is_err_and(|error| error.is_bad_input()));
-}
-
-#[test]
 fn ways_are_compared_by_runs_of_their_own() {
     let scene = scene();
     let ways = compare(

@@ -100,25 +100,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let tables = sweep.files();
     let read = [Some(&*arguments.scene.file.scene), rows].into_iter().flatten();
-    let mut files = arguments
-        .force
-        .files(read.chain(tables.iter().map(PathBuf::as_path)));
+    let read = read.chain(tables.iter().map(PathBuf::as_path));
+    let mut files = arguments.force.files(read);
     files.output(&arguments.out, ending(&arguments.out)?)?;
     #[cfg(feature = "plot")]
-    let map = match &arguments.map {
-        Some(file) => {
-            // Whether there can be one is known before anything is computed.
-            let _ = sweep.map(&[], arguments.map_of)?;
-            Some(files.output(file, "svg")?)
-        }
-        None => None,
-    };
+    let map = arguments.map.as_ref().map(|file| -> Result<_, Failure> {
+        // Whether there can be one is known before anything is computed.
+        sweep.map(&[], arguments.map_of)?;
+        Ok(files.output(file, "svg")?)
+    });
+    #[cfg(feature = "plot")]
+    let map = map.transpose()?;
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
     let out = arguments.out.display();
-    super::signals::leaves(format!(
-        "the finished points are kept beside {out}; the same command goes on from there"
-    ));
+    let kept = format!("the finished points are kept beside {out}");
+    super::signals::leaves(format!("{kept}; the same command goes on from there"));
     let summary = watched(1.0, points, |progress| {
         let options = SweepOptions {
             force: arguments.force.force,
@@ -128,10 +125,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         sweep.run(&arguments.out, &options)
     })?;
     if let Some(error) = &summary.first_error {
-        let SweepSummary { failed, points, .. } = summary;
-        terminal::warn(format_args!(
-            "{failed} of {points} points failed, the first with: {error}"
-        ));
+        let failed = format!("{} of {count} points failed", summary.failed);
+        terminal::warn(format_args!("{failed}, the first with: {error}"));
     }
     if summary.failed == summary.points {
         return Err(Failure::Nothing);

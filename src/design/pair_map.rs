@@ -48,10 +48,10 @@ pub fn search<'a>(
     let limits = &options.limits;
     let grid = |per_decade| places.map(|place| springs(scene, place, limits, per_decade));
     let levels = grid(POINTS_PER_DECADE);
-    let pairs = levels[0]
-        .iter()
-        .flat_map(|first| levels[1].iter().map(|second| vec![*first, *second]));
-    let pairs: Vec<Vec<Spring>> = pairs.collect();
+    let mut pairs = Vec::new();
+    for first in &levels[0] {
+        pairs.extend(levels[1].iter().map(|second| vec![*first, *second]));
+    }
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
@@ -70,10 +70,9 @@ pub fn search<'a>(
     for count in 0..MOST_RUNS {
         let rough = map.best(&trials, &scale);
         let pair = map.best(&rough.map(around), &scale);
-        let (expected, shares) = (
-            map.shares(pair, &scale),
-            map.shares_of(&runs.run(&[0, 1].map(|at| Spring::new(places[at], pair[at])))?),
-        );
+        let expected = map.shares(pair, &scale);
+        let springs = [0, 1].map(|at| Spring::new(places[at], pair[at]));
+        let shares = map.shares_of(&runs.run(&springs)?);
         let (said, is) = (largest(&expected), largest(&shares));
         let agree = (said - is).abs() <= AGREES * is && (said <= 1.0) == (is <= 1.0);
         // A run that was done says nothing new.
@@ -143,8 +142,8 @@ impl Map {
             self.places.iter().zip(place(*index)).map(signed).sum()
         };
         let good = (0..badness.len()).filter(|index| badness[*index] <= most);
-        good.max_by_key(preferred)
-            .map_or([0.0; 2], |index| pair(place(index)))
+        let best = good.max_by_key(preferred);
+        best.map_or([0.0; 2], |index| pair(place(index)))
     }
 
     /// The shares of all limits of a pair.
@@ -179,9 +178,8 @@ fn around(stiffness: f64) -> Vec<f64> {
 
 /// The levels on both sides of `stiffness`, with their weights in the mean of the inverse.
 fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
-    let above = levels
-        .partition_point(|level| *level < stiffness)
-        .min(levels.len() - 1);
+    let above = levels.partition_point(|level| *level < stiffness);
+    let above = above.min(levels.len() - 1);
     let below = above.saturating_sub(1);
     let (low, high) = (levels[below], levels[above]);
     if high <= stiffness || low == 0.0 || high.is_infinite() || above == below {

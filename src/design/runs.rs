@@ -90,10 +90,8 @@ impl<'a> Runs<'a> {
 
     /// The same of several, on all cores.
     pub fn run_all(&self, springs: Vec<Vec<Spring>>) -> Result<Vec<TradeOff>, DesignError> {
-        springs
-            .into_par_iter()
-            .map(|springs| self.run(&springs))
-            .collect()
+        let springs = springs.into_par_iter();
+        springs.map(|springs| self.run(&springs)).collect()
     }
 
     /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own,
@@ -139,7 +137,5 @@ pub fn springs(scene: &Scene, place: Place, limits: &Limits, per_decade: i32) ->
     let none = (!moves).then_some(0.0);
     let fixed = place.end().map(|_| f64::INFINITY);
     let stiffnesses = none.into_iter().chain(grid).chain(fixed);
-    stiffnesses
-        .map(|stiffness| Spring::new(place, stiffness))
-        .collect()
+    stiffnesses.map(|k| Spring::new(place, k)).collect()
 }

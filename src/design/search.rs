@@ -47,11 +47,9 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     // Between two stiffnesses that keep a limit every other does; the run has the last word.
     let answer = chosen.filter(|answer| answer.within_limits);
     let answer = answer.map(|answer| runs.judged(answer)).transpose()?;
-    let by_excess = curve
-        .iter()
-        .min_by(|a, b| a.excess(limits).total_cmp(&b.excess(limits)));
-    let nearest = by_excess.filter(|_| answer.is_none()).cloned();
-    let nearest = nearest.map(|nearest| runs.judged(nearest)).transpose()?;
+    let by_excess = |a: &&TradeOff, b: &&TradeOff| a.excess(limits).total_cmp(&b.excess(limits));
+    let nearest = curve.iter().filter(|_| answer.is_none()).min_by(by_excess);
+    let nearest = nearest.map(|nearest| runs.judged(nearest.clone())).transpose()?;
     let kept = kept(&curve).filter(|_| options.places.len() == 1);
     let binding = match (&answer, &nearest, kept) {
         (Some(answer), _, Some(kept)) => binding(answer, &curve, kept, &with_duct(limits, scene)),

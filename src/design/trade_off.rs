@@ -171,10 +171,9 @@ impl Spring {
 impl TradeOff {
     /// What `run` gives for `scene` with `springs`.
     pub(crate) fn of(scene: &Scene, run: &Run, springs: &[Spring], limits: &Limits) -> Self {
-        let [upstream_force_n, downstream_force_n] =
-            CableEnd::ALL.map(|end| run.largest(end, Limited::Force));
-        let [upstream_movement_m, downstream_movement_m] =
-            CableEnd::ALL.map(|end| run.largest(end, Limited::Movement));
+        let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
+        let [upstream_force_n, downstream_force_n] = of_ends(Limited::Force);
+        let [upstream_movement_m, downstream_movement_m] = of_ends(Limited::Movement);
         let movement_m = upstream_movement_m.max(downstream_movement_m);
         let mut clamped = springs.iter().filter(|spring| spring.stiffness() > 0.0);
         let is_clamped = clamped.any(|spring| spring.place.end().is_none());
@@ -205,16 +204,15 @@ impl TradeOff {
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
-        let later = limits.verdicts(run).into_iter().filter_map(|verdict| {
-            Some(Binding {
-                end: verdict.end,
-                quantity: verdict.quantity,
-                limit: verdict.limit,
-                value: verdict.levels_off_above?,
-                exceeded_by: None,
-            })
-        });
-        point.exceeded_later = later.collect();
+        for verdict in limits.verdicts(run) {
+            let limit = (verdict.end, verdict.quantity, verdict.limit);
+            let later = verdict.levels_off_above;
+            let later = later.map(|value| Binding {
+                value,
+                ..point.binding(limit, None)
+            });
+            point.exceeded_later.extend(later);
+        }
         point.within_limits = point.excess(limits) <= 1.0;
         point
     }

@@ -137,9 +137,10 @@ impl Sweep {
             let allowed = "a distribution with them, as a value of a key or in the scene";
             return Err(SweepError::unfit("samples and no distribution", allowed));
         }
-        let factors = axes.iter().map(|axis| axis.values.len());
-        let groups = factors.take(if by_row { 1 } else { axes.len() });
-        let groups = groups.fold(1, usize::saturating_mul);
+        let factors = axes[..if by_row { 1 } else { axes.len() }].iter();
+        let groups = factors.fold(1, |product: usize, axis| {
+            product.saturating_mul(axis.values.len())
+        });
         if groups.saturating_mul(samples.count.max(1)) > MOST_POINTS {
             return Err(SweepError::unfit("too many points", "at most a hundred million"));
         }
@@ -187,11 +188,6 @@ impl Sweep {
     /// How many points there are, samples included.
     pub fn count(&self) -> usize {
         self.groups * self.samples.count.max(1)
-    }
-
-    /// The varied keys.
-    pub fn axes(&self) -> &[Axis] {
-        &self.axes
     }
 
     /// The keys that are drawn, here or in the parts that [`Sweep::of_part`] was told of.

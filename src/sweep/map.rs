@@ -11,16 +11,14 @@ use crate::scene::si_unit;
 /// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
 const MOST_CELLS: usize = 500;
 
-/// The quantity shown by a map's colour.
+/// The quantity shown by a map's colour, after the last pass: force \[N\] or movement \[mm\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[non_exhaustive]
 pub enum MapValue {
-    /// The larger force on an end after the last pass \[N\].
-    #[cfg_attr(feature = "cli", value(help = "The larger force on an end"))]
+    /// The larger force on an end
     Force,
-    /// The larger displacement of an end after the last pass \[mm\].
-    #[cfg_attr(feature = "cli", value(help = "The larger movement of an end"))]
+    /// The larger movement of an end
     Movement,
 }
 
@@ -33,12 +31,14 @@ impl Sweep {
     /// [`SweepError::Invalid`] unless two keys are varied, by lists of at most 500 values.
     pub(crate) fn map(&self, rows: &[Row], value: MapValue) -> Result<Chart, SweepError> {
         let is_small = |axis: &Axis| axis.values.len() <= MOST_CELLS;
-        let [x, y] = &self.axes[..] else {
-            return Err(self.no_map());
+        let (x, y) = match &self.axes[..] {
+            [x, y] if is_small(x) && is_small(y) && self.samples.count == 0 => (x, y),
+            axes => {
+                let allowed = "a map of two keys, each with a list or range of at most 500 values";
+                let found = format!("--map with {} varied keys", axes.len());
+                return Err(SweepError::unfit(found, allowed));
+            }
         };
-        if !is_small(x) || !is_small(y) || self.samples.count > 0 {
-            return Err(self.no_map());
-        }
         let (ends, scale, title, label) = match value {
             MapValue::Force => {
                 let ends = ["upstream_force_n", "downstream_force_n"];
@@ -59,13 +59,6 @@ impl Sweep {
         }
         let scale = figure::Axis::linear(label);
         Ok(Chart::of_values(title, along(x), along(y), scale, cells))
-    }
-
-    fn no_map(&self) -> SweepError {
-        SweepError::unfit(
-            format!("--map with {} varied keys", self.axes.len()),
-            "a map of two keys, each with a list or range of at most 500 values",
-        )
     }
 }
 

@@ -132,15 +132,27 @@ fn springs_that_hardly_keep_the_limits_are_found() {
 #[test]
 fn limits_and_places_that_have_no_meaning_are_refused() {
     let scene = scene(&[]);
-    let end = (Place::Downstream, Limited::Force, 100.0);
+    let force = |limit| (Place::Downstream, Limited::Force, limit);
+    let movement = |limit| (Place::Downstream, Limited::Movement, limit);
+    let clamp = |limit| (Place::Clamp(3.0), Limited::Force, limit);
     for (places, all) in [
         (&BOTH[..], &[][..]),
-        (&[Place::Upstream, Place::Upstream], &[end]),
-        (&[Place::Upstream, Place::Clamp(16.0)], &[end]),
-        (&[Place::Upstream], &[(Place::Clamp(3.0), Limited::Force, 1.0)]),
-        (&[Place::Clamp(3.0)], &[(Place::Clamp(3.0), Limited::Force, -1.0)]),
+        (&BOTH[..1], &[]),
+        (&[], &[force(100.0)]),
+        (&[BOTH[0], BOTH[0]], &[force(100.0)]),
+        (&[BOTH[0], Place::Clamp(16.0)], &[force(100.0)]),
+        (&[BOTH[0], BOTH[1], Place::Clamp(3.0)], &[force(100.0)]),
+        (&[Place::Clamp(15.5)], &[force(1.0)]),
+        (&[Place::Clamp(f64::NAN)], &[force(1.0)]),
+        (&BOTH[..1], &[clamp(1.0)]),
+        (&[Place::Clamp(3.0)], &[clamp(-1.0)]),
+        (&BOTH[1..], &[force(0.0)]),
+        (&BOTH[1..], &[force(f64::NAN)]),
+        (&BOTH[..1], &[force(f64::INFINITY)]),
+        (&BOTH[1..], &[force(1.0), movement(-1.0)]),
+        (&BOTH[1..], &[force(1.0), movement(f64::NAN)]),
     ] {
-        let mut options = DesignOptions::new(places[0], limits(all));
+        let mut options = DesignOptions::new(BOTH[0], limits(all));
         options.places = places.to_vec();
         let refused = design(&scene, &options);
         assert!(
