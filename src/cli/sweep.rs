@@ -106,7 +106,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "plot")]
     let map = arguments.map.as_ref().map(|file| -> Result<_, Failure> {
         // Whether there can be one is known before anything is computed.
-        sweep.map(&[], arguments.map_of)?;
+        let _ = sweep.map(&[], arguments.map_of)?;
         Ok(files.output(file, "svg")?)
     });
     #[cfg(feature = "plot")]

@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::columns::{Answer, AnswerColumn, Row};
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::known_ground::KnownGround;
 use super::run::SweepOptions;
 use crate::error::with_causes;
+use crate::ground::{Ground, road};
 use crate::run::run_over;
 use crate::{Error, Progress, Run, RunOptions, Scene, finite};
 
@@ -31,14 +31,14 @@ impl Sweep {
         let within = |_| report().map_or(ControlFlow::Break(()), ControlFlow::Continue);
         let keep = Mutex::new(keep);
         let work = || -> Result<(), SweepError> {
-            let mut ground = KnownGround::default();
+            let mut known = None;
             let run_options = RunOptions {
                 progress: Progress::new(&within),
                 ..RunOptions::default()
             };
             let mut run = |scene: &Scene| match options.evaluate {
                 Some(evaluate) => evaluate(scene),
-                None => run_over(scene, ground.of(scene)?, &run_options),
+                None => run_over(scene, ground_of(scene, &mut known)?, &run_options),
             };
             while let Some(&index) = points.get(begun.fetch_add(1, Relaxed)) {
                 let row = self.computed(index, columns, &mut run)?;
@@ -85,4 +85,22 @@ impl Sweep {
         let line = error.lines().next().unwrap_or_default();
         Ok(self.row(index, Err(&line.replace(char::is_control, " ")), columns))
     }
+}
+
+/// The ground of `scene`: that of the scene before, which is `known`, where nothing differs that the
+/// motion of the duct depends on.
+fn ground_of(scene: &Scene, known: &mut Option<(Scene, Arc<Ground>)>) -> Result<Arc<Ground>, Error> {
+    let numbers = |scene: &Scene| {
+        let (duct, tolerance) = (&scene.duct, scene.solver.tolerance);
+        [duct.depth, duct.lateral_offset, road::reach(scene), tolerance]
+    };
+    if let Some((last, ground)) = known
+        && (&last.ground, &last.vehicles) == (&scene.ground, &scene.vehicles)
+        && numbers(last) == numbers(scene)
+    {
+        return Ok(Arc::clone(ground));
+    }
+    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
+    *known = Some((scene.clone(), Arc::clone(&ground)));
+    Ok(ground)
 }

@@ -36,7 +36,6 @@ mod distribution;
 mod duct_list;
 mod error;
 mod grid;
-mod known_ground;
 mod limits;
 #[cfg(feature = "plot")]
 mod map;

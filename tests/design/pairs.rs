@@ -1,9 +1,11 @@
 //! Two springs, or a spring and a clamp.
 
 use creepage::design::{DesignOptions, design};
-use creepage::{Limited, Place, Run, Scene, SceneFile};
+use creepage::{Limited, Place, Scene, SceneFile};
 
-use super::grid::{BOTH, Given, check, designed, excess, grid, held, limits, reached, scene};
+use super::grid::{
+    BOTH, Given, check, designed, excess, grid, held, largest_of_ends, limits, reached, scene,
+};
 
 /// Limits of force and movement at both ends, `tight` times those that are not hard to keep.
 fn of_both(scene: &Scene, tight: f64) -> [Given; 4] {
@@ -62,17 +64,12 @@ fn where_only_forces_are_limited_two_springs_let_the_ends_move_least() {
     let found = designed(&scene, &BOTH, &limits)
         .answer
         .expect("free ends keep any force");
-    let moved = |run: &Run| {
-        BOTH.map(|place| reached(run, place, Limited::Movement))
-            .into_iter()
-            .fold(0.0, f64::max)
-    };
     for first in grid(&scene, BOTH[0]) {
         for second in grid(&scene, BOTH[1]) {
             let run = held(&scene, &[(BOTH[0], first), (BOTH[1], second)]);
             let keeps = excess(&run, &limits) <= 1.0;
             assert!(
-                !keeps || moved(&run) > 0.97 * found.movement_m,
+                !keeps || largest_of_ends(&run, Limited::Movement) > 0.97 * found.movement_m,
                 "{first} {second}"
             );
         }

@@ -120,6 +120,11 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
     largest(passes.chain(days))
 }
 
+/// The larger of both ends.
+pub fn largest_of_ends(run: &Run, quantity: Limited) -> f64 {
+    largest(BOTH.map(|place| reached(run, place, quantity)).into_iter())
+}
+
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most: f64, value| most.max(value.abs()))
 }
