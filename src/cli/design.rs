@@ -78,7 +78,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let limits = |Places(places): &Places| -> Result<Limits, Failure> {
         // Held somehow: what is limited there counts.
         let springs: Vec<Spring> = places.iter().map(|place| Spring::new(*place, 1.0)).collect();
-        let held = Spring::hold(&springs, &input.scene).map_err(DesignError::from)?;
+        let held = Spring::hold(&springs, &input.scene)?;
         arguments.limits.limits_beside(&held, &everywhere)
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;

@@ -36,11 +36,8 @@ impl DesignOptions<'_> {
             [_] => {}
             [one, other] if one != other => {}
             _ => {
-                return invalid(
-                    "number of places",
-                    self.places.len() as f64,
-                    "one, or two different places",
-                );
+                let count = self.places.len() as f64;
+                return invalid("number of places", count, "one, or two different places");
             }
         }
         if self.limits.all().next().is_none() {

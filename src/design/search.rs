@@ -153,12 +153,8 @@ fn kept(curve: &[TradeOff]) -> Option<[usize; 2]> {
 /// The stiffnesses from the first to the last point that is kept \[N/m\]; to infinity where the
 /// stiffest is.
 fn stiffnesses(curve: &[TradeOff], [first, last]: [usize; 2]) -> (f64, f64) {
-    let is_open = last + 1 == curve.len();
-    let to = if is_open {
-        f64::INFINITY
-    } else {
-        curve[last].stiffness()
-    };
+    let beyond = curve.get(last + 1);
+    let to = beyond.map_or(f64::INFINITY, |_| curve[last].stiffness());
     (curve[first].stiffness(), to)
 }
 

@@ -12,8 +12,7 @@ use crate::scene::si_unit;
 const MOST_CELLS: usize = 500;
 
 /// The quantity shown by a map's colour, after the last pass: force \[N\] or movement \[mm\].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 #[non_exhaustive]
 pub enum MapValue {
     /// The larger force on an end

@@ -37,7 +37,7 @@ mod duct_list;
 mod error;
 mod grid;
 mod limits;
-#[cfg(feature = "plot")]
+#[cfg(all(feature = "cli", feature = "plot"))]
 mod map;
 mod numbers;
 mod run;
@@ -53,7 +53,7 @@ pub use duct_list::read as read_rows;
 pub use error::SweepError;
 pub use grid::{SAMPLE_TOLERANCE, Sweep};
 pub use limits::PointLimits;
-#[cfg(feature = "plot")]
+#[cfg(all(feature = "cli", feature = "plot"))]
 pub use map::MapValue;
 pub use run::{Evaluate, SweepOptions, SweepSummary};
 pub use samples::Samples;

@@ -3,16 +3,17 @@
 use std::io;
 use std::path::Path;
 
-use super::columns::{AnswerColumn, AnswerValues, Row};
+use super::columns::{AnswerColumn, Row};
 use super::error::SweepError;
 use super::numbers::si;
 use crate::SceneFile;
 use crate::output::Draft;
 #[cfg(feature = "xlsx")]
-use crate::{
-    answer::si_of_field,
-    scene::si_unit,
-    workbook::{self, Book, Cell},
+use {
+    super::columns::AnswerValues,
+    crate::answer::si_of_field,
+    crate::scene::si_unit,
+    crate::workbook::{self, Book, Cell},
 };
 
 /// What names of tables end in.
@@ -98,10 +99,8 @@ fn book<'a>(
     let headings: Vec<_> = columns.iter().map(AnswerColumn::heading).collect();
     book.sheet("sweep", &headings)?;
     for row in rows {
-        book.row(
-            row.iter().zip(columns).map(|(cell, column)| column.cell(cell)),
-            false,
-        )?;
+        let cells = columns.iter().zip(row);
+        book.row(cells.map(|(column, cell)| column.cell(cell)), false)?;
     }
     workbook::scene(&mut book, scene)?;
     book.finish()
@@ -112,12 +111,10 @@ impl AnswerColumn {
     /// The name in a workbook, and the unit there.
     fn heading(&self) -> (&str, &'static str) {
         let (name, field) = (&*self.name, si_of_field(&self.name));
-        match (self.unit, field) {
-            (Some(unit), field) => (field.map_or(name, |(name, _)| name), unit.symbol()),
-            (None, field) => (
-                name,
-                si_unit(name).or(field.map(|(_, unit)| unit)).unwrap_or_default(),
-            ),
+        let si = si_unit(name).or(field.map(|(_, unit)| unit));
+        match self.unit {
+            Some(unit) => (field.map_or(name, |(name, _)| name), unit.symbol()),
+            None => (name, si.unwrap_or_default()),
         }
     }
 
