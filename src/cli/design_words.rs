@@ -16,12 +16,11 @@ type Table = (Vec<String>, Vec<Vec<String>>);
 pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     let (title, held) = (terminal::line(&best.title), places(&best.places));
-    let (what, (names, rows)) = match designs {
-        [_] => (held.clone(), curve(best, scene, units)),
-        _ => {
-            let ways = format!("{} ways to hold the cable", designs.len());
-            (ways, beside(designs, units))
-        }
+    let (what, (names, rows)) = if designs.len() > 1 {
+        let ways = format!("{} ways to hold the cable", designs.len());
+        (ways, beside(designs, units))
+    } else {
+        (held.clone(), curve(best, scene, units))
     };
     writeln!(out, "{title}: {what}, {} passes", best.passes)?;
     let mut limits: Vec<String> = Vec::new();

@@ -58,14 +58,14 @@ pub fn search<'a>(
     let rough_runs = Runs::new(&rough, ground, &places, limits, progress, pairs.len())?;
     let map = Map {
         points: rough_runs.run_all(pairs)?,
-        levels: levels.map(stiffnesses),
+        levels: levels.map(|springs| stiffnesses(&springs)),
         places,
         limits: with_duct(limits, scene),
         moves_freely: limits.all().all(|(_, quantity, _)| quantity == Limited::Force),
     };
     let progress = options.progress.part(ROUGH_SHARE, 1.0);
     let runs = Runs::new(scene, ground, &places, limits, progress, MOST_RUNS)?;
-    let trials = grid(FINE_PER_DECADE).map(stiffnesses);
+    let trials = grid(FINE_PER_DECADE).map(|springs| stiffnesses(&springs));
     let mut scale = vec![1.0; map.limits.len()];
     for count in 0..MOST_RUNS {
         let rough = map.best(&trials, &scale);
@@ -95,7 +95,7 @@ fn largest(shares: &[f64]) -> f64 {
     shares.iter().copied().fold(0.0, f64::max)
 }
 
-fn stiffnesses(springs: Vec<Spring>) -> Vec<f64> {
+fn stiffnesses(springs: &[Spring]) -> Vec<f64> {
     springs.iter().map(Spring::stiffness).collect()
 }
 

@@ -35,58 +35,63 @@ const ERROR: &str = "error";
 /// Columns of every answer, after the last pass.
 const ANSWER: [Field; 8] = [
     ("downstream_force_n", NUMBERS, |of| {
-        text(of.last.downstream_force_n)
+        Some(of.last.downstream_force_n.to_string())
     }),
-    ("upstream_force_n", NUMBERS, |of| text(of.last.upstream_force_n)),
-    ("max_compression_n", NUMBERS, |of| text(of.last.max_compression_n)),
+    ("upstream_force_n", NUMBERS, |of| {
+        Some(of.last.upstream_force_n.to_string())
+    }),
+    ("max_compression_n", NUMBERS, |of| {
+        Some(of.last.max_compression_n.to_string())
+    }),
     ("saturation_force_n", NUMBERS, |of| {
-        text(of.run.saturation?.force_n)
+        Some(of.run.saturation?.force_n.to_string())
     }),
     ("passes_to_95_percent", COUNTS, |of| {
-        text(of.run.saturation?.passes_to_95_percent)
+        Some(of.run.saturation?.passes_to_95_percent.to_string())
     }),
     ("upstream_displacement_m", NUMBERS, |of| {
-        text(of.last.upstream_displacement_m)
+        Some(of.last.upstream_displacement_m.to_string())
     }),
     ("downstream_displacement_m", NUMBERS, |of| {
-        text(of.last.downstream_displacement_m)
+        Some(of.last.downstream_displacement_m.to_string())
     }),
     ("error_estimate", NUMBERS, |of| {
-        text(of.run.error_estimate.relative)
+        Some(of.run.error_estimate.relative.to_string())
     }),
 ];
 /// Those of a cable that is heated: forces over all days, and its movement from day to day in the
 /// end, where days repeat but for that.
 const HEAT_ANSWER: [Field; 5] = [
     ("downstream_max_n", NUMBERS, |of| {
-        text(all_days(of)?.downstream_max_n)
+        Some(all_days(of)?.downstream_max_n.to_string())
     }),
     ("downstream_min_n", NUMBERS, |of| {
-        text(all_days(of)?.downstream_min_n)
+        Some(all_days(of)?.downstream_min_n.to_string())
     }),
-    ("upstream_max_n", NUMBERS, |of| text(all_days(of)?.upstream_max_n)),
-    ("upstream_min_n", NUMBERS, |of| text(all_days(of)?.upstream_min_n)),
+    ("upstream_max_n", NUMBERS, |of| {
+        Some(all_days(of)?.upstream_max_n.to_string())
+    }),
+    ("upstream_min_n", NUMBERS, |of| {
+        Some(all_days(of)?.upstream_min_n.to_string())
+    }),
     ("drift_per_day_m", NUMBERS, |of| {
-        text(of.run.heat.as_ref()?.drift_per_day_m?)
+        Some(of.run.heat.as_ref()?.drift_per_day_m?.to_string())
     }),
 ];
 /// Those of limits: whether any is exceeded, and when the first of them is.
 const LIMITS: [Field; 2] = [
     ("limit_exceeded", AnswerValues::Flags(Vec::new()), |of| {
-        text(of.verdicts.iter().any(Verdict::is_exceeded))
+        Some(of.verdicts.iter().any(Verdict::is_exceeded).to_string())
     }),
     ("limit_reached_after_years", NUMBERS, |of| {
-        let years = |verdict: &Verdict| verdict.reached_after?.years;
-        text(of.verdicts.iter().filter_map(years).min_by(f64::total_cmp)?)
+        let verdicts = of.verdicts.iter();
+        let years = verdicts.filter_map(|verdict| verdict.reached_after?.years);
+        Some(years.min_by(f64::total_cmp)?.to_string())
     }),
 ];
 
 /// The section of a scene that heats the cable.
 const HEAT: &str = "heat";
-
-fn text(value: impl ToString) -> Option<String> {
-    Some(value.to_string())
-}
 
 fn all_days<'a>(answer: &Answer<'a>) -> Option<&'a DayExtremes> {
     Some(&answer.run.heat.as_ref()?.all_days)
@@ -177,13 +182,13 @@ impl Sweep {
         let varied = self.values(index).into_iter().zip(columns);
         let varied = varied.map(|(value, column)| match column.values {
             AnswerValues::Texts(_) => Some(value),
-            _ => text(si(&value)?),
+            _ => Some(si(&value)?.to_string()),
         });
-        let sample = (self.samples.count > 0).then(|| text(index % self.samples.count));
+        let sample = (self.samples.count > 0).then(|| Some((index % self.samples.count).to_string()));
         let fields = self.fields().map(|(.., cell)| cell(&answer.ok()?));
         let status = match answer {
-            Ok(_) => [text("ok"), None],
-            Err(error) => [text("error"), text(error)],
+            Ok(_) => [Some("ok".to_owned()), None],
+            Err(error) => [Some("error".to_owned()), Some(error.to_owned())],
         };
         let cells = varied.chain(sample).chain(fields).chain(status);
         cells.map(Option::unwrap_or_default).collect()
