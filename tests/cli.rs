@@ -910,18 +910,6 @@ fn bad_sweeps_have_status_2() {
             "a STEP that leads",
         ),
         (
-            &["--out", text(&out), "--vary", "duct.deepth=1,2"],
-            "did you mean `depth`?",
-        ),
-        (
-            &["--out", text(&out), "--vary", "duct.depth=normal(1, 0.1)"],
-            "samples",
-        ),
-        (
-            &["--out", text(&out), "--vary", depth, "--samples", "5"],
-            "samples and no distribution",
-        ),
-        (
             &["--out", text(&out), "--vary", depth, "--threads", "0"],
             "--threads",
         ),
@@ -1087,7 +1075,10 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
         said.contains("kN/m at the upstream end and a spring of "),
         "{said}"
     );
-    for part in ["exceeds its limit by ", "force on the downstream end", "; try "] {
+    for part in ["times its limit of ", "force on the downstream end"] {
+        assert!(said.contains(part), "{said}");
+    }
+    for part in ["the nearest is on standard output", "; try "] {
         assert!(failed.contains(part), "{failed}");
     }
     let clamps = design(&[

@@ -11,10 +11,8 @@ mod calibrate_command;
 mod calibration;
 #[path = "cli.rs"]
 mod cli;
-#[path = "design.rs"]
+#[path = "design/main.rs"]
 mod design;
-#[path = "design_pairs/main.rs"]
-mod design_pairs;
 #[path = "discrepancy.rs"]
 mod discrepancy;
 #[path = "faulty_cells.rs"]

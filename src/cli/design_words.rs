@@ -2,28 +2,27 @@
 
 use std::io::Write;
 
-use super::design_clamps::{clamps, has, on_clamp};
 use super::failure::Failure;
 use super::terminal;
 use crate::answer::largest_movement_in_duct;
 use crate::design::{Binding, Design, Place, Side, Spring, TradeOff};
 use crate::shown::{percent, words_if};
-use crate::{Limited, Limits, Scene, Units};
+use crate::{Limited, Scene, Units};
 
-/// One design in full.
-pub fn print(design: &Design, scene: &Scene, units: &Units) -> Result<(), Failure> {
+/// The names of a table's columns, and its rows.
+type Table = (Vec<String>, Vec<Vec<String>>);
+
+/// The best of all `designs`: with its runs where it is alone, or beside the others.
+pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
-    let (title, held) = (terminal::line(&design.title), places(&design.places));
-    writeln!(out, "{title}: {held}, {} passes", design.passes)?;
-    limited(&mut out, std::slice::from_ref(design), units)?;
-    let (names, rows) = curve(&design.places, &design.limits, &design.curve, scene, units);
-    terminal::table(&mut out, &names, &rows)?;
-    writeln!(out)?;
-    conclusion(&mut out, design, units)
-}
-
-/// The limits of all designs, each once.
-fn limited(out: &mut impl Write, designs: &[Design], units: &Units) -> std::io::Result<()> {
+    let (title, held) = (terminal::line(&best.title), places(&best.places));
+    let (what, (names, rows)) = if designs.len() > 1 {
+        let ways = format!("{} ways to hold the cable", designs.len());
+        (ways, beside(designs, units))
+    } else {
+        (held.clone(), curve(best, scene, units))
+    };
+    writeln!(out, "{title}: {what}, {} passes", best.passes)?;
     let mut limits: Vec<String> = Vec::new();
     for (place, quantity, limit) in designs.iter().flat_map(|design| design.limits.all()) {
         let limit = format!("{} {}", quantity.at(place), quantity.given_in(units, limit));
@@ -31,42 +30,45 @@ fn limited(out: &mut impl Write, designs: &[Design], units: &Units) -> std::io::
             limits.push(limit);
         }
     }
-    writeln!(out, "limits: {}\n", limits.join("; "))
+    writeln!(out, "limits: {}\n", limits.join("; "))?;
+    terminal::table(&mut out, &names, &rows)?;
+    writeln!(out)?;
+    if designs.len() > 1 && best.answer.is_some() {
+        writeln!(out, "best: {held}")?;
+    }
+    conclusion(&mut out, best, units)
 }
 
-/// Several beside each other, and the best.
-pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Failure> {
-    let mut out = terminal::out();
-    let (title, ways) = (terminal::line(&best.title), all.len());
-    writeln!(
-        out,
-        "{title}: {ways} ways to hold the cable, {} passes",
-        best.passes
-    )?;
-    limited(&mut out, all, units)?;
+/// Several designs beside each other.
+fn beside(all: &[Design], units: &Units) -> Table {
     #[rustfmt::skip]
     let names = ["held by", "stiffness", "largest share of a limit", "of", "on the clamp", "within limits"];
-    let mut rows = Vec::new();
-    for design in all {
-        let Some(found) = design.found() else { continue };
+    let row = |design: &Design| {
+        let found = design.found()?;
         let springs = found.springs.iter().map(|spring| stiffness(units, spring));
-        let tightest = found.tightest(&design.limits);
-        let of = tightest.iter().map(|limit| limit.quantity.at(limit.end));
-        rows.push(vec![
+        let mut on_clamps = Vec::new();
+        for clamp in &found.clamps {
+            let mut places = design.places.iter();
+            if places.any(|place| place.is_clamp_at(clamp.position_m)) {
+                let force = Limited::Force.shown_in(units, clamp.force_n);
+                let movement = Limited::Movement.shown_in(units, clamp.movement_m);
+                on_clamps.push(format!("{force}, {movement}"));
+            }
+        }
+        if on_clamps.is_empty() {
+            on_clamps.push("–".to_owned());
+        }
+        Some(vec![
             places(&design.places),
             springs.collect::<Vec<_>>().join(" and "),
             percent(design.excess()),
-            of.collect::<Vec<_>>().join(", "),
-            on_clamp(design, found, units),
+            named(&found.tightest(&design.limits)),
+            on_clamps.join(" and "),
             within(found) + words_if(is_near(design), ", nearer than the error"),
-        ]);
-    }
-    terminal::table(&mut out, &names.map(str::to_owned), &rows)?;
-    writeln!(out)?;
-    if best.answer.is_some() {
-        writeln!(out, "best: {}", places(&best.places))?;
-    }
-    conclusion(&mut out, best, units)
+        ])
+    };
+    let rows = all.iter().filter_map(row).collect();
+    (names.map(str::to_owned).into(), rows)
 }
 
 fn places(places: &[Place]) -> String {
@@ -74,61 +76,54 @@ fn places(places: &[Place]) -> String {
         Place::Clamp(_) => place.to_string(),
         _ => format!("spring at the {place}"),
     };
-    let names: Vec<String> = places.iter().map(name).collect();
-    names.join(" and ")
+    places.iter().map(name).collect::<Vec<_>>().join(" and ")
 }
 
 /// Every run with the scene's own tolerance.
-fn curve(
-    held: &[Place],
-    limits: &Limits,
-    points: &[TradeOff],
-    scene: &Scene,
-    units: &Units,
-) -> (Vec<String>, Vec<Vec<String>>) {
-    let one = held.len() == 1;
-    let stiffness = units.stiffness.symbol();
-    let short = |place: &Place| match place {
-        Place::Clamp(position) => format!("at {position} m"),
-        end => end.end().map_or_else(String::new, |end| end.name().to_owned()),
+fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
+    let short = |place: Place| match (place, place.end()) {
+        (Place::Clamp(position), _) => format!("at {position} m"),
+        (_, end) => end.map_or_else(String::new, |end| end.name().to_owned()),
     };
-    let of_springs = held.iter().map(|place| match place {
-        _ if one => format!("stiffness, {stiffness}"),
-        place => format!("{}, {stiffness}", short(place)),
-    });
-    let clamped = held
-        .iter()
-        .copied()
-        .chain(limits.clamps.iter().map(|clamp| Place::Clamp(clamp.position_m)));
+    let symbol = units.stiffness.symbol();
+    let spring = |place: &Place| match design.places.len() {
+        1 => format!("stiffness, {symbol}"),
+        _ => format!("{}, {symbol}", short(*place)),
+    };
+    let mut names: Vec<String> = design.places.iter().map(spring).collect();
+    let limited = design.limits.clamps.iter();
+    let limited = limited.map(|clamp| Place::Clamp(clamp.position_m));
     let mut places = vec![Place::Upstream, Place::Downstream];
-    for place in clamped {
+    for place in design.places.iter().copied().chain(limited) {
         if !places.contains(&place) {
             places.push(place);
         }
     }
-    let columns: Vec<(Place, Limited)> = [Limited::Force, Limited::Movement]
-        .into_iter()
-        .flat_map(|quantity| places.iter().map(move |place| (*place, quantity)))
-        .collect();
+    let quantities = [Limited::Force, Limited::Movement];
+    let columns = quantities.map(|quantity| places.iter().map(move |place| (*place, quantity)));
+    let columns: Vec<(Place, Limited)> = columns.into_iter().flatten().collect();
     let name =
-        |(place, quantity): &(Place, Limited)| format!("{}, {}", short(place), quantity.symbol_in(units));
-    let last = std::iter::once("within limits".to_owned());
-    let names = of_springs.chain(columns.iter().map(name)).chain(last).collect();
-    let mut rows = Vec::new();
+        |(place, quantity): &(Place, Limited)| format!("{}, {}", short(*place), quantity.symbol_in(units));
+    names.extend(columns.iter().map(name));
+    names.push("within limits".to_owned());
     let most = largest_movement_in_duct(scene);
-    for point in points {
-        let value = |&(place, quantity): &(Place, Limited)| match point.value(place, quantity) {
-            _ if matches!(place, Place::Clamp(_)) && !has(point, place) => "–".to_owned(),
-            value if quantity == Limited::Movement && value > most => {
-                format!("> {}", quantity.number_in(units, most))
+    let row = |point: &TradeOff| {
+        let cell = |&(place, quantity): &(Place, Limited)| {
+            let mut clamps = point.clamps.iter();
+            let is_there = place.end().is_some() || clamps.any(|clamp| place.is_clamp_at(clamp.position_m));
+            match point.value(place, quantity) {
+                _ if !is_there => "–".to_owned(),
+                value if quantity == Limited::Movement && value > most => {
+                    format!("> {}", quantity.number_in(units, most))
+                }
+                value => quantity.number_in(units, value),
             }
-            value => quantity.number_in(units, value),
         };
         let springs = point.springs.iter().map(|spring| number(units, spring));
-        let last = std::iter::once(within(point));
-        rows.push(springs.chain(columns.iter().map(value)).chain(last).collect());
-    }
-    (names, rows)
+        let cells = springs.chain(columns.iter().map(cell));
+        cells.chain([within(point)]).collect()
+    };
+    (names, design.curve.iter().map(row).collect())
 }
 
 fn within(point: &TradeOff) -> String {
@@ -144,38 +139,50 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<()
         writeln!(out, "{}; nearest: {nearest}", none(design))?;
     }
     if let Some(answer) = &design.answer {
-        let passes = design.passes;
+        let only = format!("only in these {} passes:", design.passes);
         writeln!(out, "answer: {}", reached(design, answer, units))?;
-        for line in deciding(design, answer, units) {
-            writeln!(out, "{line}")?;
-        }
+        deciding(out, design, answer, units)?;
         if is_near(design) {
             let error = percent(answer.error_estimate);
-            writeln!(
-                out,
-                "nearer to a limit than the estimated error of {error}: repeat the search with limits smaller by that"
-            )?;
+            let near = format!("nearer to a limit than the estimated error of {error}");
+            writeln!(out, "{near}: repeat the search with limits smaller by that")?;
         }
         if answer.still_growing {
-            writeln!(
-                out,
-                "only in these {passes} passes: the forces still grow after them"
-            )?;
+            writeln!(out, "{only} the forces still grow after them")?;
         }
         for later in &answer.exceeded_later {
-            let (what, value) = (
-                later.quantity.at(later.end),
-                later.quantity.shown_in(units, later.value),
-            );
-            let limit = later.quantity.given_in(units, later.limit);
-            writeln!(
-                out,
-                "only in these {passes} passes: with more the {what} levels off at {value}, above its limit of {limit}"
-            )?;
+            let (quantity, what) = (later.quantity, later.quantity.at(later.end));
+            let value = quantity.shown_in(units, later.value);
+            let limit = quantity.given_in(units, later.limit);
+            let level = format!("levels off at {value}, above its limit of {limit}");
+            writeln!(out, "{only} with more the {what} {level}")?;
         }
     }
     clamps(out, design, units)?;
     writeln!(out, "{} runs of the scene", design.runs)?;
+    Ok(())
+}
+
+/// What each clamp comes to, whether it is limited or not.
+fn clamps(out: &mut impl Write, design: &Design, units: &Units) -> Result<(), Failure> {
+    let clamps = design.found().map_or(&[][..], |found| &found.clamps);
+    for clamp in clamps {
+        let place = Place::Clamp(clamp.position_m);
+        let force = Limited::Force.shown_in(units, clamp.force_n);
+        let movement = Limited::Movement.shown_in(units, clamp.movement_m);
+        write!(out, "{place}: force at most {force}, movement at most {movement}")?;
+        if let Some(slipped) = clamp.slipped_m.filter(|slipped| *slipped != 0.0) {
+            let slipped = Limited::Movement.shown_in(units, slipped);
+            write!(out, ", and it has slipped by {slipped}")?;
+        }
+        writeln!(out)?;
+    }
+    if !clamps.is_empty() && design.limits.clamps.is_empty() {
+        writeln!(
+            out,
+            "clamps are not limited; --limit-force clamp=FORCE limits their force, --limit-movement clamp=LENGTH their movement"
+        )?;
+    }
     Ok(())
 }
 
@@ -185,20 +192,12 @@ fn is_near(design: &Design) -> bool {
     answer.is_some_and(|answer| design.excess() * (1.0 + answer.error_estimate) > 1.0)
 }
 
-/// Which limits nothing keeps, and by how much the nearest exceeds them.
-pub fn why_none(design: &Design, units: &Units) -> String {
-    let fails = |(place, quantity, limit): (Place, Limited, f64)| {
-        let value = design.nearest.as_ref()?.value(place, quantity);
-        let (what, excess) = (quantity.at(place), quantity.shown_in(units, value - limit));
-        let share = percent(value / limit - 1.0);
-        (value > limit).then(|| format!("the {what} exceeds its limit by {excess} ({share})"))
-    };
-    let fails: Vec<String> = design.limits.all().filter_map(fails).collect();
+/// That nothing is within the limits, and what to try.
+pub fn why_none(design: &Design) -> String {
     format!(
-        "{}: at the nearest, which is on standard output, {}; try springs at both ends or a clamp (--at), a larger limit, or less load on the \
-         duct",
-        none(design),
-        fails.join(" and ")
+        "{}: the nearest is on standard output, with what it exceeds; try springs at both ends or a clamp (--at), a larger limit, or less load \
+         on the duct",
+        none(design)
     )
 }
 
@@ -213,35 +212,35 @@ fn none(design: &Design) -> String {
     }
 }
 
+fn named<'a>(limits: impl IntoIterator<Item = &'a Binding>) -> String {
+    let names = limits.into_iter().map(|limit| limit.quantity.at(limit.end));
+    names.collect::<Vec<_>>().join(", ")
+}
+
 /// Where the range of stiffness ends and why, or what leaves least room.
-fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
-    let named = |limits: &mut dyn Iterator<Item = &Binding>| {
-        let names: Vec<String> = limits.map(|limit| limit.quantity.at(limit.end)).collect();
-        names.join(", ")
-    };
-    let mut lines = Vec::new();
+fn deciding(out: &mut impl Write, design: &Design, answer: &TradeOff, units: &Units) -> Result<(), Failure> {
     if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
-        let with = |stiffness| Spring::new(spring.place, stiffness);
-        let from = stiffness(units, &with(from));
-        match to.map(|to| stiffness(units, &with(to))) {
-            None => lines.push(format!("within the limits: {from} and everything stiffer")),
-            Some(to) if to != from => lines.push(format!("within the limits: {from} to {to}")),
+        let with = |k| stiffness(units, &Spring::new(spring.place, k));
+        let from = with(from);
+        match to.map(with) {
+            None => writeln!(out, "within the limits: {from} and everything stiffer")?,
+            Some(to) if to != from => writeln!(out, "within the limits: {from} to {to}")?,
             Some(_) => {}
         }
     }
+    let by = |side| named(design.binding.iter().filter(|limit| limit.exceeded_by == side));
     for (side, name) in [(Side::Softer, "softer"), (Side::Stiffer, "stiffer")] {
-        let mut limits = design.binding.iter();
-        let exceeded = named(&mut limits.by_ref().filter(|limit| limit.exceeded_by == Some(side)));
+        let exceeded = by(Some(side));
         if !exceeded.is_empty() {
-            lines.push(format!("a {name} one exceeds: {exceeded}"));
+            writeln!(out, "a {name} one exceeds: {exceeded}")?;
         }
     }
-    let tightest = named(&mut design.binding.iter().filter(|limit| limit.exceeded_by.is_none()));
+    let tightest = by(None);
     if !tightest.is_empty() {
         let share = percent(design.excess());
-        lines.push(format!("least room: {tightest}: {share} of the limit"));
+        writeln!(out, "least room: {tightest}: {share} of the limit")?;
     }
-    lines
+    Ok(())
 }
 
 /// A stiffness without its unit, to four digits, or in a word.
@@ -264,43 +263,38 @@ fn number(units: &Units, spring: &Spring) -> String {
 
 /// The same with its unit.
 fn stiffness(units: &Units, spring: &Spring) -> String {
-    let taken = number(units, spring);
-    match spring.stiffness_n_per_m {
-        Some(value) if value > 0.0 => format!("{taken} {}", units.stiffness.symbol()),
-        _ => taken,
-    }
+    let is_number = spring.stiffness_n_per_m.is_some_and(|value| value > 0.0);
+    let unit = format!(" {}", units.stiffness.symbol());
+    number(units, spring) + words_if(is_number, &unit)
 }
 
 /// Springs, and what they make of the limits.
 fn reached(design: &Design, point: &TradeOff, units: &Units) -> String {
     let several = point.springs.len() > 1;
     let spring = |spring: &Spring| {
-        let taken = stiffness(units, spring);
         let at = match spring.place {
-            Place::Clamp(position) if several => format!(" at {position} m"),
-            place if several => format!(" at the {place}"),
-            _ => String::new(),
+            Place::Clamp(position) => format!(" at {position} m"),
+            place => format!(" at the {place}"),
         };
-        match (spring.stiffness_n_per_m, spring.place) {
-            (None | Some(0.0), _) => taken + &at,
-            (_, Place::Clamp(_)) => format!("a clamp of {taken}{at}"),
-            _ => format!("a spring of {taken}{at}"),
-        }
+        let kind = match (spring.stiffness_n_per_m, spring.place) {
+            (None | Some(0.0), _) => "",
+            (_, Place::Clamp(_)) => "a clamp of ",
+            _ => "a spring of ",
+        };
+        format!("{kind}{}{}", stiffness(units, spring), words_if(several, &at))
     };
     let springs: Vec<String> = point.springs.iter().map(spring).collect();
-    let of = |(place, quantity, limit): (Place, Limited, f64)| {
+    let mut words = vec![springs.join(" and ")];
+    for (place, quantity, limit) in design.limits.all() {
         let value = point.value(place, quantity);
         let (times, allowed) = (value / limit, quantity.given_in(units, limit));
         let exceeds = format!(", {times:.2} times its limit of {allowed}");
         let what = format!("{} {}", quantity.at(place), quantity.shown_in(units, value));
-        what + words_if(times > 1.0, &exceeds)
-    };
-    let all: Vec<String> = design.limits.all().map(of).collect();
-    let leaves = words_if(point.leaves_duct, "; the cable leaves the duct");
-    let error = percent(point.error_estimate);
-    format!(
-        "{}; {}{leaves}; estimated error {error}",
-        springs.join(" and "),
-        all.join("; ")
-    )
+        words.push(what + words_if(times > 1.0, &exceeds));
+    }
+    if point.leaves_duct {
+        words.push("the cable leaves the duct".to_owned());
+    }
+    words.push(format!("estimated error {}", percent(point.error_estimate)));
+    words.join("; ")
 }

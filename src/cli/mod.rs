@@ -5,7 +5,6 @@ mod check;
 mod completions;
 mod days;
 mod design;
-mod design_clamps;
 mod design_words;
 mod explain;
 mod failure;

@@ -10,11 +10,11 @@ use super::readings::TableArguments;
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
-use crate::shown::exact_percent;
+use crate::shown::{exact_percent, words_if};
 #[cfg(feature = "plot")]
 use crate::sweep::MapValue;
 use crate::sweep::{
-    Axis, Band, Format, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary,
+    Axis, Band, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary, ending,
 };
 
 #[derive(Debug, clap::Args)]
@@ -88,39 +88,34 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         count: arguments.samples.unwrap_or(0),
         seed: arguments.seed,
     };
-    let sweep = match rows {
+    let mut sweep = match rows {
         Some(rows) => Sweep::of_rows(file, rows, &arguments.table.0.table, samples)?,
         None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
     };
     let first = sweep.file_at(0)?;
     warn_of_slips(&first);
-    let sweep = if arguments.limits.are_given() {
+    if arguments.limits.are_given() {
         arguments.limits.warn_of_slips();
-        sweep.with_limits(arguments.limits.of_points())
-    } else {
-        sweep
-    };
+        sweep = sweep.with_limits(arguments.limits.of_points());
+    }
     let tables = sweep.files();
     let read = [Some(&*arguments.scene.file.scene), rows].into_iter().flatten();
-    let mut files = arguments
-        .force
-        .files(read.chain(tables.iter().map(PathBuf::as_path)));
-    files.output(&arguments.out, Format::of(&arguments.out)?.ending())?;
+    let read = read.chain(tables.iter().map(PathBuf::as_path));
+    let mut files = arguments.force.files(read);
+    files.output(&arguments.out, ending(&arguments.out)?)?;
     #[cfg(feature = "plot")]
-    let map = match &arguments.map {
-        Some(file) => {
-            // Whether there can be one is known before anything is computed.
-            let _ = sweep.map(&[], arguments.map_of)?;
-            Some(files.output(file, "svg")?)
-        }
-        None => None,
-    };
+    let map = arguments.map.as_ref().map(|file| -> Result<_, Failure> {
+        // Whether there can be one is known before anything is computed.
+        let _ = sweep.map(&[], arguments.map_of)?;
+        Ok(files.output(file, "svg")?)
+    });
+    #[cfg(feature = "plot")]
+    let map = map.transpose()?;
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
     let out = arguments.out.display();
-    super::signals::leaves(format!(
-        "the finished points are kept beside {out}; the same command goes on from there"
-    ));
+    let kept = format!("the finished points are kept beside {out}");
+    super::signals::leaves(format!("{kept}; the same command goes on from there"));
     let summary = watched(1.0, points, |progress| {
         let options = SweepOptions {
             force: arguments.force.force,
@@ -130,10 +125,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         sweep.run(&arguments.out, &options)
     })?;
     if let Some(error) = &summary.first_error {
-        let SweepSummary { failed, points, .. } = summary;
-        terminal::warn(format_args!(
-            "{failed} of {points} points failed, the first with: {error}"
-        ));
+        let failed = format!("{} of {count} points failed", summary.failed);
+        terminal::warn(format_args!("{failed}, the first with: {error}"));
     }
     if summary.failed == summary.points {
         return Err(Failure::Nothing);
@@ -144,50 +137,37 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
     let units = arguments.limits.units(&first);
-    arguments
-        .json
-        .print(&summary, || print(&summary, &sweep, arguments, &units))
+    let is_coarse = samples.count > 0 && !first.names("solver.tolerance");
+    let words = || print(&summary, arguments, is_coarse, &units);
+    arguments.json.print(&summary, words)
 }
 
-fn print(summary: &SweepSummary, sweep: &Sweep, arguments: &Arguments, units: &Units) -> Result<(), Failure> {
+fn print(
+    summary: &SweepSummary,
+    arguments: &Arguments,
+    is_coarse: bool,
+    units: &Units,
+) -> Result<(), Failure> {
     let mut out = terminal::out();
-    write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
-    if summary.resumed > 0 {
-        write!(out, ", {} of them done before", summary.resumed)?;
-    }
-    writeln!(out)?;
-    if sweep.has_sample_tolerance() {
+    let before = format!(", {} of them done before", summary.resumed);
+    let before = words_if(summary.resumed > 0, &before);
+    let file = arguments.out.display();
+    writeln!(out, "{file}: {} points{before}", summary.points)?;
+    if is_coarse {
         let tolerance = exact_percent(SAMPLE_TOLERANCE);
-        writeln!(
-            out,
-            "samples are computed to {tolerance}; solver.tolerance names another tolerance"
-        )?;
+        let other = "solver.tolerance names another tolerance";
+        writeln!(out, "samples are computed to {tolerance}; {other}")?;
     }
-    for band in &summary.bands {
-        bands(&mut out, band, units)?;
-    }
-    Ok(())
+    let mut all = summary.bands.iter();
+    all.try_for_each(|band| bands(&mut out, band, units))
 }
 
 fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure> {
-    let at: Vec<String> = band
-        .at
-        .iter()
-        .map(|(key, value)| format!("{key} = {value}"))
-        .collect();
-    writeln!(out, "\n{}", at.join(", "))?;
-    let force = format!("force, {}", units.force.symbol());
-    let names = [
-        &*force,
-        "mean",
-        "deviation",
-        "5 %",
-        "25 %",
-        "50 %",
-        "75 %",
-        "95 %",
-    ]
-    .map(str::to_owned);
+    let at = band.at.iter().map(|(key, value)| format!("{key} = {value}"));
+    writeln!(out, "\n{}", at.collect::<Vec<_>>().join(", "))?;
+    let names = ["mean", "deviation", "5 %", "25 %", "50 %", "75 %", "95 %"];
+    let mut names: Vec<String> = names.map(str::to_owned).into();
+    names.insert(0, format!("force, {}", units.force.symbol()));
     let forces = [
         ("downstream", band.downstream_force_n),
         ("upstream", band.upstream_force_n),
@@ -197,16 +177,15 @@ fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure
         let q: Quantiles = quantiles?;
         let values = [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95];
         let values = values.map(|force| units.force(force));
-        Some(std::iter::once(name.to_owned()).chain(values).collect())
+        Some([&[name.to_owned()][..], &values].concat())
     };
     let rows: Vec<Vec<String>> = forces.into_iter().filter_map(row).collect();
     terminal::table(out, &names, &rows)?;
     if band.failed > 0 {
-        let all = band.failed + band.samples;
+        let (failed, all) = (band.failed, band.failed + band.samples);
         writeln!(
             out,
-            "{} of {all} samples failed; the quantiles leave them out",
-            band.failed
+            "{failed} of {all} samples failed; the quantiles leave them out"
         )?;
     }
     Ok(())

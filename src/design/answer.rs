@@ -65,17 +65,13 @@ impl Design {
 /// the softest where all are clamps, which are as soft as their limits allow; else the one nearest
 /// to its limits.
 pub fn best(designs: &[Design]) -> Option<&Design> {
-    let kept: Vec<&Design> = designs.iter().filter(|design| design.answer.is_some()).collect();
-    let by_excess = |a: &&Design, b: &&Design| a.excess().total_cmp(&b.excess());
-    let stiffness = |design: &Design| design.answer.as_ref().map_or(0.0, TradeOff::stiffness);
-    let are_clamps = kept
-        .iter()
-        .all(|design| matches!(design.places[..], [Place::Clamp(_)]));
-    let best = if are_clamps {
-        kept.into_iter()
-            .min_by(|a, b| stiffness(a).total_cmp(&stiffness(b)))
-    } else {
-        kept.into_iter().min_by(by_excess)
+    let mut kept = designs.iter().filter(|design| design.answer.is_some());
+    let are_clamps = kept.all(|design| matches!(design.places[..], [Place::Clamp(_)]));
+    let rank = |design: &Design| match &design.answer {
+        Some(answer) if are_clamps => (false, answer.stiffness()),
+        answer => (answer.is_none(), design.excess()),
     };
-    best.or_else(|| designs.iter().min_by(by_excess))
+    let ranked = designs.iter().map(|design| (rank(design), design));
+    let best = ranked.min_by(|((a, x), _), ((b, y), _)| a.cmp(b).then(x.total_cmp(y)));
+    best.map(|(_, design)| design)
 }

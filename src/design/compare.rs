@@ -1,12 +1,11 @@
 //! Several ways to hold the cable beside each other, each by a run of the scene.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::error::DesignError;
-use super::runs::OneMesh;
+use super::runs::Runs;
 use super::trade_off::{Spring, TradeOff};
 use crate::ground::{Ground, road};
 use crate::{Error, Limits, Progress, Scene};
@@ -36,14 +35,11 @@ pub(crate) fn compare_over(
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
     let mut places = springs.iter().map(|spring| spring.place);
     let end = places.find(|place| place.end().is_some());
-    let mesh = OneMesh::new(scene, ground, end.as_slice(), progress)?;
-    let done = AtomicUsize::new(0);
-    let run = |spring: &Spring| {
-        let checked = spring.check(scene);
-        let answer = checked.and_then(|()| Ok(mesh.run(&[*spring], &Limits::default(), false)?));
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress.report(done as f64 / springs.len() as f64)?;
-        Ok(answer)
+    let limits = Limits::default();
+    let runs = Runs::new(scene, ground, end.as_slice(), &limits, progress, springs.len())?;
+    let run = |spring: &Spring| match runs.run(&[*spring]) {
+        Err(DesignError::Analysis(Error::Stopped)) => Err(Error::Stopped.into()),
+        answer => Ok(answer),
     };
     springs.par_iter().map(run).collect()
 }

@@ -11,7 +11,7 @@
 //! days: the force of the hottest, the movement of the coldest. Where nothing keeps the limits, the
 //! nearest is that whose worst limit is exceeded by the smallest factor.
 //!
-//! Two springs at once are looked for on a map of both stiffnesses (module `two_springs`). Of all
+//! Two springs at once are looked for on a map of both stiffnesses (module `pair_map`). Of all
 //! pairs within the limits that with the largest margin is taken: its largest share of a limit is
 //! the smallest. Where no movement is limited, it is that with which the ends move least.
 //!
@@ -26,17 +26,16 @@
 mod answer;
 pub(crate) mod compare;
 mod error;
-mod one_spring;
-mod request;
+mod options;
+mod pair_map;
 mod runs;
 mod search;
 mod trade_off;
-mod two_springs;
 
 pub use crate::{ClampLimits, Limits, Place};
 pub use answer::{Design, best};
 pub use compare::compare;
 pub use error::DesignError;
-pub use request::DesignOptions;
+pub use options::DesignOptions;
 pub use search::design;
 pub use trade_off::{Binding, ClampPeak, Side, Spring, TradeOff};

@@ -135,31 +135,35 @@ impl Spring {
                 let allowed = "a position in the duct, from 0 m to its length";
                 ("position of the clamp", position, allowed)
             }
-            Place::Upstream | Place::Downstream if stiffness >= 0.0 => return Ok(()),
-            Place::Clamp(_) if stiffness >= 0.0 && stiffness.is_finite() => return Ok(()),
+            place if stiffness >= 0.0 && (place.end().is_some() || stiffness.is_finite()) => return Ok(()),
             _ => ("stiffness", stiffness, "at least 0, and finite for a clamp"),
         };
         Err(DesignError::Invalid { name, found, allowed })
     }
 
     /// The valid scene with these springs.
-    pub(super) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, Error> {
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError`] where one has no meaning there.
+    pub(crate) fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, DesignError> {
         let mut scene = scene.clone();
         for spring in springs {
+            spring.check(&scene)?;
             let stiffness = spring.stiffness();
-            let end = match stiffness {
+            let held = match stiffness {
                 0.0 => End::Free,
                 f64::INFINITY => End::Fixed,
                 _ => End::Spring(stiffness),
             };
             match spring.place {
-                Place::Upstream => scene.ends.upstream = end,
-                Place::Downstream => scene.ends.downstream = end,
-                Place::Clamp(_) if stiffness == 0.0 => {}
+                Place::Upstream => scene.ends.upstream = held,
+                Place::Downstream => scene.ends.downstream = held,
+                Place::Clamp(_) if held == End::Free => {}
                 Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
             }
         }
-        scene.validate()?;
+        scene.validate().map_err(Error::from)?;
         Ok(scene)
     }
 }
@@ -167,10 +171,9 @@ impl Spring {
 impl TradeOff {
     /// What `run` gives for `scene` with `springs`.
     pub(crate) fn of(scene: &Scene, run: &Run, springs: &[Spring], limits: &Limits) -> Self {
-        let [upstream_force_n, downstream_force_n] =
-            CableEnd::ALL.map(|end| run.largest(end, Limited::Force));
-        let [upstream_movement_m, downstream_movement_m] =
-            CableEnd::ALL.map(|end| run.largest(end, Limited::Movement));
+        let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
+        let [upstream_force_n, downstream_force_n] = of_ends(Limited::Force);
+        let [upstream_movement_m, downstream_movement_m] = of_ends(Limited::Movement);
         let movement_m = upstream_movement_m.max(downstream_movement_m);
         let mut clamped = springs.iter().filter(|spring| spring.stiffness() > 0.0);
         let is_clamped = clamped.any(|spring| spring.place.end().is_none());
@@ -201,16 +204,15 @@ impl TradeOff {
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
-        let later = limits.verdicts(run).into_iter().filter_map(|verdict| {
-            Some(Binding {
-                end: verdict.end,
-                quantity: verdict.quantity,
-                limit: verdict.limit,
-                value: verdict.levels_off_above?,
-                exceeded_by: None,
-            })
-        });
-        point.exceeded_later = later.collect();
+        for verdict in limits.verdicts(run) {
+            let limit = (verdict.end, verdict.quantity, verdict.limit);
+            let later = verdict.levels_off_above;
+            let later = later.map(|value| Binding {
+                value,
+                ..point.binding(limit, None)
+            });
+            point.exceeded_later.extend(later);
+        }
         point.within_limits = point.excess(limits) <= 1.0;
         point
     }

@@ -5,7 +5,7 @@ use super::error::SweepError;
 use super::numbers::{number, numbers, unit};
 use crate::scene::Unit;
 
-/// Most values of one key.
+/// Most values of a range.
 const MOST_VALUES: f64 = 1e6;
 /// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
 const DIGITS: usize = 12;
@@ -20,35 +20,39 @@ pub struct Axis {
     pub values: Vec<String>,
 }
 
+/// What was found, and what is allowed in its place.
+type Refusal = (String, String);
+
 impl Axis {
     /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a
     /// [distribution](super::Distribution::parse). Numbers may have a unit: `0.6m:2m:0.2m`.
     ///
     /// # Errors
     ///
-    /// [`SweepError::Axis`] with what is allowed.
+    /// [`SweepError::Invalid`] with what is allowed.
     pub fn parse(text: &str) -> Result<Self, SweepError> {
-        let error = |found: &str, allowed: &str| SweepError::Axis {
-            text: text.to_owned(),
-            found: found.to_owned(),
-            allowed: allowed.to_owned(),
-        };
-        let (key, written) = text
-            .split_once('=')
-            .map(|(key, written)| (key.trim(), written.trim()))
-            .filter(|(key, written)| !key.is_empty() && !written.is_empty())
-            .ok_or_else(|| {
-                let allowed =
-                    "KEY=A:B:STEP, KEY=V1,V2,… or KEY=normal(MEAN, SD), with a key such as duct.depth";
-                error("no key or no value", allowed)
-            })?;
+        Self::read(text).map_err(|(found, allowed)| SweepError::Invalid {
+            argument: format!("--vary {text}: "),
+            found,
+            allowed,
+        })
+    }
+
+    fn read(text: &str) -> Result<Self, Refusal> {
+        let (key, written) = text.split_once('=').unwrap_or_default();
+        let (key, written) = (key.trim(), written.trim());
+        if key.is_empty() || written.is_empty() {
+            let allowed = "KEY=A:B:STEP, KEY=V1,V2,… or KEY=normal(MEAN, SD), with a key such as duct.depth";
+            return Err(("no key or no value".into(), allowed.into()));
+        }
+        let refused = |allowed: &str| (written.to_owned(), allowed.to_owned());
         let values = if let Some(distribution) = drawn(key, written) {
-            distribution.map_err(|allowed| error(written, allowed))?;
+            distribution.map_err(refused)?;
             vec![written.to_owned()]
         } else if let Some(range) = range(written) {
-            range.map_err(|allowed| error(written, allowed))?
+            range.map_err(refused)?
         } else {
-            list(written).map_err(|(found, allowed)| error(&found, &allowed))?
+            list(written)?
         };
         Ok(Self {
             key: key.to_owned(),
@@ -89,23 +93,14 @@ fn split(text: &str) -> Vec<&str> {
     parts
 }
 
-/// The values of V1,V2,…; the error is what was found and what is allowed.
-fn list(text: &str) -> Result<Vec<String>, (String, String)> {
+/// The values of V1,V2,….
+fn list(text: &str) -> Result<Vec<String>, Refusal> {
     let list: Vec<&str> = split(text).into_iter().map(str::trim).collect();
-    let units = || {
-        list.iter()
-            .filter_map(|value| number(value))
-            .map(|(_, unit)| unit)
-    };
-    let last = units().next_back().unwrap_or_default();
-    if list.iter().any(|value| value.is_empty()) {
+    let units = list.iter().filter_map(|value| Some(number(value)?.1));
+    let units: Vec<&str> = units.collect();
+    let last = units.last().copied().unwrap_or_default();
+    if list.contains(&"") {
         return Err(("an empty value".into(), "values between commas".into()));
-    }
-    if list.len() as f64 > MOST_VALUES {
-        return Err((
-            format!("{} values", list.len()),
-            "at most a million values".into(),
-        ));
     }
     if let ([first, second], Some(one)) = (&list[..], decimal_comma(text)) {
         let space = if last.is_empty() { " " } else { "" };
@@ -121,7 +116,7 @@ fn list(text: &str) -> Result<Vec<String>, (String, String)> {
         let range = format!("A:B:STEP for a range, such as {first}:{last}:STEP");
         return Err((one.to_owned(), range));
     }
-    if units().any(str::is_empty) && !units().all(str::is_empty) {
+    if units.contains(&"") && units.iter().any(|unit| !unit.is_empty()) {
         return Err((
             "values with a unit and without one".into(),
             format!("the unit at every value, such as {}{last}", list[0]),
@@ -145,7 +140,8 @@ fn decimal_comma(text: &str) -> Option<String> {
     like_one.then(|| format!("{whole}.{rest}"))
 }
 
-/// The values of A:B:STEP, both ends included; `None` for what does not begin so.
+/// The values of A:B:STEP, both ends included, or what is allowed; `None` for what does not begin
+/// so.
 fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
     let parts: Vec<&str> = text.split(':').collect();
     number(parts[0]).filter(|_| parts.len() > 1)?;
@@ -155,23 +151,13 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
     let Some(([first, last, step], unit)) = numbers(&parts) else {
         return Some(Err("A:B:STEP, three numbers in one unit"));
     };
-    let is_bare = |part: &str| number(part).is_some_and(|(_, unit)| unit.is_empty());
     let steps = (last - first) / step;
-    if !is_bare(parts[0]) && !is_bare(parts[1]) && is_bare(parts[2]) {
+    let is_bare = |part: &&str| number(part).is_some_and(|(_, unit)| unit.is_empty());
+    let counts = parts.iter().map(is_bare).eq([false, false, true]);
+    if !(0.0..=MOST_VALUES).contains(&steps) || counts || (steps < 1.0 - 1e-9 && first != last) {
         return Some(Err(
-            "A:B:STEP with a unit at the STEP too: it is a distance, no number of values",
+            "A:B:STEP with a STEP that leads from A to B, a distance in their unit and no number of values, to a million values at most",
         ));
-    }
-    if !steps.is_finite() || steps < 0.0 {
-        return Some(Err("a STEP that leads from A to B"));
-    }
-    if steps < 1.0 - 1e-9 && first != last {
-        return Some(Err(
-            "A:B:STEP with a STEP that is at most B - A: it is a distance, no number of values",
-        ));
-    }
-    if steps > MOST_VALUES {
-        return Some(Err("at most a million values"));
     }
     // The end counts where rounding alone keeps a step from it.
     let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
@@ -179,11 +165,8 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
         let value = first + i as f64 * step;
         let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
         // Next to the steps themselves, zero is zero.
-        let value = if rounded.abs() < 1e-9 * step.abs() {
-            0.0
-        } else {
-            rounded
-        };
+        let is_zero = rounded.abs() < 1e-9 * step.abs();
+        let value = if is_zero { 0.0 } else { rounded };
         format!("{value} {unit}").trim_end().to_owned()
     };
     Some(Ok((0..=count).map(value).collect()))

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
+use super::columns::{AnswerColumn, Row, error_of, numbers};
 use super::distribution::drawn;
 use super::grid::Sweep;
-use super::point::{Answer, Row};
 
 /// What the samples at one point of the grid say.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -47,37 +47,35 @@ pub struct Quantiles {
 
 impl Sweep {
     /// What the samples at each point of the grid say; nothing where nothing is drawn.
-    pub(super) fn bands(&self, rows: &[Row]) -> Vec<Band> {
+    pub(super) fn bands(&self, columns: &[AnswerColumn], rows: &[Row]) -> Vec<Band> {
         if self.samples.count == 0 {
             return Vec::new();
         }
         let groups = rows.chunks(self.samples.count).enumerate();
-        groups
-            .map(|(group, rows)| {
-                let listed = self.axes.iter().zip(self.given(group));
-                let listed =
-                    listed.filter(|(axis, value)| !value.is_empty() && drawn(&axis.key, value).is_none());
-                let answers: Vec<&Answer> = rows.iter().flat_map(|row| &row.outcome).collect();
-                let quantiles =
-                    |force: fn(&Answer) -> f64| quantiles(answers.iter().copied().map(force).collect());
-                Band {
-                    at: listed
-                        .map(|(axis, value)| (axis.key.clone(), value.to_owned()))
-                        .collect(),
-                    samples: answers.len(),
-                    failed: rows.len() - answers.len(),
-                    downstream_force_n: quantiles(|answer| answer.downstream_force_n),
-                    upstream_force_n: quantiles(|answer| answer.upstream_force_n),
-                    max_compression_n: quantiles(|answer| answer.max_compression_n),
-                }
-            })
-            .collect()
+        let band = |(group, rows): (usize, &[Row])| {
+            let listed = self.axes.iter().zip(self.given(group));
+            let listed =
+                listed.filter(|(axis, value)| !value.is_empty() && drawn(&axis.key, value).is_none());
+            let failed = rows.iter().filter_map(error_of).count();
+            Band {
+                at: listed
+                    .map(|(axis, value)| (axis.key.clone(), value.to_owned()))
+                    .collect(),
+                samples: rows.len() - failed,
+                failed,
+                downstream_force_n: quantiles(numbers("downstream_force_n", columns, rows)),
+                upstream_force_n: quantiles(numbers("upstream_force_n", columns, rows)),
+                max_compression_n: quantiles(numbers("max_compression_n", columns, rows)),
+            }
+        };
+        groups.map(band).collect()
     }
 }
 
 /// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50
 /// (1996) 361, type 8).
-fn quantiles(values: Vec<f64>) -> Option<Quantiles> {
+fn quantiles(values: Vec<Option<f64>>) -> Option<Quantiles> {
+    let values: Vec<f64> = values.into_iter().flatten().collect();
     if values.len() < 2 {
         return None;
     }

@@ -8,7 +8,7 @@ use super::distribution::{ID, TEXTS};
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::samples::Samples;
-use super::table::Format;
+use super::table;
 use crate::SceneFile;
 use crate::scene::Dimension;
 
@@ -51,10 +51,10 @@ impl Sweep {
 ///
 /// # Errors
 ///
-/// [`SweepError::Rows`] where there is no such table, [`SweepError::Unfit`] where the name ends
+/// [`SweepError::Rows`] where there is no such table, [`SweepError::Invalid`] where the name ends
 /// otherwise.
 pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>> {
-    Format::of(file)?;
+    table::ending(file)?;
     let table = Table::from_file(file, options, &LAYOUT)?;
     let value = |row: &Row, column: usize| -> Result<String> {
         let is_number = (LAYOUT.is_number)(&table.names[column]);

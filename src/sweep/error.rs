@@ -10,11 +10,11 @@ pub enum SweepError {
     /// The scene or a varied key is wrong at every point.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A varied key is not written as it has to be.
-    #[error("--vary {text}: found {found}; allowed: {allowed}")]
-    Axis {
-        /// As written.
-        text: String,
+    /// A varied key is not written as it has to be, or keys, samples and output do not fit together.
+    #[error("{argument}found {found}; allowed: {allowed}")]
+    Invalid {
+        /// The argument with a colon behind it; empty where it is none alone.
+        argument: String,
         /// What was found.
         found: String,
         /// What is allowed.
@@ -33,14 +33,6 @@ pub enum SweepError {
     /// The table of rows cannot be read, and why.
     #[error(transparent)]
     Rows(#[from] creepage_tables::TableError),
-    /// Keys, samples or output do not fit together.
-    #[error("found {found}; allowed: {allowed}")]
-    Unfit {
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: &'static str,
-    },
     /// What stands beside the output, in the place of rows that are done, is none of this sweep's:
     /// its name, and what it is.
     #[error("{0}: found {1}; allowed: rows of this sweep, or no such file: remove it or name another output")]
@@ -55,17 +47,22 @@ pub enum SweepError {
     /// The output cannot be written, or would replace what must not be lost.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The file of this name cannot be written or read back, and why.
-    #[error("{0}: cannot be written or read")]
-    File(String, #[source] std::io::Error),
 }
 
 impl SweepError {
+    pub(super) fn unfit(found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self::Invalid {
+            argument: String::new(),
+            found: found.into(),
+            allowed: allowed.into(),
+        }
+    }
+
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Output(error) => error.is_bad_input(),
-            Self::File(..) | Self::Busy(_) | Self::Stopped => false,
+            Self::Busy(_) | Self::Stopped => false,
             _ => true,
         }
     }

@@ -7,11 +7,11 @@ use std::path::PathBuf;
 use super::axis::Axis;
 use super::distribution::{ID, drawn};
 use super::error::SweepError;
-use super::point::PointLimits;
+use super::limits::PointLimits;
 use super::samples::Samples;
 use creepage_run::hash::fnv1a;
 
-use crate::scene::{SceneError, Wrong, did_you_mean, nearest_key};
+use crate::scene::{SceneError, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -43,12 +43,12 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value,
-    /// samples are asked without a distribution or the other way round, or there are more than a
-    /// hundred million points; [`SweepError::Cell`] where a distribution is not written as it has
-    /// to be; [`SweepError::Scene`] where a scene has no such key.
+    /// [`SweepError::Invalid`] where there is nothing to vary, a key stands twice or has no value, a
+    /// distribution is not written as it has to be, samples are asked without a distribution or the
+    /// other way round, or there are more than a hundred million points; [`SweepError::Scene`]
+    /// where a scene has no such key.
     pub fn new(file: SceneFile, axes: Vec<Axis>, samples: Samples) -> Result<Self, SweepError> {
-        Self::of(file, axes, samples, false, BTreeSet::new())?.all_drawn()
+        Self::of(file, axes, samples, false, None)
     }
 
     /// A table of ducts: a row is the scene in `file` with the values of the columns, which are
@@ -57,13 +57,13 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// As for [`Sweep::new`], and [`SweepError::Unfit`] where columns have different lengths.
+    /// As for [`Sweep::new`], and [`SweepError::Invalid`] where columns have different lengths.
     pub fn of_table(
         file: SceneFile,
         columns: Vec<(String, Vec<String>)>,
         samples: Samples,
     ) -> Result<Self, SweepError> {
-        Self::of_part(file, columns, samples, [])?.all_drawn()
+        Self::of(file, axes(columns), samples, true, None)
     }
 
     /// Some rows of a table of ducts, in which nothing needs to be drawn: `drawn` are the keys that
@@ -78,8 +78,13 @@ impl Sweep {
         samples: Samples,
         drawn: impl IntoIterator<Item = String>,
     ) -> Result<Self, SweepError> {
-        let axes = columns.into_iter().map(|(key, values)| Axis { key, values });
-        Self::of(file, axes.collect(), samples, true, drawn.into_iter().collect())
+        Self::of(
+            file,
+            axes(columns),
+            samples,
+            true,
+            Some(drawn.into_iter().collect()),
+        )
     }
 
     /// The same with limits, which every point is judged by.
@@ -94,34 +99,52 @@ impl Sweep {
         mut axes: Vec<Axis>,
         samples: Samples,
         by_row: bool,
-        drawn_keys: BTreeSet<String>,
+        drawn_elsewhere: Option<BTreeSet<String>>,
     ) -> Result<Self, SweepError> {
         draw_in_scene(&file, &mut axes, by_row);
-        let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
         if axes.iter().all(|axis| axis.key == ID) {
-            return unfit("no varied key".into(), "at least one, such as duct.depth");
+            return Err(SweepError::unfit(
+                "no varied key",
+                "at least one, such as duct.depth",
+            ));
         }
-        for (index, Axis { key, values }) in axes.iter().enumerate() {
+        let is_part = drawn_elsewhere.is_some();
+        let mut drawn_keys = drawn_elsewhere.unwrap_or_default();
+        for (index, axis) in axes.iter().enumerate() {
+            let key = &axis.key;
             if axes[..index].iter().any(|other| other.key == *key) {
-                return unfit(format!("`{key}` twice"), "every key once");
+                return Err(SweepError::unfit(format!("`{key}` twice"), "every key once"));
             }
-            if values.is_empty() {
-                return unfit(format!("`{key}` without values"), "one value or more");
+            if axis.values.is_empty() {
+                return Err(SweepError::unfit(
+                    format!("`{key}` without values"),
+                    "one value or more",
+                ));
             }
-            if by_row && values.len() != axes[0].values.len() {
-                return unfit(
-                    "columns of different lengths".into(),
-                    "a value a row, which may be empty",
-                );
+            if by_row && axis.values.len() != axes[0].values.len() {
+                let allowed = "a value a row, which may be empty";
+                return Err(SweepError::unfit("columns of different lengths", allowed));
+            }
+            if is_drawn(axis)? {
+                drawn_keys.insert(key.clone());
+                if samples.count == 0 {
+                    let found = format!("`{key}` with a distribution and no samples");
+                    return Err(SweepError::unfit(found, "a number of samples with it"));
+                }
             }
         }
-        let factors = axes.iter().map(|axis| axis.values.len());
-        let groups = factors.take(if by_row { 1 } else { axes.len() });
-        let groups = groups.fold(1, usize::saturating_mul);
+        if samples.count > 0 && drawn_keys.is_empty() && !is_part {
+            let allowed = "a distribution with them, as a value of a key or in the scene";
+            return Err(SweepError::unfit("samples and no distribution", allowed));
+        }
+        let factors = axes[..if by_row { 1 } else { axes.len() }].iter();
+        let groups = factors.fold(1, |product: usize, axis| {
+            product.saturating_mul(axis.values.len())
+        });
         if groups.saturating_mul(samples.count.max(1)) > MOST_POINTS {
-            return unfit("too many points".into(), "at most a hundred million");
+            return Err(SweepError::unfit("too many points", "at most a hundred million"));
         }
-        let mut sweep = Self {
+        let sweep = Self {
             file,
             axes,
             samples,
@@ -131,7 +154,6 @@ impl Sweep {
             limits: None,
         };
         sweep.check_keys()?;
-        sweep.check_values()?;
         Ok(sweep)
     }
 
@@ -141,77 +163,31 @@ impl Sweep {
         let groups: BTreeSet<usize> = self.axes.iter().filter_map(given).collect();
         for group in groups {
             let index = if self.by_row { group } else { 0 } * self.samples.count.max(1);
-            if let Err(SceneError::Wrong(wrong)) = self.scene(index)
-                && wrong.is_unknown
-            {
-                let column = self.unknown_column(&wrong);
-                return Err(column.unwrap_or(SceneError::Wrong(wrong).into()));
+            let Err(SceneError::Wrong(wrong)) = self.scene(index) else {
+                continue;
+            };
+            if !wrong.is_unknown {
+                continue;
             }
+            let inside = format!("{}.", wrong.key);
+            let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
+            let column = self.axes.iter().find(is_meant).filter(|_| self.by_row);
+            return Err(
+                column.map_or(SceneError::Wrong(wrong).into(), |Axis { key, .. }| {
+                    let meant = did_you_mean(nearest_key(key).as_deref());
+                    SweepError::unfit(
+                        format!("the column `{key}`, which is no key{meant}"),
+                        "keys of the scene, which `creepage explain` lists, and `id`",
+                    )
+                }),
+            );
         }
         Ok(())
-    }
-
-    /// The error of the column of a table whose name is no key, if `wrong` is of it.
-    fn unknown_column(&self, wrong: &Wrong) -> Option<SweepError> {
-        let inside = format!("{}.", wrong.key);
-        let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
-        let is_unknown = self.by_row && wrong.is_unknown;
-        let Axis { key, .. } = self.axes.iter().find(is_meant).filter(|_| is_unknown)?;
-        let meant = did_you_mean(nearest_key(key).as_deref());
-        Some(SweepError::Unfit {
-            found: format!("the column `{key}`, which is no key{meant}"),
-            allowed: "keys of the scene, which `creepage explain` lists, and `id`",
-        })
-    }
-
-    /// Refuses a distribution that is none, or that nobody draws from, and remembers the keys that
-    /// are drawn.
-    fn check_values(&mut self) -> Result<(), SweepError> {
-        for Axis { key, values } in &self.axes {
-            for value in values {
-                let Some(distribution) = drawn(key, value) else {
-                    continue;
-                };
-                if let Err(allowed) = distribution {
-                    return Err(SweepError::Cell {
-                        key: key.clone(),
-                        found: value.clone(),
-                        allowed,
-                    });
-                }
-                if self.samples.count == 0 {
-                    return Err(SweepError::Unfit {
-                        found: format!("`{key}` with a distribution and no samples"),
-                        allowed: "a number of samples with it",
-                    });
-                }
-                if !self.drawn_keys.contains(key) {
-                    self.drawn_keys.insert(key.clone());
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Refuses samples of which nothing is drawn.
-    fn all_drawn(self) -> Result<Self, SweepError> {
-        if self.samples.count == 0 || !self.drawn_keys.is_empty() {
-            return Ok(self);
-        }
-        Err(SweepError::Unfit {
-            found: "samples and no distribution".into(),
-            allowed: "a distribution with them, as a value of a key or in the scene",
-        })
     }
 
     /// How many points there are, samples included.
     pub fn count(&self) -> usize {
         self.groups * self.samples.count.max(1)
-    }
-
-    /// The varied keys.
-    pub fn axes(&self) -> &[Axis] {
-        &self.axes
     }
 
     /// The keys that are drawn, here or in the parts that [`Sweep::of_part`] was told of.
@@ -267,13 +243,6 @@ impl Sweep {
         Ok(scene)
     }
 
-    /// Whether its points are samples to [`SAMPLE_TOLERANCE`], as neither the scene nor an axis
-    /// names `solver.tolerance`.
-    pub fn has_sample_tolerance(&self) -> bool {
-        let is_varied = self.axes.iter().any(|axis| axis.key == TOLERANCE);
-        self.samples.count > 0 && !is_varied && !self.file.names(TOLERANCE)
-    }
-
     /// The scene file of a point.
     ///
     /// # Errors
@@ -288,15 +257,15 @@ impl Sweep {
 
     /// The files that its scenes read beside their own: tables of axle loads.
     pub fn files(&self) -> BTreeSet<PathBuf> {
-        let axes = self.axes.iter();
-        let named = axes.filter(|axis| matches!(&*axis.key, "traffic" | "traffic.histogram"));
-        let values: BTreeSet<String> = named
-            .flat_map(|axis| axis.values.iter().map(|value| format!("{}={value}", axis.key)))
-            .collect();
-        let of_values = values
-            .iter()
-            .filter_map(|value| self.file.with(&[value]).ok()?.histogram());
-        self.file.histogram().into_iter().chain(of_values).collect()
+        let mut files = BTreeSet::from_iter(self.file.histogram());
+        let named = |axis: &&Axis| matches!(&*axis.key, "traffic" | "traffic.histogram");
+        for Axis { key, values } in self.axes.iter().filter(named) {
+            for value in BTreeSet::from_iter(values) {
+                let file = self.file.with(&[format!("{key}={value}")]);
+                files.extend(file.ok().and_then(|file| file.histogram()));
+            }
+        }
+        files
     }
 
     /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in
@@ -307,25 +276,38 @@ impl Sweep {
         let scene: Vec<_> = typed.map(|typed| (typed.key, typed.text)).collect();
         let files = self.files().into_iter();
         let files: Vec<_> = files.map(|file| std::fs::read(file).ok()).collect();
-        let Self {
-            axes,
-            samples,
-            by_row,
-            limits,
-            ..
-        } = self;
-        let text = format!("{version}\0{scene:?}\0{axes:?}\0{samples:?}\0{by_row}\0{files:?}\0{limits:?}");
+        let rest = (&self.axes, &self.samples, &self.by_row, &self.limits);
+        let text = format!("{version}\0{scene:?}\0{files:?}\0{rest:?}");
         fnv1a(text.into_bytes())
     }
+}
+
+fn axes(columns: Vec<(String, Vec<String>)>) -> Vec<Axis> {
+    let axis = |(key, values)| Axis { key, values };
+    columns.into_iter().map(axis).collect()
+}
+
+/// Whether any of its values is a distribution; refuses one that is none.
+fn is_drawn(Axis { key, values }: &Axis) -> Result<bool, SweepError> {
+    let mut is_drawn = false;
+    for value in values {
+        if let Some(distribution) = drawn(key, value) {
+            distribution.map_err(|allowed| SweepError::Cell {
+                key: key.clone(),
+                found: value.clone(),
+                allowed,
+            })?;
+            is_drawn = true;
+        }
+    }
+    Ok(is_drawn)
 }
 
 /// Adds the keys at which the scene has a distribution: it is drawn in rows that have no value of
 /// their own, neither of the key nor of a section around it.
 fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
-    let rows = axes
-        .first()
-        .filter(|_| by_row)
-        .map_or(1, |axis| axis.values.len());
+    let rows = axes.first().filter(|_| by_row);
+    let rows = rows.map_or(1, |axis| axis.values.len());
     for typed in file.typed() {
         let (key, text) = (typed.key, typed.text);
         if drawn(&key, &text).is_none() {

@@ -4,11 +4,10 @@
 //! changing fastest. Keys may also be drawn from a distribution: then every point of the grid is
 //! computed with the same samples, and the forces have quantiles ([`Band`]).
 //!
-//! All cores work, each on one point. The rows stand in the order of the grid, in a file beside the
-//! output until the last is done, so that a sweep that was interrupted or killed goes on behind
-//! them and ends with the same file, byte for byte. A point that fails is a row with its error.
-//! What was computed behind a point that still goes on is lost with it. Memory: about 200 bytes a
-//! point.
+//! All cores work, each on one point. Finished rows stand in a file beside the output until the last
+//! is done, so that a sweep that was interrupted or killed goes on with the others and ends with the
+//! same file, byte for byte, its rows in the order of the grid. A point that fails is a row with its
+//! error. Memory: about 400 bytes a point.
 //!
 //! In place of a grid a sweep may have rows ([`Sweep::of_rows`], [`Sweep::of_table`]): a table of
 //! ducts, each with its own values, of which any part can be computed anywhere.
@@ -37,11 +36,10 @@ mod distribution;
 mod duct_list;
 mod error;
 mod grid;
-mod known_ground;
-#[cfg(feature = "plot")]
+mod limits;
+#[cfg(all(feature = "cli", feature = "plot"))]
 mod map;
 mod numbers;
-mod point;
 mod run;
 mod samples;
 mod table;
@@ -54,10 +52,10 @@ pub use distribution::Distribution;
 pub use duct_list::read as read_rows;
 pub use error::SweepError;
 pub use grid::{SAMPLE_TOLERANCE, Sweep};
-#[cfg(feature = "plot")]
+pub use limits::PointLimits;
+#[cfg(all(feature = "cli", feature = "plot"))]
 pub use map::MapValue;
-pub use point::{Answer, HeatAnswer, PointLimits, Row};
 pub use run::{Evaluate, SweepOptions, SweepSummary};
 pub use samples::Samples;
 #[cfg(feature = "cli")]
-pub(crate) use table::Format;
+pub(crate) use table::ending;

@@ -22,18 +22,12 @@ pub fn unit(text: &str) -> Option<Unit> {
 
 /// Numbers and the one unit that all of them have, or all but none.
 pub fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
-    let texts: [&str; N] = texts.try_into().ok()?;
-    let mut unit = "";
-    let mut values = [0.0; N];
-    for (value, text) in values.iter_mut().zip(texts) {
-        let (number, written) = number(text)?;
-        if !unit.is_empty() && !written.is_empty() && unit != written {
-            return None;
-        }
-        unit = if written.is_empty() { unit } else { written };
-        *value = number;
-    }
-    Some((values, unit.to_owned()))
+    let read: Option<Vec<(f64, &str)>> = texts.iter().map(|text| number(text)).collect();
+    let (values, units): (Vec<f64>, Vec<&str>) = read?.into_iter().unzip();
+    let unit = units.iter().find(|unit| !unit.is_empty());
+    let unit = unit.copied().unwrap_or_default();
+    let is_one = units.iter().all(|own| own.is_empty() || *own == unit);
+    Some((values.try_into().ok().filter(|_| is_one)?, unit.to_owned()))
 }
 
 #[cfg(test)]

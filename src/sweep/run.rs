@@ -1,15 +1,15 @@
 //! All points of a sweep, and their table in memory or in a file.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::bands::Band;
-use super::columns::AnswerColumn;
+use super::columns::{AnswerColumn, Row, error_of};
 use super::error::SweepError;
 use super::grid::Sweep;
-use super::point::Row;
-use super::table::Format;
+use super::table;
 use super::unfinished::Unfinished;
 use crate::output::Files;
 use crate::{Error, Progress, Run, Scene};
@@ -45,7 +45,7 @@ pub struct SweepSummary {
     pub bands: Vec<Band>,
     /// All points, in the order of the grid.
     #[serde(skip)]
-    pub rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
 }
 
 impl Sweep {
@@ -70,12 +70,16 @@ impl Sweep {
     /// table.
     pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
         let mut columns = self.columns();
-        self.compute(0, options, &mut |row| {
-            let cells = self.cells(&row, &columns);
-            let both = columns.iter_mut().zip(&cells);
-            both.for_each(|(column, cell)| column.push(cell));
+        let mut rows = BTreeMap::new();
+        let points: Vec<usize> = (0..self.count()).collect();
+        self.compute(&points, &columns, options, |point, row| {
+            rows.insert(point, row);
             Ok(())
         })?;
+        for row in rows.values() {
+            let cells = columns.iter_mut().zip(row);
+            cells.for_each(|(column, cell)| column.push(cell));
+        }
         Ok(columns)
     }
 
@@ -91,35 +95,29 @@ impl Sweep {
     /// [`SweepError`] when the output cannot be written, or what stands beside it is no part of
     /// this sweep. What fails at a point is a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
-        let format = Format::of(output)?;
-        if self.count() > format.most_rows() {
-            return Err(SweepError::Unfit {
-                found: format!("{} points for {}", self.count(), output.display()),
-                allowed: "at most 1048574, as many as Excel has rows; more in .csv",
-            });
-        }
-        let output = Files::reading([], options.force).output(output, format.ending())?;
+        let ending = table::ending(output)?;
+        table::check_count(self.count(), output)?;
+        let output = Files::reading([], options.force).output(output, ending)?;
         let columns = self.columns();
         let mut unfinished = Unfinished::open(output.path(), self, &columns)?;
         let resumed = unfinished.rows.len();
-        self.compute(resumed, options, &mut |row| {
-            let cells = self.cells(&row, &columns);
-            unfinished.keep(row, &cells)
+        let is_missing = |point: &usize| !unfinished.rows.contains_key(point);
+        let points: Vec<usize> = (0..self.count()).filter(is_missing).collect();
+        self.compute(&points, &columns, options, |point, row| {
+            unfinished.keep(point, row)
         })?;
-        let rows = unfinished.rows.iter();
-        let table = rows.map(|row| self.cells(row, &columns));
-        let failed = |source| SweepError::File(output.path().display().to_string(), source);
         // It comes into its place when it is whole.
-        let draft = format.write(output.begin()?, &columns, &self.file, table);
-        draft.map_err(failed)?.finish()?;
+        let rows = unfinished.rows.values();
+        let draft = table::write(output.begin()?, ending, &columns, &self.file, rows);
+        draft.map_err(|source| output.failed(source))?.finish()?;
         let rows = unfinished.remove()?;
-        let errors = || rows.iter().filter_map(|row| row.outcome.as_ref().err());
+        let errors = || rows.iter().filter_map(error_of);
         Ok(SweepSummary {
             points: rows.len(),
             resumed,
             failed: errors().count(),
-            first_error: errors().next().cloned(),
-            bands: self.bands(&rows),
+            first_error: errors().next().map(str::to_owned),
+            bands: self.bands(&columns, &rows),
             rows,
         })
     }

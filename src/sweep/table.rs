@@ -3,142 +3,133 @@
 use std::io;
 use std::path::Path;
 
-use serde_json::Value;
-
-use super::columns::AnswerColumn;
+use super::columns::{AnswerColumn, Row};
 use super::error::SweepError;
 use super::numbers::si;
 use crate::SceneFile;
 use crate::output::Draft;
 #[cfg(feature = "xlsx")]
-use crate::workbook::{self, Book, Cell};
+use {
+    super::columns::AnswerValues,
+    crate::answer::si_of_field,
+    crate::scene::si_unit,
+    crate::workbook::{self, Book, Cell},
+};
 
-/// Kind of the table file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    Csv,
-    #[cfg(feature = "xlsx")]
-    Xlsx,
-}
-
-/// Formats of this program, by the endings of their names.
+/// What names of tables end in.
+const ENDINGS: &[&str] = if cfg!(feature = "xlsx") {
+    &["csv", XLSX]
+} else {
+    &["csv"]
+};
+/// The same in words.
 const ALLOWED: &str = if cfg!(feature = "xlsx") {
     "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of creepage.sweep"
 } else {
     "a file that ends in .csv: this program was built without workbooks"
 };
+const XLSX: &str = "xlsx";
+/// Most rows of a workbook's table: a sheet has two more, for the names and the units of its columns.
+const MOST_ROWS: usize = 1_048_574;
 
-impl Format {
-    /// The format that the file's name asks for.
-    pub fn of(file: &Path) -> Result<Self, SweepError> {
-        let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
-        match extension.to_str() {
-            Some("csv") => Ok(Self::Csv),
-            #[cfg(feature = "xlsx")]
-            Some("xlsx") => Ok(Self::Xlsx),
-            _ => Err(SweepError::Unfit {
-                found: format!("the table {}", file.display()),
-                allowed: ALLOWED,
-            }),
-        }
-    }
-
-    /// What the names of its files end in.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            #[cfg(feature = "xlsx")]
-            Self::Xlsx => "xlsx",
-        }
-    }
-
-    /// Most rows that a table of this format holds: a sheet has two more, for the names and the
-    /// units of its columns.
-    pub fn most_rows(self) -> usize {
-        match self {
-            Self::Csv => usize::MAX,
-            #[cfg(feature = "xlsx")]
-            Self::Xlsx => 1_048_574,
-        }
-    }
-
-    /// Writes the table, and of a workbook also the `scene`, to `draft`.
-    #[cfg_attr(
-        not(feature = "xlsx"),
-        allow(unused_variables, reason = "only a workbook holds the scene")
-    )]
-    pub fn write(
-        self,
-        draft: Draft,
-        columns: &[AnswerColumn],
-        scene: &SceneFile,
-        mut rows: impl Iterator<Item = Vec<Value>>,
-    ) -> io::Result<Draft> {
-        match self {
-            Self::Csv => {
-                let mut writer = csv::Writer::from_writer(draft);
-                writer.write_record(columns.iter().map(|column| &column.name))?;
-                rows.try_for_each(|cells| writer.write_record(texts(&cells)))?;
-                let draft = writer.into_inner();
-                draft.map_err(|error| io::Error::other(error.to_string()))
-            }
-            #[cfg(feature = "xlsx")]
-            Self::Xlsx => write_book(draft, columns, scene, rows),
-        }
-    }
+/// What the name of a `table` ends in, which is its format.
+pub fn ending(table: &Path) -> Result<&'static str, SweepError> {
+    let extension = table.extension().unwrap_or_default().to_ascii_lowercase();
+    let known = ENDINGS.iter().find(|known| extension == **known);
+    known
+        .copied()
+        .ok_or_else(|| SweepError::unfit(format!("the table {}", table.display()), ALLOWED))
 }
 
-/// Cells as texts.
-pub fn texts(cells: &[Value]) -> impl Iterator<Item = String> {
-    cells.iter().map(|cell| match cell {
-        Value::String(text) => harmless(text),
-        Value::Number(number) if number.is_f64() => number.as_f64().unwrap_or_default().to_string(),
-        Value::Number(count) => count.to_string(),
-        Value::Bool(flag) => flag.to_string(),
-        _ => String::new(),
-    })
+/// Refuses more rows than the `table` can hold.
+pub fn check_count(rows: usize, table: &Path) -> Result<(), SweepError> {
+    if ending(table)? != XLSX || rows <= MOST_ROWS {
+        return Ok(());
+    }
+    Err(SweepError::unfit(
+        format!("{rows} points for {}", table.display()),
+        format!("at most {MOST_ROWS}, as many as Excel has rows; more in .csv"),
+    ))
+}
+
+/// Writes the table, and into a workbook also the `scene`, to `draft`.
+#[cfg_attr(
+    not(feature = "xlsx"),
+    allow(unused_variables, reason = "only a workbook holds the scene")
+)]
+pub fn write<'a>(
+    draft: Draft,
+    ending: &str,
+    columns: &[AnswerColumn],
+    scene: &SceneFile,
+    rows: impl Iterator<Item = &'a Row>,
+) -> io::Result<Draft> {
+    #[cfg(feature = "xlsx")]
+    if ending == XLSX {
+        let mut draft = draft;
+        let book = book(columns, scene, rows).map_err(io::Error::other)?;
+        io::Write::write_all(&mut draft, &book)?;
+        return Ok(draft);
+    }
+    let mut writer = csv::Writer::from_writer(draft);
+    writer.write_record(columns.iter().map(|column| &column.name))?;
+    for row in rows {
+        writer.write_record(row.iter().map(harmless))?;
+    }
+    let draft = writer.into_inner();
+    draft.map_err(|error| io::Error::other(error.to_string()))
 }
 
 /// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one,
 /// unless it is a number.
 fn harmless(text: &str) -> String {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none() {
-        format!("'{text}")
-    } else {
-        text.to_owned()
-    }
+    let begins_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none();
+    let apostrophe = if begins_formula { "'" } else { "" };
+    format!("{apostrophe}{text}")
 }
 
 #[cfg(feature = "xlsx")]
-fn write_book(
-    mut draft: Draft,
+fn book<'a>(
     columns: &[AnswerColumn],
     scene: &SceneFile,
-    rows: impl Iterator<Item = Vec<Value>>,
-) -> io::Result<Draft> {
-    let fill = || {
-        let title = scene.scene().map_or(String::new(), |scene| scene.title);
-        let mut book = Book::new(&title)?;
-        let headings = columns
-            .iter()
-            .map(|column| (&*column.heading.0, column.heading.1));
-        book.sheet("sweep", &headings.collect::<Vec<_>>())?;
-        for cells in rows {
-            let cells = cells.into_iter().zip(columns).map(|(cell, column)| match cell {
-                Value::String(text) => Cell::Text(text),
-                Value::Bool(flag) => Cell::Text(if flag { "yes" } else { "no" }.to_owned()),
-                cell => cell.as_f64().map_or(Cell::Absent, |si| {
-                    Cell::Number(column.unit.map_or(si, |unit| unit.of_si(si)))
-                }),
-            });
-            book.row(cells, false)?;
+    rows: impl Iterator<Item = &'a Row>,
+) -> Result<Vec<u8>, rust_xlsxwriter::XlsxError> {
+    let title = scene.scene().map_or(String::new(), |scene| scene.title);
+    let mut book = Book::new(&title)?;
+    let headings: Vec<_> = columns.iter().map(AnswerColumn::heading).collect();
+    book.sheet("sweep", &headings)?;
+    for row in rows {
+        let cells = columns.iter().zip(row);
+        book.row(cells.map(|(column, cell)| column.cell(cell)), false)?;
+    }
+    workbook::scene(&mut book, scene)?;
+    book.finish()
+}
+
+#[cfg(feature = "xlsx")]
+impl AnswerColumn {
+    /// The name in a workbook, and the unit there.
+    fn heading(&self) -> (&str, &'static str) {
+        let (name, field) = (&*self.name, si_of_field(&self.name));
+        let si = si_unit(name).or(field.map(|(_, unit)| unit));
+        match self.unit {
+            Some(unit) => (field.map_or(name, |(name, _)| name), unit.symbol()),
+            None => (name, si.unwrap_or_default()),
         }
-        workbook::scene(&mut book, scene)?;
-        book.finish()
-    };
-    let bytes = fill().map_err(|error: rust_xlsxwriter::XlsxError| io::Error::other(error))?;
-    io::Write::write_all(&mut draft, &bytes)?;
-    Ok(draft)
+    }
+
+    /// The cell of a workbook, in the unit of the column.
+    fn cell(&self, cell: &str) -> Cell {
+        let number = |si: f64| self.unit.map_or(si, |unit| unit.of_si(si));
+        match (&self.values, cell) {
+            (_, "") => Cell::Absent,
+            (AnswerValues::Texts(_), text) => Cell::Text(text.to_owned()),
+            (AnswerValues::Flags(_), flag) => {
+                Cell::Text(if flag == "true" { "yes" } else { "no" }.to_owned())
+            }
+            (_, si) => si.parse().map_or(Cell::Absent, |si| Cell::Number(number(si))),
+        }
+    }
 }
 
 #[cfg(test)]

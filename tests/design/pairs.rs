@@ -1,9 +1,11 @@
 //! Two springs, or a spring and a clamp.
 
 use creepage::design::{DesignOptions, design};
-use creepage::{Limited, Place, Run, Scene, SceneFile};
+use creepage::{Limited, Place, Scene, SceneFile};
 
-use super::grid::{BOTH, Given, check, designed, excess, grid, held, limits, reached, scene};
+use super::grid::{
+    BOTH, Given, check, designed, excess, grid, held, largest_of_ends, limits, reached, scene,
+};
 
 /// Limits of force and movement at both ends, `tight` times those that are not hard to keep.
 fn of_both(scene: &Scene, tight: f64) -> [Given; 4] {
@@ -62,17 +64,12 @@ fn where_only_forces_are_limited_two_springs_let_the_ends_move_least() {
     let found = designed(&scene, &BOTH, &limits)
         .answer
         .expect("free ends keep any force");
-    let moved = |run: &Run| {
-        BOTH.map(|place| reached(run, place, Limited::Movement))
-            .into_iter()
-            .fold(0.0, f64::max)
-    };
     for first in grid(&scene, BOTH[0]) {
         for second in grid(&scene, BOTH[1]) {
             let run = held(&scene, &[(BOTH[0], first), (BOTH[1], second)]);
             let keeps = excess(&run, &limits) <= 1.0;
             assert!(
-                !keeps || moved(&run) > 0.97 * found.movement_m,
+                !keeps || largest_of_ends(&run, Limited::Movement) > 0.97 * found.movement_m,
                 "{first} {second}"
             );
         }
@@ -132,16 +129,28 @@ fn springs_that_hardly_keep_the_limits_are_found() {
 #[test]
 fn limits_and_places_that_have_no_meaning_are_refused() {
     let scene = scene(&[]);
-    let end = (Place::Downstream, Limited::Force, 100.0);
+    let force = |limit| (Place::Downstream, Limited::Force, limit);
+    let movement = |limit| (Place::Downstream, Limited::Movement, limit);
+    let clamp = |limit| (Place::Clamp(3.0), Limited::Force, limit);
     for (places, all) in [
         (&BOTH[..], &[][..]),
-        (&[Place::Upstream, Place::Upstream], &[end]),
-        (&[Place::Upstream, Place::Clamp(16.0)], &[end]),
-        (&[Place::Upstream], &[(Place::Clamp(3.0), Limited::Force, 1.0)]),
-        (&[Place::Clamp(3.0)], &[(Place::Clamp(3.0), Limited::Force, -1.0)]),
+        (&BOTH[..1], &[]),
+        (&[], &[force(100.0)]),
+        (&[BOTH[0], BOTH[0]], &[force(100.0)]),
+        (&[BOTH[0], Place::Clamp(16.0)], &[force(100.0)]),
+        (&[BOTH[0], BOTH[1], Place::Clamp(3.0)], &[force(100.0)]),
+        (&[Place::Clamp(15.5)], &[force(1.0)]),
+        (&[Place::Clamp(f64::NAN)], &[force(1.0)]),
+        (&BOTH[..1], &[clamp(1.0)]),
+        (&[Place::Clamp(3.0)], &[clamp(-1.0)]),
+        (&BOTH[1..], &[force(0.0)]),
+        (&BOTH[1..], &[force(f64::NAN)]),
+        (&BOTH[..1], &[force(f64::INFINITY)]),
+        (&BOTH[1..], &[force(1.0), movement(-1.0)]),
+        (&BOTH[1..], &[force(1.0), movement(f64::NAN)]),
     ] {
-        let mut options = DesignOptions::new(places[0], limits(all));
-        options.second = places.get(1).copied();
+        let mut options = DesignOptions::new(BOTH[0], limits(all));
+        options.places = places.to_vec();
         let refused = design(&scene, &options);
         assert!(
             refused.is_err_and(|error| error.is_bad_input()),

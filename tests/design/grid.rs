@@ -44,7 +44,7 @@ pub fn limits(all: &[Given]) -> Limits {
 
 pub fn designed(scene: &Scene, places: &[Place], all: &[Given]) -> Design {
     let mut options = DesignOptions::new(places[0], limits(all));
-    options.second = places.get(1).copied();
+    options.places = places.to_vec();
     design(scene, &options).unwrap_or_else(|error| panic!("{places:?}, {all:?}: {error}"))
 }
 
@@ -71,86 +71,62 @@ pub fn held(scene: &Scene, springs: &[(Place, f64)]) -> Run {
 
 /// What `run` has at a place, from its tables and not by what the search calls.
 pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
-    let most =
-        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
-    let days = || run.heat.iter().map(|heat| &heat.all_days);
-    // What an end's spring moves by per force, as the last pass leaves it; of a free or fixed end nothing.
-    let per_force = |of: fn(&PassRecord) -> (f64, f64)| {
-        run.passes.last().map(of).map_or(
-            0.0,
-            |(moved, force)| if force == 0.0 { 0.0 } else { moved / force },
-        )
-    };
-    match (place, quantity) {
-        (Place::Upstream, Limited::Force) => most(
-            &mut run
-                .passes
-                .iter()
-                .flat_map(|pass| [pass.upstream_force_n, pass.upstream_peak_n, pass.upstream_least_n])
-                .chain(days().flat_map(|day| [day.upstream_max_n, day.upstream_min_n])),
-        ),
-        (Place::Downstream, Limited::Force) => most(
-            &mut run
-                .passes
-                .iter()
-                .flat_map(|pass| {
-                    [
-                        pass.downstream_force_n,
-                        pass.downstream_peak_n,
-                        pass.downstream_least_n,
-                    ]
-                })
-                .chain(days().flat_map(|day| [day.downstream_max_n, day.downstream_min_n])),
-        ),
-        (Place::Upstream, Limited::Movement) => most(
-            &mut run
-                .passes
-                .iter()
-                .flat_map(|pass| {
-                    [
-                        pass.upstream_displacement_m,
-                        pass.upstream_peak_n
-                            * per_force(|last| (last.upstream_displacement_m, last.upstream_force_n)),
-                        pass.upstream_least_n
-                            * per_force(|last| (last.upstream_displacement_m, last.upstream_force_n)),
-                    ]
-                })
-                .chain(
-                    days().flat_map(|day| [day.upstream_displacement_max_m, day.upstream_displacement_min_m]),
-                ),
-        ),
-        (Place::Downstream, Limited::Movement) => most(
-            &mut run
-                .passes
-                .iter()
-                .flat_map(|pass| {
-                    [
-                        pass.downstream_displacement_m,
-                        pass.downstream_peak_n
-                            * per_force(|last| (last.downstream_displacement_m, last.downstream_force_n)),
-                        pass.downstream_least_n
-                            * per_force(|last| (last.downstream_displacement_m, last.downstream_force_n)),
-                    ]
-                })
-                .chain(days().flat_map(|day| {
-                    [
-                        day.downstream_displacement_max_m,
-                        day.downstream_displacement_min_m,
-                    ]
-                })),
-        ),
-        (Place::Clamp(position), _) => {
-            let mut clamps = run.restraints.iter();
-            let clamp = clamps.find(|clamp| clamp.position_m == position);
-            clamp.map_or(0.0, |clamp| {
-                let force = most(&mut clamp.during_passes_n.iter().copied());
-                match quantity {
-                    Limited::Force => force,
-                    Limited::Movement => force / clamp.stiffness_n_per_m,
-                }
-            })
-        }
+    if let Place::Clamp(position) = place {
+        let mut clamps = run.restraints.iter();
+        let Some(clamp) = clamps.find(|clamp| clamp.position_m == position) else {
+            return 0.0;
+        };
+        let force = largest(clamp.during_passes_n.iter().copied());
+        return match quantity {
+            Limited::Force => force,
+            Limited::Movement => force / clamp.stiffness_n_per_m,
+        };
     }
+    let end = usize::from(place == Place::Downstream);
+    let at_rest = |pass: &PassRecord| [pass.upstream_force_n, pass.downstream_force_n][end];
+    let moved = |pass: &PassRecord| [pass.upstream_displacement_m, pass.downstream_displacement_m][end];
+    let during = |pass: &PassRecord| {
+        let upstream = [pass.upstream_peak_n, pass.upstream_least_n];
+        [upstream, [pass.downstream_peak_n, pass.downstream_least_n]][end]
+    };
+    // What an end's spring moves by per force, as the last pass leaves it; of a free or fixed end nothing.
+    let last = run.passes.last().filter(|last| at_rest(last) != 0.0);
+    let per_force = last.map_or(0.0, |last| moved(last) / at_rest(last));
+    let passes = run.passes.iter().flat_map(|pass| match quantity {
+        Limited::Force => [at_rest(pass), during(pass)[0], during(pass)[1]],
+        Limited::Movement => [
+            moved(pass),
+            per_force * during(pass)[0],
+            per_force * during(pass)[1],
+        ],
+    });
+    let days = run.heat.iter().flat_map(|heat| {
+        let day = &heat.all_days;
+        match quantity {
+            Limited::Force => {
+                let upstream = [day.upstream_max_n, day.upstream_min_n];
+                [upstream, [day.downstream_max_n, day.downstream_min_n]][end]
+            }
+            Limited::Movement => {
+                let upstream = [day.upstream_displacement_max_m, day.upstream_displacement_min_m];
+                let downstream = [
+                    day.downstream_displacement_max_m,
+                    day.downstream_displacement_min_m,
+                ];
+                [upstream, downstream][end]
+            }
+        }
+    });
+    largest(passes.chain(days))
+}
+
+/// The larger of both ends.
+pub fn largest_of_ends(run: &Run, quantity: Limited) -> f64 {
+    largest(BOTH.map(|place| reached(run, place, quantity)).into_iter())
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 pub fn excess(run: &Run, all: &[Given]) -> f64 {

@@ -15,9 +15,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::error::DesignError;
-use super::request::DesignOptions;
-use super::runs::{Found, Runs, stiffnesses};
-use super::trade_off::{Limit, TradeOff, with_duct};
+use super::options::DesignOptions;
+use super::runs::{Runs, springs};
+use super::trade_off::{Limit, Spring, TradeOff, with_duct};
 use crate::ground::Ground;
 use crate::{Limited, Place, Scene};
 
@@ -42,36 +42,37 @@ const EQUAL: f64 = 0.01;
 pub fn search<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
+    places: [Place; 2],
     options: &'a DesignOptions<'a>,
-) -> Result<(Runs<'a>, usize, Found), DesignError> {
-    let (places, limits) = (
-        [options.place, options.second.unwrap_or(options.place)],
-        &options.limits,
-    );
-    let grid = |per_decade| places.map(|place| stiffnesses(scene, place, limits, per_decade));
+) -> Result<(Runs<'a>, usize, Option<TradeOff>), DesignError> {
+    let limits = &options.limits;
+    let grid = |per_decade| places.map(|place| springs(scene, place, limits, per_decade));
     let levels = grid(POINTS_PER_DECADE);
-    let pairs = levels[0]
-        .iter()
-        .flat_map(|first| levels[1].iter().map(|second| vec![*first, *second]));
-    let pairs: Vec<Vec<f64>> = pairs.collect();
+    let mut pairs = Vec::new();
+    for first in &levels[0] {
+        pairs.extend(levels[1].iter().map(|second| vec![*first, *second]));
+    }
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    let rough_runs = Runs::new(&rough, ground, options, progress, pairs.len())?;
+    let rough_runs = Runs::new(&rough, ground, &places, limits, progress, pairs.len())?;
     let map = Map {
-        points: rough_runs.run_all(&pairs)?,
-        trials: grid(FINE_PER_DECADE),
-        levels,
+        points: rough_runs.run_all(pairs)?,
+        levels: levels.map(|springs| stiffnesses(&springs)),
         places,
         limits: with_duct(limits, scene),
         moves_freely: limits.all().all(|(_, quantity, _)| quantity == Limited::Force),
     };
     let progress = options.progress.part(ROUGH_SHARE, 1.0);
-    let runs = Runs::new(scene, ground, options, progress, MOST_RUNS)?;
+    let runs = Runs::new(scene, ground, &places, limits, progress, MOST_RUNS)?;
+    let trials = grid(FINE_PER_DECADE).map(|springs| stiffnesses(&springs));
     let mut scale = vec![1.0; map.limits.len()];
     for count in 0..MOST_RUNS {
-        let (pair, expected) = map.best(&scale);
-        let shares = map.shares_of(&runs.run(&pair)?);
+        let rough = map.best(&trials, &scale);
+        let pair = map.best(&rough.map(around), &scale);
+        let expected = map.shares(pair, &scale);
+        let springs = [0, 1].map(|at| Spring::new(places[at], pair[at]));
+        let shares = map.shares_of(&runs.run(&springs)?);
         let (said, is) = (largest(&expected), largest(&shares));
         let agree = (said - is).abs() <= AGREES * is && (said <= 1.0) == (is <= 1.0);
         // A run that was done says nothing new.
@@ -84,18 +85,18 @@ pub fn search<'a>(
             }
         }
     }
-    let worth = |point: &TradeOff| map.worth(&map.shares_of(point));
+    let badness = |point: &TradeOff| map.badness(&map.shares_of(point));
     let kept = runs.points().into_iter().filter(|point| point.within_limits);
-    let chosen = kept.min_by(|a, b| worth(a).total_cmp(&worth(b)));
-    let found = Found {
-        chosen,
-        ..Found::default()
-    };
-    Ok((runs, rough_runs.count() + 1, found))
+    let chosen = kept.min_by(|a, b| badness(a).total_cmp(&badness(b)));
+    Ok((runs, rough_runs.count() + 1, chosen))
 }
 
 fn largest(shares: &[f64]) -> f64 {
     shares.iter().copied().fold(0.0, f64::max)
+}
+
+fn stiffnesses(springs: &[Spring]) -> Vec<f64> {
+    springs.iter().map(Spring::stiffness).collect()
 }
 
 /// What is known of all pairs of stiffnesses.
@@ -104,8 +105,6 @@ struct Map {
     /// Stiffnesses of the grid, ascending; `points` has rows of the second.
     levels: [Vec<f64>; 2],
     points: Vec<TradeOff>,
-    /// Stiffnesses that are looked at.
-    trials: [Vec<f64>; 2],
     /// All limits, last the movements of the ends with which they still are in the duct.
     limits: Vec<Limit>,
     /// Whether only forces are limited.
@@ -119,7 +118,7 @@ impl Map {
 
     /// What is to be small: the largest share of a limit, or, where only forces are limited and all
     /// are kept, the movement of the ends, which then counts less than any limit that is not.
-    fn worth(&self, shares: &[f64]) -> f64 {
+    fn badness(&self, shares: &[f64]) -> f64 {
         let excess = largest(shares);
         if !self.moves_freely || excess > SAFE {
             return excess;
@@ -128,44 +127,23 @@ impl Map {
         SAFE * moved / (1.0 + moved)
     }
 
-    /// The best pair by the map, each share of it times its `scale`: first of the trials, then of
-    /// finer steps around the best of these.
-    fn best(&self, scale: &[f64]) -> ([f64; 2], Vec<f64>) {
-        let (pair, _) = self.best_of(&self.trials, scale);
-        self.best_of(&pair.map(around), scale)
-    }
-
-    /// Of equally good pairs that with the stiffest ends and the softest clamps.
-    fn best_of(&self, trials: &[Vec<f64>; 2], scale: &[f64]) -> ([f64; 2], Vec<f64>) {
-        let [rows, columns] = trials;
-        let values = |index: usize| {
-            let at = [index / columns.len(), index % columns.len()];
-            let pair = [rows[at[0]], columns[at[1]]];
-            let shares = self.shares(pair, scale);
-            (at, pair, self.worth(&shares), shares)
-        };
-        let all: Vec<_> = (0..rows.len() * columns.len())
-            .into_par_iter()
-            .map(values)
-            .collect();
-        let least = all
-            .iter()
-            .map(|(.., worth, _)| *worth)
-            .fold(f64::INFINITY, f64::min);
+    /// The best pair of these stiffnesses by the map, each share of it times its `scale`. Of equally
+    /// good pairs that with the stiffest ends and the softest clamps.
+    fn best(&self, [firsts, seconds]: &[Vec<f64>; 2], scale: &[f64]) -> [f64; 2] {
+        let place = |index: usize| [index / seconds.len(), index % seconds.len()];
+        let pair = |[first, second]: [usize; 2]| [firsts[first], seconds[second]];
+        let all = (0..firsts.len() * seconds.len()).into_par_iter();
+        let badness = all.map(|index| self.badness(&self.shares(pair(place(index)), scale)));
+        let badness: Vec<f64> = badness.collect();
+        let least = badness.iter().copied().fold(f64::INFINITY, f64::min);
         let most = least.max(((1.0 + EQUAL) * least).min(SAFE));
-        let good = all.into_iter().filter(|(.., worth, _)| *worth <= most);
-        let preferred = |at: [usize; 2]| -> i64 {
-            let signed = |(place, at): (&Place, usize)| {
-                if place.end().is_some() {
-                    at as i64
-                } else {
-                    -(at as i64)
-                }
-            };
-            self.places.iter().zip(at).map(signed).sum()
+        let preferred = |index: &usize| -> i64 {
+            let signed = |(held, at): (&Place, usize)| held.end().map_or(-(at as i64), |_| at as i64);
+            self.places.iter().zip(place(*index)).map(signed).sum()
         };
-        let best = good.max_by_key(|(at, ..)| preferred(*at));
-        best.map_or(([0.0; 2], Vec::new()), |(_, pair, _, shares)| (pair, shares))
+        let good = (0..badness.len()).filter(|index| badness[*index] <= most);
+        let best = good.max_by_key(preferred);
+        best.map_or([0.0; 2], |index| pair(place(index)))
     }
 
     /// The shares of all limits of a pair.
@@ -200,9 +178,8 @@ fn around(stiffness: f64) -> Vec<f64> {
 
 /// The levels on both sides of `stiffness`, with their weights in the mean of the inverse.
 fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
-    let above = levels
-        .partition_point(|level| *level < stiffness)
-        .min(levels.len() - 1);
+    let above = levels.partition_point(|level| *level < stiffness);
+    let above = above.min(levels.len() - 1);
     let below = above.saturating_sub(1);
     let (low, high) = (levels[below], levels[above]);
     if high <= stiffness || low == 0.0 || high.is_infinite() || above == below {
