@@ -1,12 +1,13 @@
 //! From the final fit to what the user reads.
 
+use cable_dem::Mesh;
 use calibrate::{Estimate, Fit, Loss};
 
 use super::cell::Observed;
+use super::diagnosis::{LEFT_OUT, diagnose};
 use super::ground;
-use super::judgement::{LEFT_OUT, judge};
-use super::meshes::{Final, MESH_SHIFT};
-use super::model::SeriesModel;
+use super::meshes::Final;
+use super::model::{MeshOf, SeriesModel};
 use super::problem::Problem;
 use super::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
@@ -15,15 +16,18 @@ use crate::readings::{Measured, Reading};
 use crate::scene::four_digits;
 use crate::{Error, finite};
 
+/// Shift of a parameter by the mesh, in standard errors, which an interval does not hide.
+const MESH_SHIFT: f64 = 0.8;
+
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    let readings = readings(problem, fit);
+    let readings = readings(problem, found);
     let r_squared = explained(&readings);
-    let judgement = judge(problem, found, mistakes, r_squared)?;
-    let suspicious = judgement.lack_of_fit.suspicious;
+    let diagnosis = diagnose(problem, found, mistakes, r_squared)?;
+    let suspicious = diagnosis.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
     let residuals = residuals(&readings);
@@ -41,13 +45,13 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         residuals,
         r_squared,
         evaluations: found.evaluations,
-        warnings: warnings(problem, fit, &model_error, judgement.warnings),
-        lack_of_fit: judgement.lack_of_fit,
+        warnings: warnings(problem, fit, &model_error, diagnosis.warnings),
+        lack_of_fit: diagnosis.lack_of_fit,
         assumptions,
         // Where readings have their own sigmas, there is no single noise.
         noise_n: (!own_sigmas).then_some(fit.noise),
         degrees_of_freedom: fit.degrees_of_freedom,
-        method: method(problem, found)?,
+        method: method(problem, fit)?,
         model_error,
         fit: readings,
     };
@@ -106,10 +110,9 @@ fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> Fitte
     }
 }
 
-fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
-    let mesh = |model: &SeriesModel| model.mesh(found.level);
+fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
+    let mesh = |model: &SeriesModel| model.levels.mesh(MeshOf::Answer.level(model));
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
-    let fit = &found.fit;
     Ok(FitMethod {
         cable: problem.models[0].method().name().into(),
         load_cell: problem
@@ -117,12 +120,11 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
             .iter()
             .map(|model| model.observed[0].1.place())
             .collect(),
-        node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
-        vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
+        node_spacing_m: meshes.iter().map(Mesh::spacing).collect(),
+        vehicle_step_m: meshes.iter().map(Mesh::vehicle_step).collect(),
         loss: match problem.options.loss {
             Loss::Squares => "squares",
-            Loss::Tukey { .. } => "tukey",
-            _ => "other",
+            _ => "tukey",
         },
         intervals: intervals(fit, problem.options.discrepancy),
     })
@@ -146,14 +148,16 @@ fn intervals(fit: &Fit, discrepancy: Option<f64>) -> String {
     format!("profile likelihood{noise}{error}")
 }
 
-fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
+fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
+    let fit = &found.fit;
     let fitted = |(row, (series, reading, observed)): (usize, (usize, &Reading, Observed))| {
         let force = |value: f64| matches!(reading.measured, Measured::Force(_)).then_some(value);
+        let predicted = fit.fitted[row] + found.difference[row];
         FittedReading {
             series: series + 1,
             pass: reading.pass,
             force_n: force(reading.value),
-            fitted_n: force(fit.fitted[row]),
+            fitted_n: force(predicted),
             residual_n: force(fit.residuals[row]),
             weight: fit.weights[row],
             run: problem.series[series].readings.runs()[reading.run].clone(),
@@ -161,7 +165,7 @@ fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
             measured: reading.measured.name(),
             at: observed.place(),
             value: reading.value,
-            fitted: fit.fitted[row],
+            fitted: predicted,
             residual: fit.residuals[row],
             unit: reading.measured.unit(),
         }

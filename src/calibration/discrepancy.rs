@@ -50,19 +50,14 @@ pub fn discrepancy(
     }
     // Squares, as of numbers that are as good as 0 nothing is left.
     if rows.iter().all(|(_, _, scale)| scale * scale == 0.0) {
-        return unfit(
-            "discrepancy",
-            "a largest reading of 0 after the passes",
-            "the discrepancy is a share of it; check the readings, or leave the discrepancy out",
-        );
+        let reason = "the discrepancy is a share of it; check the readings, or leave the discrepancy out";
+        return unfit("discrepancy", "a largest reading of 0 after the passes", reason);
     }
     let places: Vec<f64> = rows.iter().map(|(_, place, _)| *place).collect();
     let bells = smooth_functions(&places, LENGTH);
-    let mut instruments: Vec<(usize, Observed)> = rows.iter().map(|(own, ..)| *own).collect();
-    instruments.dedup();
     let mut functions = Vec::new();
-    for (index, instrument) in instruments.iter().enumerate() {
-        if instruments[..index].contains(instrument) {
+    for (row, (instrument, ..)) in rows.iter().enumerate() {
+        if rows[..row].iter().any(|(other, ..)| other == instrument) {
             continue;
         }
         let size = |(own, _, scale): &((usize, Observed), f64, f64)| {

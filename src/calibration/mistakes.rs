@@ -1,6 +1,7 @@
 //! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
 
 use super::cell::Observed;
+use super::model::MeshOf;
 use super::problem::Problem;
 use super::terms::cells;
 use crate::Error;
@@ -12,7 +13,7 @@ const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
 /// What looks mistaken beside what the scenes' own values predict.
 pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
-    let expected = problem.predict(0, 1.0, &problem.scene_values())?;
+    let expected = problem.predict(MeshOf::Guess, 1.0, &problem.scene_values())?;
     let measured: Vec<f64> = problem.readings().map(|(_, reading, _)| reading.value).collect();
     let mut mistakes = Vec::new();
     for cell in cells(problem.series, problem.models) {

@@ -15,11 +15,8 @@ pub fn relative_sigmas(series: &[Series<'_>]) -> Option<Vec<f64>> {
     if readings().all(|reading| reading.measured.is_like(first)) {
         return None;
     }
-    Some(
-        readings()
-            .map(|reading| noise(series, reading.measured))
-            .collect(),
-    )
+    let noise = readings().map(|reading| noise(series, reading.measured));
+    Some(noise.collect())
 }
 
 /// Noise of what is like `measured`: by how far each reading lies off the line between its neighbours (T. Gasser, L. Sroka,
@@ -28,26 +25,17 @@ fn noise(series: &[Series<'_>], measured: Measured) -> f64 {
     let mut off = Vec::new();
     let mut largest = 0.0_f64;
     for one in series {
-        for run in 0..one.readings.runs().len() {
-            let of_run = one
-                .readings
-                .readings()
-                .iter()
-                .filter(|reading| reading.run == run);
-            let mut like: Vec<&Reading> = of_run
-                .filter(|reading| reading.measured.is_like(measured))
-                .collect();
-            like.sort_by_key(|reading| reading.passes);
-            largest = like
-                .iter()
-                .map(|reading| reading.value.abs())
-                .fold(largest, f64::max);
-            off.extend(
-                like.windows(3)
-                    .filter(|three| three[0].measured == three[2].measured)
-                    .map(off_line),
-            );
-        }
+        let mut like: Vec<&Reading> = one.readings.readings().iter().collect();
+        like.retain(|reading| reading.measured.is_like(measured));
+        like.sort_by_key(|reading| (reading.run, reading.passes));
+        largest = like
+            .iter()
+            .fold(largest, |most, reading| most.max(reading.value.abs()));
+        let threes = like.windows(3).filter(|three| {
+            let [first, last] = [three[0], three[2]];
+            (first.run, first.measured) == (last.run, last.measured)
+        });
+        off.extend(threes.map(off_line));
     }
     off.sort_by(f64::total_cmp);
     let median = off.get(off.len() / 2).copied().unwrap_or(0.0);

@@ -44,35 +44,31 @@ pub fn cells(series: &[Series<'_>], models: &[SeriesModel]) -> Vec<Cell> {
     let rows: usize = models.iter().map(|model| model.observed.len()).sum();
     let mut row = 0;
     for (index, (one, model)) in series.iter().zip(models).enumerate() {
+        let first = cells.len();
         for (reading, &(_, observed)) in one.readings.readings().iter().zip(&model.observed) {
-            if matches!(observed, Observed::Force(_) | Observed::ForceAt(_)) {
-                let same = |cell: &Cell| cell.series == index && cell.observed == observed;
-                let place = cells.iter().position(same).unwrap_or_else(|| {
-                    cells.push(Cell {
-                        series: index,
-                        observed,
-                        shares: false,
-                        offset: vec![0.0; rows],
-                        drift: vec![0.0; rows],
-                        largest: 0.0,
-                        last: 1.0,
-                    });
-                    cells.len() - 1
-                });
-                let cell = &mut cells[place];
-                let pass = reading.passes as f64;
-                (cell.offset[row], cell.drift[row]) = (1.0, pass);
-                (cell.largest, cell.last) = (cell.largest.max(reading.value.abs()), cell.last.max(pass));
-            }
             row += 1;
+            if !matches!(observed, Observed::Force(_) | Observed::ForceAt(_)) {
+                continue;
+            }
+            let known = cells[first..].iter().position(|cell| cell.observed == observed);
+            let place = known.map_or(cells.len(), |place| first + place);
+            if known.is_none() {
+                cells.push(Cell {
+                    series: index,
+                    observed,
+                    shares: false,
+                    offset: vec![0.0; rows],
+                    drift: vec![0.0; rows],
+                    largest: 0.0,
+                    last: 1.0,
+                });
+            }
+            let (cell, pass) = (&mut cells[place], reading.passes as f64);
+            (cell.offset[row - 1], cell.drift[row - 1]) = (1.0, pass);
+            (cell.largest, cell.last) = (cell.largest.max(reading.value.abs()), cell.last.max(pass));
         }
-    }
-    for k in 0..cells.len() {
-        cells[k].shares = cells
-            .iter()
-            .filter(|other| other.series == cells[k].series)
-            .count()
-            > 1;
+        let shares = cells.len() > first + 1;
+        cells[first..].iter_mut().for_each(|cell| cell.shares = shares);
     }
     cells
 }

@@ -1,71 +1,89 @@
 //! A smooth emulator of a model that is expensive to run, which knows where it is in doubt.
 //!
-//! Where not all parameters act on all predictions, as those of one of several series, each [part](Part)
-//! is followed by itself: over fewer parameters it takes fewer runs. What a coarser model is known to
-//! predict serves as the trend of a finer one, whose difference from it takes few runs to learn (M. C.
-//! Kennedy, A. O'Hagan, "Predicting the output from a complex computer code when fast approximations are
-//! available", Biometrika 87, 2000). Where the nearest run has no answer, there is none.
+//! What a coarser model is known to predict serves as the trend of a finer one, whose difference from it
+//! takes few runs to learn (M. C. Kennedy, A. O'Hagan, "Predicting the output from a complex computer code
+//! when fast approximations are available", Biometrika 87, 2000). Where the nearest run has no answer, there
+//! is none.
 
-use std::ops::AddAssign;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::kriging::{Design, Kriging, is_same};
+use crate::kriging::Kriging;
 use crate::tuning::NUGGETS;
-use crate::{CalibrationError, Parameter, Part};
+use crate::{CalibrationError, Parameter};
+
+/// Distance of places that are one, as a share of the range: far below any standard error.
+const SAME: f64 = 1e-9;
 
 /// What a fit learned of its model: its runs, and smooth functions through them.
 #[derive(Debug, Clone)]
 pub struct Emulator {
     /// Those of the model.
     parameters: Vec<Parameter>,
-    parts: Vec<Part>,
+    /// How many predictions there are.
+    count: usize,
     trend: Option<Arc<Emulator>>,
     nugget: f64,
     /// Shares of the parameters' ranges, and what the model predicted there beyond the trend.
     runs: Vec<(DVector<f64>, DVector<f64>)>,
     /// Where it had no answer.
     failures: Vec<DVector<f64>>,
-    /// Through the runs, of each part.
-    krigings: Vec<Kriging>,
+    /// Through the runs, if there are any.
+    kriging: Option<Kriging>,
     /// That of the fit: there a finer model runs first.
     pub(crate) optimum: Option<DVector<f64>>,
 }
 
 impl Emulator {
-    /// One that has seen no run of a model with these `parameters` and `parts`, whose own noise is the share
-    /// `relative_noise` of its predictions; it learns what a `trend` misses.
+    /// One that has seen no run of a model with these `parameters` and `count` predictions.
+    pub(crate) fn new(parameters: Vec<Parameter>, count: usize) -> Self {
+        Self {
+            parameters,
+            count,
+            trend: None,
+            nugget: NUGGETS.0,
+            runs: Vec::new(),
+            failures: Vec::new(),
+            kriging: None,
+            optimum: None,
+        }
+    }
+
+    /// One of a finer model, which has seen none of its runs and learns what this one misses.
+    pub(crate) fn of_finer(self) -> Self {
+        let fresh = Self::new(self.parameters.clone(), self.count);
+        Self {
+            trend: Some(Arc::new(self)),
+            ..fresh
+        }
+    }
+
+    /// The same for a model whose own noise is the share `relative_noise` of its predictions.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and a coarse emulator
-    /// of other parameters or parts.
-    pub(crate) fn new(
-        parameters: Vec<Parameter>,
-        parts: Vec<Part>,
+    /// [`CalibrationError::Invalid`] unless it is an emulator of these parameters and so many predictions.
+    pub(crate) fn of_model(
+        self,
+        parameters: &[Parameter],
+        count: usize,
         relative_noise: f64,
-        trend: Option<Arc<Self>>,
     ) -> Result<Self, CalibrationError> {
-        let emulator = Self {
-            parameters,
-            parts,
-            trend,
-            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
-            runs: Vec::new(),
-            failures: Vec::new(),
-            krigings: Vec::new(),
-            optimum: None,
-        };
-        let is_other =
-            |coarse: &Arc<Self>| coarse.parameters != emulator.parameters || coarse.parts != emulator.parts;
-        if emulator.trend.as_ref().is_some_and(is_other) {
-            let what = "number of parameters of a fit that begins with a coarser one";
-            let allowed = "the same parameters and observations as there";
-            let count = emulator.parameters.len() as f64;
-            return Err(CalibrationError::invalid(what, count, allowed));
+        if self.parameters != parameters || self.count != count {
+            let what = "number of parameters of a fit that begins with an earlier one";
+            let allowed = "the same parameters and number of observations as there";
+            return Err(CalibrationError::invalid(what, parameters.len() as f64, allowed));
         }
-        Ok(emulator)
+        Ok(Self {
+            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
+            ..self
+        })
+    }
+
+    /// The optimum of the coarser model, if there is one.
+    pub(crate) fn coarse_optimum(&self) -> Option<DVector<f64>> {
+        self.trend.as_ref()?.optimum.clone()
     }
 
     /// Runs of the model that it rests on, without those of a coarser model.
@@ -87,7 +105,7 @@ impl Emulator {
     }
 
     /// Whether the model ran there.
-    pub(crate) fn knows(&self, place: &DVector<f64>) -> bool {
+    pub(crate) fn has_run(&self, place: &DVector<f64>) -> bool {
         let runs = self.runs.iter().map(|(run, _)| run);
         runs.chain(&self.failures).any(|other| is_same(other, place))
     }
@@ -96,13 +114,6 @@ impl Emulator {
     pub(crate) fn known(&self, place: &DVector<f64>) -> Option<Vec<f64>> {
         let (_, beyond) = self.runs.iter().find(|(run, _)| is_same(run, place))?;
         Some((self.expected(place) + beyond).data.into())
-    }
-
-    /// Whether the model should have an answer at a place: whether the nearest run has.
-    fn has_answer(&self, place: &DVector<f64>) -> bool {
-        let distance = |run: &DVector<f64>| (run - place).norm_squared();
-        let failed = self.failures.iter().map(distance).fold(f64::INFINITY, f64::min);
-        failed.is_infinite() || self.runs.iter().any(|(run, _)| distance(run) < failed)
     }
 
     /// Adds runs at places, with what the model predicted where it had an answer.
@@ -116,91 +127,75 @@ impl Emulator {
                 }
             }
         }
-        let mut next = 0;
-        let of_part = |part: &Part| {
-            let rows = next..next + part.predictions;
-            next = rows.end;
-            Kriging::through(&self.runs, &part.parameters, rows, self.nugget)
-        };
-        self.krigings = self.parts.iter().map(of_part).collect();
+        let is_known = !self.runs.is_empty();
+        self.kriging = is_known.then(|| Kriging::through(&self.runs, self.nugget));
     }
 
-    /// Predictions at a place; nothing where the model should have no answer.
+    /// Predictions at a place; nothing where the model should have no answer, because the nearest run has
+    /// none.
     pub(crate) fn at(&self, place: &DVector<f64>) -> Option<DVector<f64>> {
-        self.has_answer(place).then(|| self.predict(place))
+        let distance = |run: &DVector<f64>| (run - place).norm_squared();
+        let failed = self.failures.iter().map(distance).fold(f64::INFINITY, f64::min);
+        let has_answer = failed.is_infinite() || self.runs.iter().any(|(run, _)| distance(run) < failed);
+        has_answer.then(|| self.predict(place))
     }
 
     /// What the coarser model predicts, if there is one.
     fn expected(&self, place: &DVector<f64>) -> DVector<f64> {
-        let count = self.parts.iter().map(|part| part.predictions).sum();
         let trend = self.trend.as_ref().map(|trend| trend.predict(place));
-        trend.unwrap_or_else(|| DVector::zeros(count))
+        trend.unwrap_or_else(|| DVector::zeros(self.count))
     }
 
     fn predict(&self, place: &DVector<f64>) -> DVector<f64> {
-        let mut predicted = self.expected(place);
-        for kriging in &self.krigings {
-            let mut rows = predicted.rows_range_mut(kriging.rows.clone());
-            rows += kriging.at(place);
+        let expected = self.expected(place);
+        match &self.kriging {
+            Some(kriging) => expected + kriging.at(place),
+            None => expected,
         }
-        predicted
     }
 
     /// Derivatives of the predictions by the shares, a column each.
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DMatrix<f64> {
-        let count = self.parts.iter().map(|part| part.predictions).sum();
+        let own = self.kriging.as_ref().map(|kriging| kriging.slopes(place));
         let trend = self.trend.as_ref().map(|trend| trend.slopes(place));
-        let mut slopes = trend.unwrap_or_else(|| DMatrix::zeros(count, place.len()));
-        for kriging in &self.krigings {
-            for (input, slope) in kriging.slopes(place) {
-                let mut rows = slopes.rows_range_mut(kriging.rows.clone());
-                rows.column_mut(input).add_assign(&slope);
-            }
-        }
-        slopes
+        let slopes = own.into_iter().chain(trend);
+        slopes.fold(DMatrix::zeros(self.count, place.len()), |sum, slopes| {
+            sum + slopes
+        })
     }
 
-    /// What it knows of its own error, if the square of that of prediction k counts `weights[k]`.
-    pub(crate) fn doubt(&self, weights: &[f64]) -> Doubt {
-        let of_part = |kriging: &Kriging| (kriging.scale(weights), kriging.design.clone());
-        Doubt(self.krigings.iter().map(of_part).collect())
+    /// Those of some places, each with a standard error of all predictions together that is allowed there, at
+    /// which the model should run, as it did at `ran`: the one of most doubt, then of what that run leaves,
+    /// until all is allowed. The square of an error of prediction k counts `weights[k]`.
+    pub(crate) fn doubtful(
+        &self,
+        weights: &DVector<f64>,
+        ran: &DVector<f64>,
+        mut places: Vec<(DVector<f64>, f64)>,
+    ) -> Vec<DVector<f64>> {
+        let Some(kriging) = &self.kriging else {
+            return Vec::new();
+        };
+        let (scale, mut design) = (kriging.scale(weights).sqrt(), kriging.design.clone());
+        let (mut next, mut doubtful) = (ran.clone(), Vec::new());
+        loop {
+            design.learn(&next);
+            let doubt = |(place, allowed): &(DVector<f64>, f64)| {
+                let doubt = scale * design.variance(place).sqrt() / allowed;
+                if doubt.is_nan() { f64::INFINITY } else { doubt }
+            };
+            let sizes = places.iter().map(doubt).enumerate();
+            let largest = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((index, _)) = largest.filter(|(_, size)| *size > 1.0) else {
+                return doubtful;
+            };
+            (next, _) = places.swap_remove(index);
+            doubtful.push(next.clone());
+        }
     }
 }
 
-/// Standard error of an emulator's predictions, all of them together, by the variance of each part and its
-/// runs.
-pub(crate) struct Doubt(Vec<(f64, Design)>);
-
-impl Doubt {
-    fn at(&self, place: &DVector<f64>) -> f64 {
-        let variances = self
-            .0
-            .iter()
-            .map(|(scale, design)| scale * design.variance(place));
-        variances.sum::<f64>().sqrt()
-    }
-
-    /// What is left of it once the model has run there.
-    pub fn learn(&mut self, place: &DVector<f64>) {
-        for (_, design) in &mut self.0 {
-            design.learn(place);
-        }
-    }
-
-    /// Those of some places, each with a standard error that is allowed there, at which the model should
-    /// run: the one of most doubt, then of what that run leaves, until all is allowed.
-    pub fn asked(&mut self, mut places: Vec<(DVector<f64>, f64)>) -> Vec<DVector<f64>> {
-        let mut asked = Vec::new();
-        loop {
-            let sizes = places.iter().map(|(place, allowed)| self.at(place) / allowed);
-            let sizes = sizes.map(|size| if size.is_nan() { f64::INFINITY } else { size });
-            let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-            let Some((index, _)) = largest.filter(|(_, size)| *size > 1.0) else {
-                return asked;
-            };
-            let (place, _) = places.swap_remove(index);
-            self.learn(&place);
-            asked.push(place);
-        }
-    }
+/// Whether two places are one.
+fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
+    (a - b).amax() < SAME
 }
