@@ -7,13 +7,12 @@ use calibrate::{Loss, probability_of_scatter, probability_of_signs, probability_
 use serde::Serialize;
 
 use super::alternatives::{Alternative, alternative};
-use super::cell::Observed;
 use super::meshes::Final;
 use super::problem::Problem;
+use super::row::Row;
 use super::terms::cells;
 use super::unknown::Quantity;
 use crate::Error;
-use crate::readings::Reading;
 use crate::scene::FrictionLaw;
 use crate::shown::words_if;
 
@@ -65,12 +64,12 @@ pub fn diagnose(
     mistakes: Vec<String>,
     r_squared: Option<f64>,
 ) -> Result<Diagnosis, Error> {
-    let (fit, list) = (&found.fit, problem.readings().collect::<Vec<_>>());
+    let (fit, rows) = (&found.fit, problem.rows);
     let noise = fit.standardised_noise();
     let outliers = outliers(&noise, &fit.weights);
     let judged: Vec<usize> = (0..noise.len()).filter(|row| !outliers.contains(row)).collect();
-    let sequences = sequences(&list, &noise, &judged);
-    let cells = cells(problem.series, problem.models);
+    let sequences = sequences(rows, &noise, &judged);
+    let cells = cells(rows);
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
     let of_cell = |quantity| match fit.degrees_of_freedom < FEWEST || hidden {
@@ -97,7 +96,7 @@ pub fn diagnose(
     lack_of_fit.suspicious = !failed.is_empty() || !mistakes.is_empty() || draw;
     let mut warnings = mistakes;
     if !outliers.is_empty() {
-        warnings.push(outlier_words(&list, &outliers, is_robust));
+        warnings.push(outlier_words(rows, &outliers, is_robust));
     }
     if !failed.is_empty() {
         let errors = errors.iter().flatten();
@@ -190,15 +189,9 @@ fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
     if are_outliers { far } else { Vec::new() }
 }
 
-/// A reading, its series, and what it is compared with.
-type Row<'a> = (usize, &'a Reading, Observed);
-
 /// Residuals of each run and instrument, or of all that have one reading, in the order of the passes.
-fn sequences(list: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
-    let group_of = |row: usize| {
-        let (series, reading, observed) = list[row];
-        (series, reading.run, observed)
-    };
+fn sequences(rows: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
+    let group_of = |row: usize| (rows[row].instrument(), rows[row].reading.run);
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for &row in judged {
         match groups
@@ -213,24 +206,19 @@ fn sequences(list: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>>
     let (mut groups, alone): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.len() > 1);
     groups.push(alone.concat());
     for group in &mut groups {
-        group.sort_by_key(|&row| list[row].1.passes);
+        group.sort_by_key(|&row| rows[row].reading.passes);
     }
     let residuals = |group: &Vec<usize>| group.iter().map(|&row| noise[row]).collect();
     groups.iter().map(residuals).collect()
 }
 
 /// The outliers by pass and line.
-fn outlier_words(list: &[Row<'_>], outliers: &[usize], is_robust: bool) -> String {
-    let several = list.iter().any(|(series, ..)| *series > 0);
+fn outlier_words(rows: &[Row<'_>], outliers: &[usize], is_robust: bool) -> String {
+    let several = rows.iter().any(|row| row.series > 0);
     let one = |&row: &usize| {
-        let (series, reading, _) = list[row];
-        let of_series = format!(" of series {}", series + 1);
-        format!(
-            "pass {}{} (line {})",
-            reading.pass,
-            words_if(several, &of_series),
-            reading.line
-        )
+        let (reading, of_series) = (rows[row].reading, format!(" of series {}", rows[row].series + 1));
+        let (pass, of, line) = (reading.pass, words_if(several, &of_series), reading.line);
+        format!("pass {pass}{of} (line {line})")
     };
     let passes: Vec<String> = outliers.iter().map(one).collect();
     let count = match outliers.len() {

@@ -24,7 +24,7 @@ pub fn fit(problem: &Problem<'_>, limit: usize, profiles: bool) -> Result<Final,
         CalibrationError::EvaluationLimit { .. } => CalibrationError::EvaluationLimit { limit },
         other => other,
     };
-    let none = vec![0.0; problem.readings().count()];
+    let none = vec![0.0; problem.rows.len()];
     let way = Way {
         mesh: MeshOf::Answer,
         difference: &none,

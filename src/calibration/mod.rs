@@ -30,6 +30,7 @@ mod options;
 mod overload;
 mod problem;
 mod result;
+mod row;
 mod terms;
 mod unknown;
 mod watch;
@@ -101,6 +102,7 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
         .iter()
         .map(SeriesModel::new)
         .collect::<Result<Vec<_>, _>>()?;
+    let rows = row::rows(series, &models);
     let limit = match options.max_evaluations {
         0 => Options::default().max_evaluations,
         limit => limit,
@@ -112,8 +114,9 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
     let problem = Problem {
         series,
         models: &models,
+        rows: &rows,
         unknowns: &unknowns,
-        terms: &terms::terms(series, &models, &terms, options)?,
+        terms: &terms::terms(series.len(), &rows, &terms, options)?,
         options,
         watch: &watch,
     };

@@ -2,18 +2,17 @@
 
 use calibrate::{Calibration, CalibrationError, Fit, Loss, Model, Options, Prior};
 
-use super::cell::Observed;
 use super::discrepancy::discrepancy;
 use super::error::{study, unfit};
 use super::model::{CableModel, MeshOf, SeriesModel};
 use super::noise;
 use super::options::{CalibrateOptions, Series};
+use super::row::Row;
 use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::Error;
 use crate::plan::Levels;
-use crate::readings::Reading;
 use crate::scene::FrictionLaw;
 
 /// Ripple of the forces as parameters change on a fixed mesh, beside its typical error: as a node more slips, their slope jumps. Measured on the
@@ -23,6 +22,8 @@ const RIPPLE: f64 = 0.02;
 pub struct Problem<'a> {
     pub series: &'a [Series<'a>],
     pub models: &'a [SeriesModel],
+    /// All readings.
+    pub rows: &'a [Row<'a>],
     /// What is fitted of cable and ground.
     pub unknowns: &'a [Unknown],
     /// What is fitted of the instruments.
@@ -43,15 +44,6 @@ pub struct Way<'a> {
 }
 
 impl Problem<'_> {
-    /// Every reading with its series and what it is compared with, in the order of the fit.
-    pub fn readings(&self) -> impl Iterator<Item = (usize, &Reading, Observed)> {
-        let series = self.series.iter().zip(self.models).enumerate();
-        series.flat_map(|(index, (one, model))| {
-            let list = one.readings.readings().iter().zip(&model.observed);
-            list.map(move |(reading, (_, observed))| (index, reading, *observed))
-        })
-    }
-
     fn model(&self, mesh: MeshOf, stiffness: f64) -> CableModel<'_> {
         CableModel {
             series: self.models,
@@ -85,7 +77,7 @@ impl Problem<'_> {
         words: impl Fn(CalibrationError) -> CalibrationError,
     ) -> Result<Fit, Error> {
         let functions = match self.options.discrepancy {
-            Some(share) => discrepancy(self.series, self.models, share)?,
+            Some(share) => discrepancy(self.rows, share)?,
             None => Vec::new(),
         };
         let model = self.model(way.mesh, 1.0);
@@ -94,17 +86,14 @@ impl Problem<'_> {
             let parameters = unknowns.map(|unknown| unknown.parameter(self.prior(*unknown)));
             let mut parameters = parameters.collect::<Result<Vec<_>, CalibrationError>>()?;
             parameters.extend(self.terms.iter().map(|term| term.parameter.clone()));
-            let values = self.readings().map(|(_, reading, _)| reading.value);
-            let less = values
-                .zip(way.difference)
-                .map(|(value, difference)| value - difference);
-            let mut calibration = Calibration::new(&model, parameters, less.collect())?
+            let pairs = self.rows.iter().zip(way.difference);
+            let values = pairs.map(|(row, difference)| row.reading.value - difference);
+            let mut calibration = Calibration::new(&model, parameters, values.collect())?
                 .with_options(self.statistics(&way))?
                 .with_discrepancy(&functions)?;
-            let sigmas = self.readings().map(|(_, reading, _)| reading.sigma);
-            if let Some(sigmas) = sigmas.collect() {
+            if let Some(sigmas) = self.rows.iter().map(|row| row.reading.sigma).collect() {
                 calibration = calibration.with_sigmas(sigmas)?;
-            } else if let Some(relative) = noise::relative_sigmas(self.series) {
+            } else if let Some(relative) = noise::relative_sigmas(self.rows) {
                 calibration = calibration.with_relative_sigmas(relative)?;
             }
             known(calibration).fit()

@@ -88,8 +88,11 @@ impl Solution {
             supports.extend(at_ends.iter().map(|point| support(point, SURE, self.wanted)));
             let bounds = points.first().into_iter().chain(points.last());
             supports.extend(bounds.map(|point| support(point, SURE, EXCLUSION * self.wanted)));
-            let low = points.iter().filter(|point| point.root() < HIGH);
-            supports.extend(low.map(|point| support(point, hidden, self.wanted)));
+            // A coarser model has shown where the others lie.
+            if likelihood.emulator.coarse_optimum().is_none() {
+                let low = points.iter().filter(|point| point.root() < HIGH);
+                supports.extend(low.map(|point| support(point, hidden, self.wanted)));
+            }
         }
         supports
     }
