@@ -107,8 +107,7 @@ fn with_error(
         profiles: false,
         runs: found.evaluations + RUNS,
     };
-    let known = found.fit.emulator.clone();
-    match wider.fit(way, |calibration| calibration.with_emulator(known), |error| error) {
+    match wider.fit(way, Some(found.fit.emulator.clone())) {
         Ok(fit) => Ok(Some(fit)),
         Err(_) if problem.watch.is_stopped() => Err(Error::Stopped),
         Err(_) => Ok(None),

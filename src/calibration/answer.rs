@@ -108,12 +108,11 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
     let mesh = |model: &SeriesModel| model.levels.mesh(MeshOf::Answer.level(model));
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
     let places = problem.models.iter().map(|model| model.observed[0].1.place());
-    let noise = match fit.noise_estimated {
-        true => format!(
-            ", Student's t with {} degrees of freedom",
-            four_digits(fit.degrees_of_freedom)
-        ),
-        false => " with the given sigmas".into(),
+    let freedom = four_digits(fit.degrees_of_freedom);
+    let noise = if fit.noise_estimated {
+        format!(", Student's t with {freedom} degrees of freedom")
+    } else {
+        " with the given sigmas".into()
     };
     let error = problem.options.discrepancy.map_or_else(String::new, |share| {
         let percent = four_digits(100.0 * share);

@@ -72,9 +72,10 @@ pub fn diagnose(
     let cells = cells(rows);
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
-    let of_cell = |quantity| match fit.degrees_of_freedom < FEWEST || hidden {
-        true => Ok(None),
-        false => alternative(problem, found, quantity, &cells, &judged),
+    let is_told = fit.degrees_of_freedom >= FEWEST && !hidden;
+    let of_cell = |quantity| match is_told.then_some(&cells) {
+        Some(cells) => alternative(problem, found, quantity, cells, &judged),
+        None => Ok(None),
     };
     let errors = [of_cell(Quantity::Drift)?, of_cell(Quantity::ZeroOffset)?];
     let [p_trend, p_offset] = errors.each_ref().map(|error| Some(error.as_ref()?.probability));
@@ -225,9 +226,10 @@ fn outlier_words(rows: &[Row<'_>], outliers: &[usize], is_robust: bool) -> Strin
         1 => "1 reading looks like an outlier".into(),
         count => format!("{count} readings look like outliers"),
     };
-    let consequence = match is_robust {
-        true => "left out",
-        false => "they draw the fit to themselves; --robust leaves them out",
+    let consequence = if is_robust {
+        "left out"
+    } else {
+        "they draw the fit to themselves; --robust leaves them out"
     };
     format!("{count}: {}; {consequence}", passes.join(", "))
 }

@@ -118,12 +118,13 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
         unknowns: &unknowns,
         terms: &terms::terms(series.len(), &rows, &terms, options)?,
         options,
+        limit,
         watch: &watch,
     };
     let answer = || {
         let mistakes = mistakes::mistakes(&problem)?;
         // What follows from a wrong sign or unit is not worth intervals.
-        match meshes::fit(&problem, limit, mistakes.is_empty()) {
+        match meshes::fit(&problem, mistakes.is_empty()) {
             Err(Error::Study { .. }) if !mistakes.is_empty() => {
                 error::unfit("data", "readings without any fit", mistakes.join("; "))
             }

@@ -1,6 +1,6 @@
 //! What is known and what is asked, as the crate `calibrate` takes it.
 
-use calibrate::{Calibration, CalibrationError, Fit, Loss, Model, Options, Prior};
+use calibrate::{Calibration, CalibrationError, Emulator, Fit, Loss, Model, Options, Prior};
 
 use super::discrepancy::discrepancy;
 use super::error::{study, unfit};
@@ -11,9 +11,9 @@ use super::row::Row;
 use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
-use crate::Error;
 use crate::plan::Levels;
 use crate::scene::FrictionLaw;
+use crate::{Error, Scene};
 
 /// Ripple of the forces as parameters change on a fixed mesh, beside its typical error: as a node more slips, their slope jumps. Measured on the
 /// full-scale scenes, where it is 1 to 2 % of that on four meshes.
@@ -29,6 +29,8 @@ pub struct Problem<'a> {
     /// What is fitted of the instruments.
     pub terms: &'a [Term],
     pub options: &'a CalibrateOptions<'a>,
+    /// Most runs of the model.
+    pub limit: usize,
     pub watch: &'a Watch<'a>,
 }
 
@@ -69,13 +71,8 @@ impl Problem<'_> {
         Ok(predicted)
     }
 
-    /// Fits, with what is known before and words for what fails.
-    pub fn fit(
-        &self,
-        way: Way<'_>,
-        known: impl FnOnce(Calibration<'_>) -> Calibration<'_>,
-        words: impl Fn(CalibrationError) -> CalibrationError,
-    ) -> Result<Fit, Error> {
+    /// Fits, with what is known of the model before.
+    pub fn fit(&self, way: Way<'_>, known: Option<Emulator>) -> Result<Fit, Error> {
         let functions = match self.options.discrepancy {
             Some(share) => discrepancy(self.rows, share)?,
             None => Vec::new(),
@@ -96,9 +93,18 @@ impl Problem<'_> {
             } else if let Some(relative) = noise::relative_sigmas(self.rows) {
                 calibration = calibration.with_relative_sigmas(relative)?;
             }
-            known(calibration).fit()
+            match known {
+                Some(emulator) => calibration.with_emulator(emulator).fit(),
+                None => calibration.fit(),
+            }
         };
-        fit().map_err(|error| study(words(error)))
+        fit().map_err(|error| match error {
+            // Of all meshes together.
+            CalibrationError::EvaluationLimit { .. } => {
+                study(CalibrationError::EvaluationLimit { limit: self.limit })
+            }
+            other => study(other),
+        })
     }
 
     fn statistics(&self, way: &Way<'_>) -> Options {
@@ -147,15 +153,6 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         let reason = "it takes what is left of a reading for independent noise; leave one of them out";
         return unfit("discrepancy", "a robust loss beside it", reason);
     }
-    let scenes_of = |unknown: Unknown| {
-        let own = series
-            .iter()
-            .enumerate()
-            .filter(move |(index, _)| unknown.acts_on(*index));
-        own.map(|(_, one)| one.scene)
-    };
-    let is_coulomb =
-        |unknown: Unknown| scenes_of(unknown).any(|scene| scene.friction.law() == FrictionLaw::Coulomb);
     let [friction, shape_factor, ground] = [
         Quantity::DynamicCoefficient,
         Quantity::ShapeFactor,
@@ -165,39 +162,20 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
     let mut unknowns = options.unknowns.clone();
     if unknowns.is_empty() {
         unknowns.push(friction);
-        unknowns.extend((!is_coulomb(shape_factor)).then_some(shape_factor));
+        unknowns.extend((!is_coulomb(shape_factor, series)).then_some(shape_factor));
     }
     if options.deflection.is_some() && !unknowns.contains(&ground) {
         unknowns.push(ground);
     }
-    for &unknown in &unknowns {
-        if unknown.series.is_some_and(|index| index >= series.len()) {
-            let found = "a series of a higher index than there are";
-            return unfit(
-                "unknowns",
-                found,
-                "series are counted from 0, and in names from 1",
-            );
-        }
-        match unknown.quantity {
-            Quantity::ShapeFactor if is_coulomb(unknown) => {
-                return unfit("friction.law", "coulomb", "it has no shape factor to be fitted");
-            }
-            Quantity::SectionCoefficient(section)
-                if scenes_of(unknown).any(|scene| section >= scene.route.len()) =>
-            {
-                let reason = "sections of [[route]] are counted from 0";
-                return unfit("route", "no section of this number", reason);
-            }
-            _ => {}
-        }
+    for unknown in &unknowns {
+        check(*unknown, series)?;
     }
     if let [only] = series {
         // What has a prior needs no reading.
-        let needs = |unknown: &&Unknown| {
-            !unknown.quantity.is_of_cell() && (options.deflection.is_none() || **unknown != ground)
+        let has_prior = |unknown: &Unknown| {
+            unknown.quantity.is_of_cell() || (options.deflection.is_some() && *unknown == ground)
         };
-        let free = unknowns.iter().filter(needs).count();
+        let free = unknowns.iter().filter(|unknown| !has_prior(unknown)).count();
         let needed = match only.readings.sigmas() {
             Some(_) => free.max(1),
             None => (free + 1).max(2),
@@ -205,4 +183,40 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         only.readings.check_count(unknowns.len(), needed)?;
     }
     Ok(unknowns)
+}
+
+/// Refuses what a scene of the series that it acts on does not have.
+fn check(unknown: Unknown, series: &[Series<'_>]) -> Result<(), Error> {
+    if unknown.series.is_some_and(|index| index >= series.len()) {
+        let found = "a series of a higher index than there are";
+        return unfit(
+            "unknowns",
+            found,
+            "series are counted from 0, and in names from 1",
+        );
+    }
+    match unknown.quantity {
+        Quantity::ShapeFactor if is_coulomb(unknown, series) => {
+            unfit("friction.law", "coulomb", "it has no shape factor to be fitted")
+        }
+        Quantity::SectionCoefficient(section)
+            if scenes_of(unknown, series).any(|scene| section >= scene.route.len()) =>
+        {
+            let reason = "sections of [[route]] are counted from 0";
+            unfit("route", "no section of this number", reason)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn scenes_of<'a>(unknown: Unknown, series: &'a [Series<'a>]) -> impl Iterator<Item = &'a Scene> {
+    let own = series
+        .iter()
+        .enumerate()
+        .filter(move |(index, _)| unknown.acts_on(*index));
+    own.map(|(_, one)| one.scene)
+}
+
+fn is_coulomb(unknown: Unknown, series: &[Series<'_>]) -> bool {
+    scenes_of(unknown, series).any(|scene| scene.friction.law() == FrictionLaw::Coulomb)
 }

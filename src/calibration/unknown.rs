@@ -54,15 +54,13 @@ impl FromStr for Quantity {
         let section = text
             .strip_prefix("route.")
             .and_then(|rest| rest.strip_suffix(".dynamic_coefficient"));
-        match section.map(str::parse) {
-            Some(Ok(index)) => Ok(Self::SectionCoefficient(index)),
-            _ => {
+        section
+            .and_then(|index| index.parse().ok())
+            .map(Self::SectionCoefficient)
+            .ok_or_else(|| {
                 let names = NAMES.map(|(name, _)| name).join(", ");
-                Err(format!(
-                    "found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient"
-                ))
-            }
-        }
+                format!("found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient")
+            })
     }
 }
 

@@ -145,13 +145,6 @@ impl<'a> Calibration<'a> {
         self
     }
 
-    /// What an earlier fit of the same parameters and observations learned of a coarser model: this one
-    /// runs first at its optimum, and learns what the coarser model misses.
-    #[must_use]
-    pub fn with_coarse(self, coarse: Emulator) -> Self {
-        self.with_emulator(coarse.of_finer())
-    }
-
     /// Fits. The model runs a few times all over the range, then wherever the answer rests on it.
     ///
     /// ```

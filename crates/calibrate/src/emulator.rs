@@ -50,8 +50,10 @@ impl Emulator {
         }
     }
 
-    /// One of a finer model, which has seen none of its runs and learns what this one misses.
-    pub(crate) fn of_finer(self) -> Self {
+    /// One of a finer model, which has seen none of its runs and learns what this one misses: a fit that begins
+    /// with it runs first at the optimum of this one.
+    #[must_use]
+    pub fn of_finer(self) -> Self {
         let fresh = Self::new(self.parameters.clone(), self.count);
         Self {
             trend: Some(Arc::new(self)),

@@ -15,7 +15,7 @@ use crate::covariance::Covariance;
 use crate::descent::{Optimum, descend};
 use crate::likelihood::{Likelihood, Point};
 use crate::parameter::FARTHEST;
-use crate::tuning::{ACCURACY, ELSEWHERE, GRID};
+use crate::tuning::{ACCURACY, BETTER, GRID, JUMP};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
@@ -59,36 +59,66 @@ pub(crate) struct Profiler<'a> {
 }
 
 impl Profiler<'_> {
-    /// The profile of parameter `k`: along its grid to the right, each point from its neighbour, and back. At
-    /// each the lower one counts, and the optimum where it is itself on the grid. Where other descents ended is
-    /// known, too.
+    /// The profiles of the first `count` parameters. What any descent has found is true for all: where it lies
+    /// below a profile, that one is in a wrong valley there.
     ///
     /// # Errors
     ///
     /// [`CalibrationError::NotConverged`].
-    pub fn profile(&self, k: usize) -> Result<Profile, CalibrationError> {
+    pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
+        let first = (0..count)
+            .map(|k| self.points(k))
+            .collect::<Result<Vec<_>, _>>()?;
+        let others = self.others.iter().map(|other| self.at(other.clone()));
+        let known: Vec<ProfilePoint> = first.iter().flatten().cloned().chain(others).collect();
+        let profile = |(k, mut points): (usize, Vec<ProfilePoint>)| {
+            let count = points.len();
+            for point in &known {
+                let next = points.partition_point(|other| other.point.free[k] < point.point.free[k]);
+                let mut around = points[next.saturating_sub(1)..].iter().take(2);
+                if around.all(|other| point.rise < other.rise - BETTER) {
+                    points.insert(next, point.clone());
+                }
+            }
+            if points.len() > count {
+                self.spread(k, &mut points)?;
+            }
+            self.bounded(k, points)
+        };
+        first.into_iter().enumerate().map(profile).collect()
+    }
+
+    /// The profile of parameter `k` along its grid.
+    fn points(&self, k: usize) -> Result<Vec<ProfilePoint>, CalibrationError> {
         let optimum = self.at(self.optimum.point.clone());
-        let mut points = Vec::new();
-        let mut last = optimum.clone();
-        for z in self.grid(k) {
-            last = self.fit_others(k, z, &last)?;
-            if z == optimum.point.free[k] && last.rise > 0.0 {
-                last = optimum.clone();
+        let points = self.grid(k).into_iter().map(|z| self.fit_others(k, z, &optimum));
+        let mut points = points.collect::<Result<Vec<_>, _>>()?;
+        self.spread(k, &mut points)?;
+        Ok(points)
+    }
+
+    /// To the right, each point from its neighbour, and back: at each the lower one counts. Where the others move
+    /// as one from point to point, both are the same.
+    fn spread(&self, k: usize, points: &mut [ProfilePoint]) -> Result<(), CalibrationError> {
+        for _ in 0..2 {
+            for index in 1..points.len() {
+                let z = points[index].point.free[k];
+                let mut moved = &points[index].point.free - &points[index - 1].point.free;
+                moved[k] = 0.0;
+                if moved.amax() >= JUMP {
+                    let other = self.fit_others(k, z, &points[index - 1])?;
+                    if other.rise < points[index].rise {
+                        points[index] = other;
+                    }
+                }
             }
-            points.push(last.clone());
+            points.reverse();
         }
-        for index in (1..points.len()).rev() {
-            let z = points[index - 1].point.free[k];
-            let back = self.fit_others(k, z, &points[index])?;
-            if back.rise < points[index - 1].rise {
-                points[index - 1] = back;
-            }
-        }
-        // A valley elsewhere may be narrower than a step of the grid.
-        let is_elsewhere = |other: &&Point| (&other.free - &optimum.point.free).amax() > ELSEWHERE;
-        let others = self.others.iter().filter(is_elsewhere);
-        points.extend(others.map(|other| self.at(other.clone())));
-        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
+        Ok(())
+    }
+
+    /// The profile through these points, with its ends.
+    fn bounded(&self, k: usize, mut points: Vec<ProfilePoint>) -> Result<Profile, CalibrationError> {
         let (mut ends, mut at_ends) = ([None; 2], Vec::new());
         for end in &mut ends {
             if let Some((value, near)) = self.end(k, &points)? {

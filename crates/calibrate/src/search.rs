@@ -29,7 +29,7 @@ pub(crate) fn all_over(dimensions: usize, count: usize) -> Vec<DVector<f64>> {
     (0..count).map(place).collect()
 }
 
-/// The optimum on the emulator, and where all descents ended. The `last` one stays, unless another is better
+/// The optimum on the emulator, and where other descents ended. The `last` one stays, unless another is better
 /// by more than a fraction of a standard error. Where the sigmas are not believed, only their ratios are.
 ///
 /// # Errors
@@ -41,17 +41,18 @@ pub(crate) fn optimum(
 ) -> Result<(Optimum, Vec<Point>), CalibrationError> {
     let problem = likelihood.problem;
     let (mut best, mut ends): (Option<Optimum>, _) = (None, Vec::new());
-    for from in last.into_iter().cloned().chain(best_of_scan(likelihood)) {
-        let Ok(found) = refine(likelihood, from, problem.knows_noise) else {
-            continue;
-        };
-        ends.push(found.point.clone());
-        let value = |best: &Optimum| best.deviance.total(&found.point.residuals);
-        if best
-            .as_ref()
-            .is_none_or(|best| value(best) < best.value() - BETTER)
-        {
-            best = Some(found);
+    for mut from in last.into_iter().cloned().chain(best_of_scan(likelihood)) {
+        if let Some(best) = &best {
+            let end = descend(likelihood, best.deviance, from, None)?;
+            let is_lower = best.deviance.total(&end.residuals) < best.value() - BETTER;
+            from = end.free.clone();
+            ends.push(end);
+            if !is_lower {
+                continue;
+            }
+        }
+        if let Ok(found) = refine(likelihood, from, problem.knows_noise) {
+            ends.extend(best.replace(found).map(|worse| worse.point));
         }
     }
     let mut best = best.ok_or(CalibrationError::NotConverged)?;

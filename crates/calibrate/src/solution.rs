@@ -54,9 +54,7 @@ impl Solution {
         } else {
             0
         };
-        let profiles = (0..count)
-            .map(|k| profiler.profile(k))
-            .collect::<Result<_, _>>()?;
+        let profiles = profiler.profiles(count)?;
         Ok(Self {
             optimum,
             covariance,

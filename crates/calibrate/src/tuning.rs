@@ -29,8 +29,9 @@ pub(crate) const BETTER: f64 = 0.05;
 pub(crate) const SETTLED: f64 = 0.02;
 /// Values of a parameter at which its profile is computed, the estimate among them.
 pub(crate) const GRID: usize = 41;
-/// Distance of a free variable from which on a descent ended in another valley.
-pub(crate) const ELSEWHERE: f64 = 0.5;
+/// Distance of the other free variables at neighbouring values from which on they may have jumped to
+/// another valley, and are fitted from both sides.
+pub(crate) const JUMP: f64 = 0.5;
 /// Accuracy of the root of the rise at an end, as a share of it. The end itself is interpolated, ten times
 /// as exactly.
 pub(crate) const ACCURACY: f64 = 0.03;

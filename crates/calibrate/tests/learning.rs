@@ -70,7 +70,7 @@ fn a_finer_model_takes_few_runs() {
     let data = noisy(&fine.predict(&[550.0, 12.0]).unwrap(), 5.0, 3);
     let on = |model| Calibration::new(model, saturation_parameters(), data.clone()).unwrap();
     let first = on(&coarse).fit().unwrap();
-    let second = on(&fine).with_coarse(first.emulator).fit().unwrap();
+    let second = on(&fine).with_emulator(first.emulator.of_finer()).fit().unwrap();
     let alone = on(&fine).fit().unwrap();
     let most = differences(&alone, &second).into_iter().fold(0.0, f64::max);
     assert!(most < 0.15, "{most}");
@@ -140,7 +140,7 @@ fn a_stranger_is_no_coarse_model() {
         let data = noisy(&model.predict(&[550.0, 12.0]).unwrap(), 5.0, 2);
         let calibration = Calibration::new(&model, parameters, data).unwrap();
         match coarse {
-            Some(coarse) => calibration.with_coarse(coarse).fit(),
+            Some(coarse) => calibration.with_emulator(coarse.of_finer()).fit(),
             None => calibration.fit(),
         }
     };

@@ -104,7 +104,7 @@ proptest! {
             fit.shift(&[f64::NAN; 9]);
             fit.shift(&[]);
             let _ = calibration.clone().with_emulator(fit.emulator.clone()).fit();
-            let _ = calibration.with_coarse(fit.emulator).fit();
+            let _ = calibration.with_emulator(fit.emulator.of_finer()).fit();
         }
     }
 }
