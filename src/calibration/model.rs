@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use calibrate::{Model, ModelError};
+use calibrate::{Model, ModelError, Part};
 use cycle_jump::Guide;
 use ground_field::DuctMotion;
 use rayon::prelude::*;
@@ -229,5 +229,15 @@ impl Model for CableModel<'_> {
         let forces = forces.collect::<Result<Vec<Vec<f64>>, Error>>()?;
         self.watch.run()?;
         Ok(forces.concat())
+    }
+
+    fn parts(&self) -> Vec<Part> {
+        let of_series = |(index, series): (usize, &SeriesModel)| Part {
+            predictions: series.observed.len(),
+            parameters: (0..self.unknowns.len())
+                .filter(|&unknown| self.unknowns[unknown].acts_on(index))
+                .collect(),
+        };
+        self.series.iter().enumerate().map(of_series).collect()
     }
 }

@@ -1,51 +1,49 @@
 //! A smooth emulator of a model that is expensive to run, which knows where it is in doubt.
 //!
-//! What a coarser model is known to predict serves as the trend of a finer one, whose difference from it
-//! takes few runs to learn (M. C. Kennedy, A. O'Hagan, "Predicting the output from a complex computer code
-//! when fast approximations are available", Biometrika 87, 2000). Where the nearest run has no answer, there
-//! is none.
+//! Where not all parameters act on all predictions, as those of one of several series, each [part](Part)
+//! is followed by itself: over fewer parameters it takes fewer runs. What a coarser model is known to
+//! predict serves as the trend of a finer one, whose difference from it takes few runs to learn (M. C.
+//! Kennedy, A. O'Hagan, "Predicting the output from a complex computer code when fast approximations are
+//! available", Biometrika 87, 2000). Where the nearest run has no answer, there is none.
 
+use std::ops::AddAssign;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::kriging::Kriging;
+use crate::kriging::{Design, Kriging, is_same};
 use crate::tuning::NUGGETS;
-use crate::{CalibrationError, Parameter};
-
-/// Distance of places that are one, as a share of the range: far below any standard error.
-const SAME: f64 = 1e-9;
+use crate::{CalibrationError, Parameter, Part};
 
 /// What a fit learned of its model: its runs, and smooth functions through them.
 #[derive(Debug, Clone)]
 pub struct Emulator {
     /// Those of the model.
     parameters: Vec<Parameter>,
-    /// How many predictions there are.
-    count: usize,
+    parts: Vec<Part>,
     trend: Option<Arc<Emulator>>,
     nugget: f64,
     /// Shares of the parameters' ranges, and what the model predicted there beyond the trend.
     runs: Vec<(DVector<f64>, DVector<f64>)>,
     /// Where it had no answer.
     failures: Vec<DVector<f64>>,
-    /// Through the runs, if there are any.
-    kriging: Option<Kriging>,
+    /// Through the runs, of each part.
+    krigings: Vec<Kriging>,
     /// That of the fit: there a finer model runs first.
     pub(crate) optimum: Option<DVector<f64>>,
 }
 
 impl Emulator {
-    /// One that has seen no run of a model with these `parameters` and `count` predictions.
-    pub(crate) fn new(parameters: Vec<Parameter>, count: usize) -> Self {
+    /// One that has seen no run of a model with these `parameters` and `parts`.
+    pub(crate) fn new(parameters: Vec<Parameter>, parts: Vec<Part>) -> Self {
         Self {
             parameters,
-            count,
+            parts,
             trend: None,
             nugget: NUGGETS.0,
             runs: Vec::new(),
             failures: Vec::new(),
-            kriging: None,
+            krigings: Vec::new(),
             optimum: None,
         }
     }
@@ -54,7 +52,7 @@ impl Emulator {
     /// with it runs first at the optimum of this one.
     #[must_use]
     pub fn of_finer(self) -> Self {
-        let fresh = Self::new(self.parameters.clone(), self.count);
+        let fresh = Self::new(self.parameters.clone(), self.parts.clone());
         Self {
             trend: Some(Arc::new(self)),
             ..fresh
@@ -65,14 +63,14 @@ impl Emulator {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::Invalid`] unless it is an emulator of these parameters and so many predictions.
+    /// [`CalibrationError::Invalid`] unless it is an emulator of these parameters and parts.
     pub(crate) fn of_model(
         self,
         parameters: &[Parameter],
-        count: usize,
+        parts: &[Part],
         relative_noise: f64,
     ) -> Result<Self, CalibrationError> {
-        if self.parameters != parameters || self.count != count {
+        if self.parameters != parameters || self.parts != parts {
             let what = "number of parameters of a fit that begins with an earlier one";
             let allowed = "the same parameters and number of observations as there";
             return Err(CalibrationError::invalid(what, parameters.len() as f64, allowed));
@@ -129,8 +127,13 @@ impl Emulator {
                 }
             }
         }
-        let is_known = !self.runs.is_empty();
-        self.kriging = is_known.then(|| Kriging::through(&self.runs, self.nugget));
+        let mut next = 0;
+        let of_part = |part: &Part| {
+            let rows = next..next + part.predictions;
+            next = rows.end;
+            Kriging::through(&self.runs, &part.parameters, rows, self.nugget)
+        };
+        self.krigings = self.parts.iter().map(of_part).collect();
     }
 
     /// Predictions at a place; nothing where the model should have no answer, because the nearest run has
@@ -142,28 +145,36 @@ impl Emulator {
         has_answer.then(|| self.predict(place))
     }
 
+    fn count(&self) -> usize {
+        self.parts.iter().map(|part| part.predictions).sum()
+    }
+
     /// What the coarser model predicts, if there is one.
     fn expected(&self, place: &DVector<f64>) -> DVector<f64> {
         let trend = self.trend.as_ref().map(|trend| trend.predict(place));
-        trend.unwrap_or_else(|| DVector::zeros(self.count))
+        trend.unwrap_or_else(|| DVector::zeros(self.count()))
     }
 
     fn predict(&self, place: &DVector<f64>) -> DVector<f64> {
-        let expected = self.expected(place);
-        match &self.kriging {
-            Some(kriging) => expected + kriging.at(place),
-            None => expected,
+        let mut predicted = self.expected(place);
+        for kriging in &self.krigings {
+            let mut rows = predicted.rows_range_mut(kriging.rows.clone());
+            rows += kriging.at(place);
         }
+        predicted
     }
 
     /// Derivatives of the predictions by the shares, a column each.
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DMatrix<f64> {
-        let own = self.kriging.as_ref().map(|kriging| kriging.slopes(place));
         let trend = self.trend.as_ref().map(|trend| trend.slopes(place));
-        let slopes = own.into_iter().chain(trend);
-        slopes.fold(DMatrix::zeros(self.count, place.len()), |sum, slopes| {
-            sum + slopes
-        })
+        let mut slopes = trend.unwrap_or_else(|| DMatrix::zeros(self.count(), place.len()));
+        for kriging in &self.krigings {
+            for (input, slope) in kriging.slopes(place) {
+                let mut rows = slopes.rows_range_mut(kriging.rows.clone());
+                rows.column_mut(input).add_assign(&slope);
+            }
+        }
+        slopes
     }
 
     /// Those of some places, each with a standard error of all predictions together that is allowed there, at
@@ -171,19 +182,20 @@ impl Emulator {
     /// until all is allowed. The square of an error of prediction k counts `weights[k]`.
     pub(crate) fn doubtful(
         &self,
-        weights: &DVector<f64>,
+        weights: &[f64],
         ran: &DVector<f64>,
         mut places: Vec<(DVector<f64>, f64)>,
     ) -> Vec<DVector<f64>> {
-        let Some(kriging) = &self.kriging else {
-            return Vec::new();
-        };
-        let (scale, mut design) = (kriging.scale(weights).sqrt(), kriging.design.clone());
+        let of_part = |kriging: &Kriging| (kriging.scale(weights), kriging.design.clone());
+        let mut parts: Vec<(f64, Design)> = self.krigings.iter().map(of_part).collect();
         let (mut next, mut doubtful) = (ran.clone(), Vec::new());
         loop {
-            design.learn(&next);
+            for (_, design) in &mut parts {
+                design.learn(&next);
+            }
             let doubt = |(place, allowed): &(DVector<f64>, f64)| {
-                let doubt = scale * design.variance(place).sqrt() / allowed;
+                let variances = parts.iter().map(|(scale, design)| scale * design.variance(place));
+                let doubt = variances.sum::<f64>().sqrt() / allowed;
                 if doubt.is_nan() { f64::INFINITY } else { doubt }
             };
             let sizes = places.iter().map(doubt).enumerate();
@@ -195,9 +207,4 @@ impl Emulator {
             doubtful.push(next.clone());
         }
     }
-}
-
-/// Whether two places are one.
-fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
-    (a - b).amax() < SAME
 }

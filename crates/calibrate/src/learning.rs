@@ -24,7 +24,7 @@ const ROUNDS: usize = 80;
 ///
 /// # Errors
 ///
-/// [`CalibrationError::Invalid`] for an emulator of another model, [`CalibrationError::EvaluationLimit`],
+/// Those of the model's parts and of an emulator of others, [`CalibrationError::EvaluationLimit`],
 /// and [`CalibrationError::NoAnswer`] if the model has none at any of the first places.
 pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError> {
     let mut emulator = problem.first_emulator()?;
@@ -84,11 +84,11 @@ pub(crate) fn converge(problem: &Problem<'_>, emulator: &mut Emulator) -> Result
 }
 
 /// How much the square of an error of each prediction counts, in squared standard errors.
-fn weights(problem: &Problem<'_>, solution: &Solution) -> DVector<f64> {
+fn weights(problem: &Problem<'_>, solution: &Solution) -> Vec<f64> {
     let optimum = &solution.optimum;
     let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-    let weight = |row: usize, _| curvatures[row] / problem.sigmas[row].powi(2);
-    DVector::from_fn(problem.sigmas.len(), weight)
+    let pairs = curvatures.iter().zip(&problem.sigmas);
+    pairs.map(|(c, sigma)| c / (sigma * sigma)).collect()
 }
 
 /// Runs the model at places where it has not run yet, and learns what it says; why it had no answer, if

@@ -34,7 +34,7 @@ pub use lack_of_fit::{
     probability_of_gain, probability_of_scatter, probability_of_signs, probability_of_size,
 };
 pub use loss::Loss;
-pub use model::{Model, ModelError};
+pub use model::{Model, ModelError, Part};
 pub use options::Options;
 pub use parameter::{Parameter, Prior, Scale};
 pub use warning::Warning;

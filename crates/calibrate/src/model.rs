@@ -16,6 +16,21 @@ pub trait Model: Sync {
     /// Where the model has no answer. A fit avoids such corners; it fails only if there is no answer at
     /// any of its first places.
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError>;
+
+    /// Which parameters act on which predictions; nothing where all may act on all. Where each of several
+    /// series has parameters of its own, the emulator follows each by itself, and takes fewer runs.
+    fn parts(&self) -> Vec<Part> {
+        Vec::new()
+    }
+}
+
+/// Predictions that follow one another, and what acts on them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// How many predictions there are.
+    pub predictions: usize,
+    /// Indices of the parameters that act on them.
+    pub parameters: Vec<usize>,
 }
 
 impl<F> Model for F

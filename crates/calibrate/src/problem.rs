@@ -1,6 +1,6 @@
 //! What is given: a model, its parameters, and the observations that they are fitted to.
 
-use crate::{CalibrationError, Emulator, Model, Options, Parameter};
+use crate::{CalibrationError, Emulator, Model, Options, Parameter, Part};
 
 /// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
 const RESOLUTION: f64 = 1e-7;
@@ -45,13 +45,42 @@ impl Problem<'_> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::Invalid`] for an emulator of other parameters or another number of observations.
+    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and an emulator of others.
     pub fn first_emulator(&self) -> Result<Emulator, CalibrationError> {
         let own = self.of_model().into_iter().map(|k| self.parameters[k].clone());
-        let (own, count): (Vec<_>, _) = (own.collect(), self.observations.len());
+        let (own, parts): (Vec<_>, _) = (own.collect(), self.parts()?);
         let known = self.emulator.clone();
-        let known = known.unwrap_or_else(|| Emulator::new(own.clone(), count));
-        known.of_model(&own, count, self.options.relative_noise)
+        let known = known.unwrap_or_else(|| Emulator::new(own.clone(), parts.clone()));
+        known.of_model(&own, &parts, self.options.relative_noise)
+    }
+
+    /// What acts on which predictions: by default every parameter of the model on all.
+    fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
+        let (observations, count) = (self.observations.len(), self.of_model().len());
+        let mut parts = self.model.parts();
+        if parts.is_empty() {
+            parts.push(Part {
+                predictions: observations,
+                parameters: (0..count).collect(),
+            });
+        }
+        let predictions: usize = parts.iter().map(|part| part.predictions).sum();
+        if predictions != observations {
+            let what = "number of predictions of the model's parts";
+            return Err(CalibrationError::invalid(
+                what,
+                predictions as f64,
+                "one for each observation",
+            ));
+        }
+        let mut indices = parts.iter().flat_map(|part| &part.parameters);
+        match indices.find(|&&index| index >= count) {
+            None => Ok(parts),
+            Some(&index) => {
+                let (what, allowed) = ("index of a parameter of a part", "below the number of parameters");
+                Err(CalibrationError::invalid(what, index as f64, allowed))
+            }
+        }
     }
 
     /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.

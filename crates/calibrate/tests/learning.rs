@@ -3,7 +3,7 @@
 mod common;
 
 use calibrate::{
-    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Parameter, Prior, Scale,
+    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Parameter, Part, Prior, Scale,
 };
 use common::{noisy, options, passes, saturation, saturation_parameters};
 
@@ -92,6 +92,88 @@ fn what_is_known_of_a_model_is_not_learned_again() {
     assert!(most < 0.15, "{most}");
     let more = known.evaluations - first.evaluations;
     assert!(more <= 6, "{more}");
+}
+
+/// Two series, each with a force of its own, that share the passes and a factor of both forces.
+struct TwoSeries {
+    says_parts: bool,
+}
+
+impl Model for TwoSeries {
+    fn predict(&self, p: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let series = |force: f64, own: f64, count| saturation(&passes(count)).predict(&[force * p[4], own]);
+        Ok([series(p[0], p[1], 40)?, series(p[2], p[3], 30)?].concat())
+    }
+
+    fn parts(&self) -> Vec<Part> {
+        let part = |predictions, own: [usize; 2]| Part {
+            predictions,
+            parameters: vec![own[0], own[1], 4],
+        };
+        if self.says_parts {
+            vec![part(40, [0, 1]), part(30, [2, 3])]
+        } else {
+            Vec::new()
+        }
+    }
+}
+
+/// A model that says which parameters act on which series is fitted with fewer runs, and alike.
+#[test]
+fn each_series_is_followed_by_itself() {
+    let data = TwoSeries { says_parts: true }
+        .predict(&[550.0, 12.0, 800.0, 9.0, 1.0])
+        .unwrap();
+    let data = noisy(&data, 5.0, 4);
+    let mut parameters = Vec::new();
+    for series in ["1", "2"] {
+        for (name, upper) in [("force", 2000.0), ("passes", 100.0)] {
+            let name = format!("{name}_{series}");
+            parameters.push(Parameter::new(&name, 0.01 * upper, upper, Scale::Logarithmic).unwrap());
+        }
+    }
+    let shared = Parameter::new("factor", 0.3, 3.0, Scale::Logarithmic).unwrap();
+    let prior = Prior {
+        value: 1.0,
+        sigma: 0.05,
+    };
+    parameters.push(shared.with_prior(prior).unwrap());
+    let fit = |says_parts| {
+        let model = TwoSeries { says_parts };
+        let calibration = Calibration::new(&model, parameters.clone(), data.clone()).unwrap();
+        calibration.fit().unwrap()
+    };
+    let [parts, whole] = [true, false].map(fit);
+    let most = differences(&whole, &parts).into_iter().fold(0.0, f64::max);
+    assert!(most < 0.15, "{most}");
+    let (few, many) = (parts.evaluations, whole.evaluations);
+    assert!(5 * few < 4 * many, "{few} {many}");
+}
+
+#[test]
+fn parts_that_do_not_fit_the_observations_are_refused() {
+    struct Wrong(Part);
+    impl Model for Wrong {
+        fn predict(&self, p: &[f64]) -> Result<Vec<f64>, ModelError> {
+            saturation(&passes(40)).predict(p)
+        }
+
+        fn parts(&self) -> Vec<Part> {
+            vec![self.0.clone()]
+        }
+    }
+    for (predictions, parameter) in [(39, 1), (40, 2)] {
+        let model = Wrong(Part {
+            predictions,
+            parameters: vec![0, parameter],
+        });
+        let calibration = Calibration::new(&model, saturation_parameters(), vec![1.0; 40]).unwrap();
+        let found = calibration.fit();
+        assert!(
+            matches!(found, Err(CalibrationError::Invalid { .. })),
+            "{found:?}"
+        );
+    }
 }
 
 /// A parameter without effect stays open, and one known beforehand takes its prior's width.
