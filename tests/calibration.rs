@@ -203,7 +203,7 @@ fn outliers_do_not_move_a_robust_fit() {
         spoiled[29] *= 0.7;
         let fit = |forces: &[f64]| {
             let options = CalibrateOptions {
-                loss: Loss::TUKEY,
+                loss: Loss::Tukey,
                 ..CalibrateOptions::default()
             };
             calibrate(&upper(), &readings(forces), &options).unwrap()

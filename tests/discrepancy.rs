@@ -58,7 +58,7 @@ fn a_discrepancy_makes_room_where_the_law_is_wrong() {
     }
     let robust = CalibrateOptions {
         discrepancy: Some(0.1),
-        loss: Loss::TUKEY,
+        loss: Loss::Tukey,
         ..CalibrateOptions::default()
     };
     let error = calibrate(&upper, &data, &robust).unwrap_err();

@@ -184,7 +184,7 @@ fn calibrate(
         let unknown = |name: &String| name.parse::<Unknown>().map_err(Failure::argument);
         let options = CalibrateOptions {
             unknowns: fit.iter().map(unknown).collect::<Result<_, _>>()?,
-            loss: if robust { Loss::TUKEY } else { Loss::Squares },
+            loss: if robust { Loss::Tukey } else { Loss::Squares },
             progress,
             ..CalibrateOptions::default()
         };

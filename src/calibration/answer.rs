@@ -1,39 +1,40 @@
 //! From the final fit to what the user reads.
 
+use cable_dem::Mesh;
 use calibrate::{Estimate, Fit, Loss};
 
-use super::cell::Observed;
+use super::diagnosis::{LEFT_OUT, diagnose};
 use super::ground;
-use super::judgement::{LEFT_OUT, judge};
-use super::meshes::{Final, MESH_SHIFT};
-use super::model::SeriesModel;
+use super::meshes::Final;
+use super::model::{MeshOf, SeriesModel};
 use super::problem::Problem;
 use super::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
-use crate::readings::{Measured, Reading};
+use super::row::Row;
+use crate::readings::Measured;
 use crate::scene::four_digits;
 use crate::{Error, finite};
 
+/// Shift of a parameter by the mesh, in standard errors, which an interval does not hide.
+const MESH_SHIFT: f64 = 0.8;
+
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
-    let model_error = model_error(found);
+    let readings = readings(problem, found);
+    let r_squared = explained(&readings);
+    let diagnosis = diagnose(problem, found, mistakes, r_squared)?;
+    let suspicious = diagnosis.lack_of_fit.suspicious;
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    let readings = readings(problem, fit);
-    let r_squared = explained(&readings);
-    let judgement = judge(problem, found, mistakes, r_squared)?;
-    let suspicious = judgement.lack_of_fit.suspicious;
-    let assumptions = ground::assumption(problem, found)?.into_iter().collect();
+    let parameters = fit.estimates.iter().zip(units);
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
+    let model_error = model_error(found);
     let answer = Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
-        parameters: fit
-            .estimates
-            .iter()
-            .zip(units)
+        parameters: parameters
             .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
             .collect(),
         correlation: fit.correlation.clone(),
@@ -41,13 +42,13 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         residuals,
         r_squared,
         evaluations: found.evaluations,
-        warnings: warnings(problem, fit, &model_error, judgement.warnings),
-        lack_of_fit: judgement.lack_of_fit,
-        assumptions,
+        warnings: warnings(problem, fit, &model_error, diagnosis.warnings),
+        lack_of_fit: diagnosis.lack_of_fit,
+        assumptions: ground::assumption(problem, found)?.into_iter().collect(),
         // Where readings have their own sigmas, there is no single noise.
         noise_n: (!own_sigmas).then_some(fit.noise),
         degrees_of_freedom: fit.degrees_of_freedom,
-        method: method(problem, found)?,
+        method: method(problem, fit)?,
         model_error,
         fit: readings,
     };
@@ -58,13 +59,9 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
 /// Half the difference to a mesh twice as fine.
 fn model_error(found: &Final) -> ModelErrorEstimate {
     let most = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
-    let largest = most(&found.fit.fitted);
+    let (error, largest) = (0.5 * most(&found.difference), most(&found.fit.fitted));
     ModelErrorEstimate {
-        relative: if largest > 0.0 {
-            0.5 * most(&found.difference) / largest
-        } else {
-            0.0
-        },
+        relative: if largest > 0.0 { error / largest } else { 0.0 },
         standard_errors: found.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
     }
 }
@@ -73,21 +70,22 @@ fn warnings(
     problem: &Problem<'_>,
     fit: &Fit,
     error: &ModelErrorEstimate,
-    judged: Vec<String>,
+    mut warnings: Vec<String>,
 ) -> Vec<String> {
-    let mut warnings = judged;
     warnings.extend(fit.warnings.iter().map(ToString::to_string));
-    for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
+    for (Estimate { name, .. }, error) in fit.estimates.iter().zip(&error.standard_errors) {
         if *error > MESH_SHIFT {
-            warnings.push(format!(
-                "the mesh may move {} by {error:.1} standard errors: its interval is too narrow",
-                estimate.name
-            ));
+            let words = "standard errors: its interval is too narrow";
+            warnings.push(format!("the mesh may move {name} by {error:.1} {words}"));
         }
     }
-    for one in problem.series {
-        warnings.extend(one.readings.notes().iter().cloned());
-    }
+    warnings.extend(
+        problem
+            .series
+            .iter()
+            .flat_map(|one| one.readings.notes())
+            .cloned(),
+    );
     warnings
 }
 
@@ -106,67 +104,58 @@ fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> Fitte
     }
 }
 
-fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
-    let mesh = |model: &SeriesModel| model.mesh(found.level);
+fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
+    let mesh = |model: &SeriesModel| model.levels.mesh(MeshOf::Answer.level(model));
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
-    let fit = &found.fit;
-    Ok(FitMethod {
-        cable: problem.models[0].method().to_string(),
-        load_cell: problem
-            .models
-            .iter()
-            .map(|model| model.observed[0].1.place())
-            .collect(),
-        node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
-        vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
-        loss: match problem.options.loss {
-            Loss::Squares => "squares",
-            Loss::Tukey { .. } => "tukey",
-            _ => "other",
-        },
-        intervals: intervals(fit, problem.options.discrepancy),
-    })
-}
-
-fn intervals(fit: &Fit, discrepancy: Option<f64>) -> String {
+    let places = problem.models.iter().map(|model| model.observed[0].1.place());
+    let freedom = four_digits(fit.degrees_of_freedom);
     let noise = if fit.noise_estimated {
-        format!(
-            ", Student's t with {} degrees of freedom",
-            four_digits(fit.degrees_of_freedom)
-        )
+        format!(", Student's t with {freedom} degrees of freedom")
     } else {
         " with the given sigmas".into()
     };
-    let error = discrepancy.map_or_else(String::new, |share| {
-        format!(
-            ", beside a smooth error of the model of {} % of the largest reading",
-            four_digits(100.0 * share)
-        )
+    let error = problem.options.discrepancy.map_or_else(String::new, |share| {
+        let percent = four_digits(100.0 * share);
+        format!(", beside a smooth error of the model of {percent} % of the largest reading")
     });
-    format!("profile likelihood{noise}{error}")
+    Ok(FitMethod {
+        cable: problem.models[0].method().to_string(),
+        load_cell: places.collect(),
+        node_spacing_m: meshes.iter().map(Mesh::spacing).collect(),
+        vehicle_step_m: meshes.iter().map(Mesh::vehicle_step).collect(),
+        loss: if problem.options.loss == Loss::Squares {
+            "squares"
+        } else {
+            "tukey"
+        },
+        intervals: format!("profile likelihood{noise}{error}"),
+    })
 }
 
-fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
-    let fitted = |(row, (series, reading, observed)): (usize, (usize, &Reading, Observed))| {
-        let force = |value: f64| matches!(reading.measured, Measured::Force(_)).then_some(value);
+fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
+    let fit = &found.fit;
+    let fitted = |(k, row): (usize, &Row<'_>)| {
+        let (reading, measured) = (row.reading, row.reading.measured);
+        let force = |value: f64| matches!(measured, Measured::Force(_)).then_some(value);
+        let (fitted, residual) = (fit.fitted[k] + found.difference[k], fit.residuals[k]);
         FittedReading {
-            series: series + 1,
+            series: row.series + 1,
             pass: reading.pass,
             force_n: force(reading.value),
-            fitted_n: force(fit.fitted[row]),
-            residual_n: force(fit.residuals[row]),
-            weight: fit.weights[row],
-            run: problem.series[series].readings.runs()[reading.run].clone(),
+            fitted_n: force(fitted),
+            residual_n: force(residual),
+            weight: fit.weights[k],
+            run: problem.series[row.series].readings.runs()[reading.run].clone(),
             line: reading.line,
-            measured: reading.measured.name(),
-            at: observed.place(),
+            measured: measured.name(),
+            at: row.observed.place(),
             value: reading.value,
-            fitted: fit.fitted[row],
-            residual: fit.residuals[row],
-            unit: reading.measured.unit(),
+            fitted,
+            residual,
+            unit: measured.unit(),
         }
     };
-    problem.readings().enumerate().map(fitted).collect()
+    problem.rows.iter().enumerate().map(fitted).collect()
 }
 
 /// The share of the variance of the readings that are kept which the model explains; `None` where they do not vary.

@@ -4,9 +4,9 @@ use cable_dem::{End, PassOutcome};
 
 use super::error::unfit;
 use crate::answer::{ForceProfile, Stage};
-#[cfg(feature = "plot")]
-use crate::readings::Readings;
 use crate::readings::{Measured, Place};
+#[cfg(feature = "plot")]
+use crate::readings::{Reading, Readings};
 use crate::{CableEnd, Error, Scene};
 
 /// The end that is held in `scene`, the downstream one if both are.
@@ -30,14 +30,11 @@ fn end_but(scene: &Scene, held: End) -> Option<CableEnd> {
 /// The force on each end of `scene` that readings are of: the load cells of `readings`, in the order of the file.
 #[cfg(feature = "plot")]
 pub(crate) fn force_ends(scene: &Scene, readings: &Readings) -> Result<Vec<Option<CableEnd>>, Error> {
-    let ends = readings
-        .readings()
-        .iter()
-        .map(|reading| match Observed::of(scene, reading.measured)? {
-            Observed::Force(end) => Ok(Some(end)),
-            _ => Ok(None),
-        });
-    ends.collect()
+    let end = |reading: &Reading| match Observed::of(scene, reading.measured)? {
+        Observed::Force(end) => Ok(Some(end)),
+        _ => Ok(None),
+    };
+    readings.readings().iter().map(end).collect()
 }
 
 /// What a reading is compared with.
@@ -65,36 +62,26 @@ impl Observed {
             let reason = format!("it was taken at {place} m of {length} m");
             unfit("duct.length", "a reading outside the duct", reason)
         };
-        let held = |end: CableEnd| match end.held_in(scene) {
-            End::Free => unfit(
-                end.of(["ends.upstream", "ends.downstream"]),
-                "free",
-                "readings of a load cell at this end: it was held",
-            ),
-            _ => Ok(Self::Force(end)),
-        };
-        let strain = |end: CableEnd| Ok(Self::StrainAt(end.of([0.0, length])));
         match measured {
             Measured::Force(Place::Natural) => Ok(Self::Force(held_end(scene)?)),
-            Measured::Force(Place::End(end)) => held(end),
+            Measured::Force(Place::End(end)) if end.held_in(scene) == End::Free => {
+                let key = end.of(["ends.upstream", "ends.downstream"]);
+                unfit(key, "free", "readings of a load cell at this end: it was held")
+            }
+            Measured::Force(Place::End(end)) => Ok(Self::Force(end)),
             Measured::Force(Place::At(place)) => Ok(Self::ForceAt(at(place)?)),
             Measured::Movement(Place::Natural) => Ok(Self::Movement(moving_end(scene)?)),
             Measured::Movement(Place::End(end)) => Ok(Self::Movement(end)),
             Measured::Movement(Place::At(place)) => {
                 let mut ends = CableEnd::ALL.into_iter();
+                let reason = "movements are those of an end";
+                let between = || unfit("data", "a movement between the ends", reason);
                 let end = ends.find(|end| end.of([0.0, length]) == place);
-                let between = || {
-                    unfit(
-                        "data",
-                        "a movement between the ends",
-                        "movements are those of an end",
-                    )
-                };
                 end.map(Self::Movement).map_or_else(between, Ok)
             }
             Measured::Strain(Place::At(place)) => Ok(Self::StrainAt(at(place)?)),
-            Measured::Strain(Place::End(end)) => strain(end),
-            Measured::Strain(Place::Natural) => strain(held_end(scene)?),
+            Measured::Strain(Place::End(end)) => Ok(Self::StrainAt(end.of([0.0, length]))),
+            Measured::Strain(Place::Natural) => Ok(Self::StrainAt(held_end(scene)?.of([0.0, length]))),
             Measured::Deflection => Ok(Self::Deflection),
         }
     }

@@ -11,8 +11,7 @@ use calibrate::{CalibrationError, smooth_functions};
 
 use super::cell::Observed;
 use super::error::{study, unfit};
-use super::model::SeriesModel;
-use super::options::Series;
+use super::row::{Row, instruments};
 use crate::Error;
 
 /// Length of correlation, in the logarithm of the passes: forces of a wrong law or ground miss the readings
@@ -24,11 +23,7 @@ pub const LENGTH: f64 = 2.0;
 pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
 
 /// Functions of all readings, by a sum of which the model may be off, of a `share` of the largest.
-pub fn discrepancy(
-    series: &[Series<'_>],
-    models: &[SeriesModel],
-    share: f64,
-) -> Result<Vec<Vec<f64>>, Error> {
+pub fn discrepancy(rows: &[Row<'_>], share: f64) -> Result<Vec<Vec<f64>>, Error> {
     if !SHARES.contains(&share) {
         return Err(study(CalibrationError::Invalid {
             what: "option discrepancy".into(),
@@ -36,42 +31,37 @@ pub fn discrepancy(
             allowed: "a share of 0.0001 to 10",
         }));
     }
-    // Instrument, logarithm of the passes, and what the error is a share of.
-    let mut rows: Vec<((usize, Observed), f64, f64)> = Vec::new();
-    for (index, (one, model)) in series.iter().zip(models).enumerate() {
-        let list = || one.readings.readings().iter().zip(&model.observed);
-        for (_, &(pass, observed)) in list() {
-            let own = list().filter(|(_, (_, other))| *other == observed);
-            let largest = own.fold(0.0_f64, |most, (reading, _)| most.max(reading.value.abs()));
-            let exact = pass == 0 && observed != Observed::Deflection;
-            let scale = if exact { 0.0 } else { largest };
-            rows.push(((index, observed), (pass.max(1) as f64).ln(), scale));
-        }
-    }
-    // Squares, as of numbers that are as good as 0 nothing is left.
-    if rows.iter().all(|(_, _, scale)| scale * scale == 0.0) {
-        return unfit(
-            "discrepancy",
-            "a largest reading of 0 after the passes",
-            "the discrepancy is a share of it; check the readings, or leave the discrepancy out",
-        );
-    }
-    let places: Vec<f64> = rows.iter().map(|(_, place, _)| *place).collect();
+    let places: Vec<f64> = rows
+        .iter()
+        .map(|row| (row.reading.passes.max(1) as f64).ln())
+        .collect();
     let bells = smooth_functions(&places, LENGTH);
-    let mut instruments: Vec<(usize, Observed)> = rows.iter().map(|(own, ..)| *own).collect();
-    instruments.dedup();
     let mut functions = Vec::new();
-    for (index, instrument) in instruments.iter().enumerate() {
-        if instruments[..index].contains(instrument) {
-            continue;
-        }
-        let size = |(own, _, scale): &((usize, Observed), f64, f64)| {
-            if own == instrument { share * scale } else { 0.0 }
+    for instrument in instruments(rows) {
+        let own = || rows.iter().filter(|row| row.instrument() == instrument);
+        let largest = own().fold(0.0_f64, |most, row| most.max(row.reading.value.abs()));
+        let size = |row: &Row<'_>| {
+            let is_exact = row.reading.passes == 0 && row.observed != Observed::Deflection;
+            if row.instrument() == instrument && !is_exact {
+                share * largest
+            } else {
+                0.0
+            }
         };
-        functions.extend(bells.iter().map(|bell| -> Vec<f64> {
-            let own = bell.iter().zip(&rows);
-            own.map(|(value, row)| value * size(row)).collect()
-        }));
+        let function = |bell: &Vec<f64>| {
+            bell.iter()
+                .zip(rows)
+                .map(|(value, row)| value * size(row))
+                .collect()
+        };
+        // Squares, as of numbers that are as good as 0 nothing is left.
+        if own().any(|row| size(row) * size(row) > 0.0) {
+            functions.extend(bells.iter().map(function));
+        }
+    }
+    if functions.is_empty() {
+        let reason = "the discrepancy is a share of it; check the readings, or leave the discrepancy out";
+        return unfit("discrepancy", "a largest reading of 0 after the passes", reason);
     }
     Ok(functions)
 }

@@ -1,8 +1,7 @@
 //! What another ground than the scene's would do to a fit that takes it as it is.
 
-use calibrate::TermTest;
-
 use super::meshes::Final;
+use super::model::MeshOf;
 use super::problem::Problem;
 use super::unknown::Quantity;
 use crate::Error;
@@ -14,37 +13,35 @@ const SHOWN: f64 = 3.0;
 
 /// What a softer ground would do to the parameters, and whether the readings would show it; nothing where the ground is fitted.
 pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>, Error> {
-    let is_ground = |quantity: Quantity| quantity == Quantity::GroundStiffness;
-    if problem.unknowns.iter().any(|unknown| is_ground(unknown.quantity)) {
+    let mut fitted = problem.unknowns.iter().map(|unknown| unknown.quantity);
+    if fitted.any(|quantity| quantity == Quantity::GroundStiffness) {
         return Ok(None);
     }
     let values = found.fit.values();
     // A difference of a tenth needs no fine mesh.
-    let at = |stiffness| problem.predict(0, stiffness, &values);
+    let at = |stiffness| problem.predict(MeshOf::Guess, stiffness, &values);
     let (soft, here) = (at(1.0 - SOFTER)?, at(1.0)?);
     let change: Vec<f64> = soft.iter().zip(&here).map(|(soft, here)| soft - here).collect();
-    let shifts = found.fit.shift(&change);
-    let moved = found
+    let (shifts, left) = found.fit.shift(&change);
+    let mut moved = Vec::new();
+    for (estimate, shift) in found
         .fit
         .estimates
         .iter()
         .zip(&shifts)
         .take(problem.unknowns.len())
-        .filter_map(|(estimate, shift)| {
-            let error = estimate.standard_error?;
-            Some(format!(
-                "{} by {:+.2} of its standard errors of {error:.2e}",
-                estimate.name, shift
-            ))
-        });
-    let moved: Vec<String> = moved.collect();
+    {
+        if let Some(error) = estimate.standard_error {
+            let name = &estimate.name;
+            moved.push(format!(
+                "{name} by {shift:+.2} of its standard errors of {error:.2e}"
+            ));
+        }
+    }
     if moved.is_empty() {
         return Ok(None);
     }
-    // In units of this softening.
-    let test = TermTest::of(&found.fit, &change);
-    let hidden = test.as_ref().is_none_or(|test| test.standard_error * SHOWN > 1.0);
-    let shown = if hidden {
+    let shown = if left < SHOWN {
         "and these readings cannot show it"
     } else {
         "though these readings would show it"

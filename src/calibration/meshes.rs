@@ -1,108 +1,51 @@
-//! A fit on ever finer meshes, until the coarser one would hardly move the parameters.
+//! The fit on the mesh that the plan takes, and what a finer one says more.
 
-use calibrate::{CalibrationError, Emulator, Fit};
+use calibrate::Fit;
 
-use super::error::study;
-use super::model::SeriesModel;
-use super::problem::{FIRST_LEVEL, LAST_LEVEL, Problem};
+use super::model::MeshOf;
+use super::problem::{Problem, Way};
 use crate::Error;
-
-/// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
-pub const MESH_SHIFT: f64 = 0.8;
 
 pub struct Final {
     pub fit: Fit,
-    /// What was learned of the forces on the coarsest mesh.
-    pub coarsest: Emulator,
-    pub level: u32,
-    /// How much more than the coarser mesh the finer one of two says, and how many standard errors that moves
-    /// each parameter.
+    /// How much more a mesh twice as fine says at the optimum, which was added to what the mesh predicts, and how many standard errors
+    /// that moved each parameter.
     pub difference: Vec<f64>,
     pub shift: Vec<f64>,
-    /// What was added to what the mesh predicts.
-    pub correction: Option<Vec<f64>>,
-    /// Model runs, all levels together.
+    /// Model runs, all meshes together.
     pub evaluations: usize,
 }
 
-/// Fits with at most `limit` model runs, with profiles or without: on the coarsest mesh, whose runs cost
-/// least, then on the first that may answer. Where the one below it would move a parameter too far, on the
-/// finest one, to which is added what the next says more at the optimum.
-pub fn fit(problem: &Problem<'_>, limit: usize, profiles: bool) -> Result<Final, Error> {
-    let mut fits = Fits {
-        problem,
-        limit,
+/// Fits with profiles or without: on the coarsest mesh, whose runs cost least, then on that of the plan, then on the same with what a mesh twice as
+/// fine says more at the optimum.
+pub fn fit(problem: &Problem<'_>, profiles: bool) -> Result<Final, Error> {
+    let none = vec![0.0; problem.rows.len()];
+    let way = |mesh, profiles, evaluations| Way {
+        mesh,
+        difference: &none,
         profiles,
-        evaluations: 0,
+        runs: problem.limit.saturating_sub(evaluations),
     };
-    let meshed = problem.models.iter().any(SeriesModel::is_meshed);
-    let first = fits.on(0, None, None)?;
-    let coarsest = first.emulator.clone();
-    let (mut level, mut fit) = (0, first);
-    if !meshed {
-        level = FIRST_LEVEL;
-        fit = fits.on(level, Some(&fit), None)?;
-        let coarser = fits.once(level - 1, &fit.values())?;
-        let difference: Vec<f64> = fit.fitted.iter().zip(&coarser).map(|(a, b)| a - b).collect();
-        let shift = fit.shift(&difference);
-        if shift.iter().all(|shift| shift.abs() <= MESH_SHIFT) {
-            return Ok(Final {
-                fit,
-                coarsest,
-                level,
-                difference,
-                shift,
-                correction: None,
-                evaluations: fits.evaluations,
-            });
-        }
-        level = LAST_LEVEL;
-        fit = fits.on(level, Some(&fit), None)?;
+    let (mut evaluations, mut coarse) = (0, None);
+    if !problem.models.iter().any(|model| model.levels.named) {
+        let guess = problem.fit(way(MeshOf::Guess, profiles, 0), None)?;
+        evaluations = guess.evaluations;
+        coarse = Some(guess.emulator.of_finer());
     }
-    let finer = fits.once(level + 1, &fit.values())?;
-    let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
-    let shift = fit.shift(&difference);
+    let first = problem.fit(way(MeshOf::Answer, false, evaluations), coarse)?;
+    let finer = problem.predict(MeshOf::Check, 1.0, &first.values())?;
+    evaluations += 1;
+    let difference: Vec<f64> = finer.iter().zip(&first.fitted).map(|(a, b)| a - b).collect();
+    let (shift, _) = first.shift(&difference);
+    let last = Way {
+        difference: &difference,
+        ..way(MeshOf::Answer, profiles, evaluations)
+    };
+    let fit = problem.fit(last, Some(first.emulator))?;
     Ok(Final {
-        fit: fits.on(level, Some(&fit), Some(difference.clone()))?,
-        coarsest,
-        level,
-        shift,
-        correction: Some(difference.clone()),
+        evaluations: evaluations + fit.evaluations,
+        fit,
         difference,
-        evaluations: fits.evaluations,
+        shift,
     })
-}
-
-struct Fits<'a> {
-    problem: &'a Problem<'a>,
-    limit: usize,
-    profiles: bool,
-    evaluations: usize,
-}
-
-impl Fits<'_> {
-    /// A fit on a level of meshes, which begins with what a fit on a coarser one learned.
-    fn on(&mut self, level: u32, coarse: Option<&Fit>, correction: Option<Vec<f64>>) -> Result<Fit, Error> {
-        let model = self.problem.model(level, correction);
-        let left = self.limit.saturating_sub(self.evaluations);
-        let mut calibration = self.problem.calibration(&model, self.profiles, left)?;
-        if let Some(coarse) = coarse {
-            calibration = calibration.with_coarse(coarse.emulator.clone());
-        }
-        let fit = calibration.fit().map_err(|error| match error {
-            // Of all levels together.
-            CalibrationError::EvaluationLimit { .. } => {
-                study(CalibrationError::EvaluationLimit { limit: self.limit })
-            }
-            other => study(other),
-        })?;
-        self.evaluations += fit.evaluations;
-        Ok(fit)
-    }
-
-    /// What a level predicts with these values of all parameters.
-    fn once(&mut self, level: u32, values: &[f64]) -> Result<Vec<f64>, Error> {
-        self.evaluations += 1;
-        self.problem.predict(level, 1.0, values)
-    }
 }

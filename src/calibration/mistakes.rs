@@ -1,8 +1,9 @@
 //! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
 
 use super::cell::Observed;
+use super::model::MeshOf;
 use super::problem::Problem;
-use super::terms::cells;
+use super::row::instruments;
 use crate::Error;
 
 /// Share of the forces of one sign that makes it the sign of all: a few near zero may have either by noise.
@@ -12,17 +13,17 @@ const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
 /// What looks mistaken beside what the scenes' own values predict.
 pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
-    let expected = problem.predict(0, 1.0, &problem.scene_values())?;
-    let measured: Vec<f64> = problem.readings().map(|(_, reading, _)| reading.value).collect();
+    let expected = problem.predict(MeshOf::Guess, 1.0, &problem.scene_values())?;
     let mut mistakes = Vec::new();
-    for cell in cells(problem.series, problem.models) {
-        if !matches!(cell.observed, Observed::Force(_)) {
+    for instrument in instruments(problem.rows) {
+        if !matches!(instrument.1, Observed::Force(_)) {
             continue;
         }
         // The zero reading has no sign and no size.
-        let rows = (0..measured.len()).filter(|&row| cell.offset[row] != 0.0 && cell.drift[row] > 0.0);
-        let both: Vec<(f64, f64)> = rows.map(|row| (measured[row], expected[row])).collect();
-        mistakes.extend(of_forces(&cell.observed.place(), &both));
+        let pairs = problem.rows.iter().zip(&expected);
+        let own = pairs.filter(|(row, _)| row.instrument() == instrument && row.reading.passes > 0);
+        let both: Vec<(f64, f64)> = own.map(|(row, force)| (row.reading.value, *force)).collect();
+        mistakes.extend(of_forces(&instrument.1.place(), &both));
     }
     Ok(mistakes)
 }

@@ -3,11 +3,10 @@
 //! *Problem.* Force on a held end after known passes is given; μ_d, b and the ground's stiffness are asked, with what is sure
 //! about them. The crate `calibrate` does the statistics; here scenes become its model.
 //!
-//! *Mesh.* A fit is repeated on ever finer fixed meshes until the difference to the next one moves no parameter by more than
-//! 0.8 standard errors. The answer is a fit on that next one; half of the difference is stated as the error left. On the finest mesh, or one
-//! that the scene names, the difference is added to the predictions instead.
+//! *Mesh.* A fit takes the mesh that the scene's plan takes for an error of 1 %. What a mesh twice as fine predicts more at the optimum is added to its
+//! predictions; half of that is stated as the error left.
 //!
-//! *Runs.* An emulator learns the forces on each mesh, from what it knows of the coarser one and few runs (`calibrate::Emulator`).
+//! *Runs.* An emulator learns the forces, from what it knows of a coarse mesh and few runs (`calibrate::Emulator`).
 //!
 //! *Readings.* Forces on load cells after the vehicle has left: at the downstream end if that is held, else at the upstream end, or where
 //! the readings say; movements of an end, forces and strains along the cable, the duct's deflection. Before the first pass all are zero.
@@ -19,10 +18,10 @@
 mod alternatives;
 mod answer;
 mod cell;
+mod diagnosis;
 mod discrepancy;
 mod error;
 mod ground;
-mod judgement;
 mod meshes;
 mod mistakes;
 mod model;
@@ -31,6 +30,7 @@ mod options;
 mod overload;
 mod problem;
 mod result;
+mod row;
 mod terms;
 mod unknown;
 mod watch;
@@ -40,9 +40,9 @@ use ::calibrate::Options;
 pub use ::calibrate::{CalibrationError, Loss};
 #[cfg(feature = "plot")]
 pub(crate) use cell::{force_ends, held_end};
+pub use diagnosis::LackOfFit;
 #[cfg(feature = "cli")]
 pub(crate) use discrepancy::SHARES;
-pub use judgement::LackOfFit;
 #[cfg(feature = "plot")]
 pub(crate) use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
@@ -79,22 +79,20 @@ pub fn calibrate(
 ///
 /// As for [`calibrate()`].
 pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
-    // What a cell reads too much of any force may be as large as it likes.
-    let fits_cell = options
-        .unknowns
-        .iter()
-        .any(|unknown| unknown.quantity.is_of_cell());
-    if fits_cell {
+    let mut unknowns = options.unknowns.iter();
+    if unknowns.any(|unknown| unknown.quantity.is_of_cell()) {
+        // What a cell reads too much of any force may be as large as it likes.
         return fit(series, options);
     }
     let kept: Vec<(Readings, Option<String>)> = series.iter().map(overload::within_reach).collect();
-    let within = series.iter().zip(&kept);
-    let within: Vec<Series<'_>> = within
+    let pairs = series.iter().zip(&kept);
+    let within: Vec<Series<'_>> = pairs
         .map(|(one, (readings, _))| Series { readings, ..*one })
         .collect();
     let mut answer = fit(&within, options)?;
-    let words = kept.into_iter().filter_map(|(_, words)| words);
-    answer.warnings.splice(..0, words);
+    answer
+        .warnings
+        .splice(..0, kept.into_iter().filter_map(|(_, words)| words));
     Ok(answer)
 }
 
@@ -104,6 +102,7 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
         .iter()
         .map(SeriesModel::new)
         .collect::<Result<Vec<_>, _>>()?;
+    let rows = row::rows(series, &models);
     let limit = match options.max_evaluations {
         0 => Options::default().max_evaluations,
         limit => limit,
@@ -111,32 +110,31 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
     let (terms, unknowns): (Vec<Unknown>, Vec<Unknown>) = unknowns
         .into_iter()
         .partition(|unknown| unknown.quantity.is_of_cell());
-    let terms = terms::terms(series, &models, &terms, options)?;
     let watch = Watch::new(options.progress, limit);
     let problem = Problem {
         series,
         models: &models,
+        rows: &rows,
         unknowns: &unknowns,
-        terms: &terms,
+        terms: &terms::terms(series.len(), &rows, &terms, options)?,
         options,
+        limit,
         watch: &watch,
-        memory: &model::Memory::default(),
     };
-    let answer = answer(&problem, limit);
-    if watch.is_stopped() {
-        return Err(Error::Stopped);
-    }
-    answer
-}
-
-fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
-    let mistakes = mistakes::mistakes(problem)?;
-    // What follows from a wrong sign or unit is not worth intervals.
-    match meshes::fit(problem, limit, mistakes.is_empty()) {
-        Ok(found) => answer::answer(problem, &found, mistakes),
-        Err(Error::Study { .. }) if !mistakes.is_empty() => {
-            error::unfit("data", "readings without any fit", mistakes.join("; "))
+    let answer = || {
+        let mistakes = mistakes::mistakes(&problem)?;
+        // What follows from a wrong sign or unit is not worth intervals.
+        match meshes::fit(&problem, mistakes.is_empty()) {
+            Err(Error::Study { .. }) if !mistakes.is_empty() => {
+                error::unfit("data", "readings without any fit", mistakes.join("; "))
+            }
+            found => answer::answer(&problem, &found?, mistakes),
         }
-        Err(error) => Err(error),
+    };
+    let answer = answer();
+    if watch.is_stopped() {
+        Err(Error::Stopped)
+    } else {
+        answer
     }
 }

@@ -1,6 +1,6 @@
 //! Noise of readings by themselves, before any fit.
 
-use super::options::Series;
+use super::row::Row;
 use crate::readings::{Measured, Reading};
 
 /// Makes the median of |e| under Gaussian noise a standard deviation.
@@ -9,46 +9,32 @@ const MEDIAN_TO_SIGMA: f64 = 1.4826;
 const LEAST: f64 = 1e-3;
 
 /// Standard deviations that weigh readings of several kinds against each other; `None` where all are of one kind.
-pub fn relative_sigmas(series: &[Series<'_>]) -> Option<Vec<f64>> {
-    let readings = || series.iter().flat_map(|one| one.readings.readings());
-    let first = readings().next()?.measured;
-    if readings().all(|reading| reading.measured.is_like(first)) {
+pub fn relative_sigmas(rows: &[Row<'_>]) -> Option<Vec<f64>> {
+    let first = rows.first()?.reading.measured;
+    if rows.iter().all(|row| row.reading.measured.is_like(first)) {
         return None;
     }
-    Some(
-        readings()
-            .map(|reading| noise(series, reading.measured))
-            .collect(),
-    )
+    Some(rows.iter().map(|row| noise(rows, row.reading.measured)).collect())
 }
 
 /// Noise of what is like `measured`: by how far each reading lies off the line between its neighbours (T. Gasser, L. Sroka,
 /// C. Jennen-Steinmetz, "Residual variance and residual pattern in nonlinear regression", Biometrika 73, 1986).
-fn noise(series: &[Series<'_>], measured: Measured) -> f64 {
-    let mut off = Vec::new();
-    let mut largest = 0.0_f64;
-    for one in series {
-        for run in 0..one.readings.runs().len() {
-            let of_run = one
-                .readings
-                .readings()
-                .iter()
-                .filter(|reading| reading.run == run);
-            let mut like: Vec<&Reading> = of_run
-                .filter(|reading| reading.measured.is_like(measured))
-                .collect();
-            like.sort_by_key(|reading| reading.passes);
-            largest = like
-                .iter()
-                .map(|reading| reading.value.abs())
-                .fold(largest, f64::max);
-            off.extend(
-                like.windows(3)
-                    .filter(|three| three[0].measured == three[2].measured)
-                    .map(off_line),
-            );
-        }
-    }
+fn noise(rows: &[Row<'_>], measured: Measured) -> f64 {
+    let mut like: Vec<&Row<'_>> = rows
+        .iter()
+        .filter(|row| row.reading.measured.is_like(measured))
+        .collect();
+    like.sort_by_key(|row| (row.series, row.reading.run, row.reading.passes));
+    let largest = like
+        .iter()
+        .fold(0.0_f64, |most, row| most.max(row.reading.value.abs()));
+    let threes = like.windows(3).filter(|three| {
+        let [first, last] = [three[0], three[2]];
+        (first.instrument(), first.reading.run) == (last.instrument(), last.reading.run)
+    });
+    let mut off: Vec<f64> = threes
+        .map(|three| off_line([0, 1, 2].map(|k| three[k].reading)))
+        .collect();
     off.sort_by(f64::total_cmp);
     let median = off.get(off.len() / 2).copied().unwrap_or(0.0);
     (MEDIAN_TO_SIGMA * median)
@@ -56,8 +42,8 @@ fn noise(series: &[Series<'_>], measured: Measured) -> f64 {
         .max(f64::MIN_POSITIVE)
 }
 
-fn off_line(three: &[&Reading]) -> f64 {
-    let [before, here, after] = [0, 1, 2].map(|k| (three[k].passes as f64, three[k].value));
+fn off_line(three: [&Reading; 3]) -> f64 {
+    let [before, here, after] = three.map(|reading| (reading.passes as f64, reading.value));
     let width = after.0 - before.0;
     let share = if width > 0.0 {
         (here.0 - before.0) / width

@@ -1,72 +1,67 @@
 //! What is known and what is asked, as the crate `calibrate` takes it.
 
-use calibrate::{Calibration, CalibrationError, Loss, Model, Options, Prior};
+use calibrate::{Calibration, CalibrationError, Emulator, Fit, Loss, Model, Options, Prior};
 
-use super::cell::Observed;
 use super::discrepancy::discrepancy;
 use super::error::{study, unfit};
-use super::model::{CableModel, Memory, SeriesModel};
+use super::model::{CableModel, MeshOf, SeriesModel};
 use super::noise;
 use super::options::{CalibrateOptions, Series};
+use super::row::Row;
 use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
-use crate::Error;
-use crate::readings::{Reading, Readings};
+use crate::plan::Levels;
 use crate::scene::FrictionLaw;
+use crate::{Error, Scene};
 
-/// Coarsest level of meshes that may answer, with 12 nodes per depth, and finest that is fitted: 24 nodes per depth, corrected by 48.
-pub const FIRST_LEVEL: u32 = 2;
-pub const LAST_LEVEL: u32 = 3;
-/// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.
-/// Measured on the full-scale scenes; from the coarsest level up.
-const RIPPLE: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-5];
+/// Ripple of the forces as parameters change on a fixed mesh, beside its typical error: as a node more slips, their slope jumps. Measured on the
+/// full-scale scenes, where it is 1 to 2 % of that on four meshes.
+const RIPPLE: f64 = 0.02;
 
 pub struct Problem<'a> {
     pub series: &'a [Series<'a>],
     pub models: &'a [SeriesModel],
+    /// All readings.
+    pub rows: &'a [Row<'a>],
     /// What is fitted of cable and ground.
     pub unknowns: &'a [Unknown],
     /// What is fitted of the instruments.
     pub terms: &'a [Term],
     pub options: &'a CalibrateOptions<'a>,
+    /// Most runs of the model.
+    pub limit: usize,
     pub watch: &'a Watch<'a>,
-    pub memory: &'a Memory,
+}
+
+/// How to fit.
+#[derive(Clone, Copy)]
+pub struct Way<'a> {
+    pub mesh: MeshOf,
+    /// Added to what the mesh predicts, without the errors of the cells.
+    pub difference: &'a [f64],
+    pub profiles: bool,
+    /// Most runs of the model, those included that are known before.
+    pub runs: usize,
 }
 
 impl Problem<'_> {
-    /// The model on a level of meshes; `correction` is added to what it predicts.
-    pub fn model(&self, level: u32, correction: Option<Vec<f64>>) -> CableModel<'_> {
+    fn model(&self, mesh: MeshOf, stiffness: f64) -> CableModel<'_> {
         CableModel {
             series: self.models,
             unknowns: self.unknowns,
-            level,
-            stiffness: 1.0,
-            correction,
+            mesh,
+            stiffness,
             watch: self.watch,
-            memory: self.memory,
         }
     }
 
-    /// Every reading with its series and what it is compared with, in the order of the fit.
-    pub fn readings(&self) -> impl Iterator<Item = (usize, &Reading, Observed)> {
-        let series = self.series.iter().zip(self.models).enumerate();
-        series.flat_map(|(index, (one, model))| {
-            let list = one.readings.readings().iter().zip(&model.observed);
-            list.map(move |(reading, (_, observed))| (index, reading, *observed))
-        })
-    }
-
-    /// What a level of meshes predicts with these values of all parameters, on ground of this stiffness.
-    pub fn predict(&self, level: u32, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, Error> {
-        let model = CableModel {
-            stiffness,
-            ..self.model(level, None)
-        };
+    /// What a mesh predicts with these values of all parameters, on ground of this stiffness.
+    pub fn predict(&self, mesh: MeshOf, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, Error> {
         let (of_model, of_terms) = values.split_at(self.unknowns.len());
-        let mut predicted = model
-            .predict(of_model)
-            .map_err(|source| study(CalibrationError::NoAnswer { places: 1, source }))?;
+        let predicted = self.model(mesh, stiffness).predict(of_model);
+        let mut predicted =
+            predicted.map_err(|source| study(CalibrationError::NoAnswer { places: 1, source }))?;
         for (term, size) in self.terms.iter().zip(of_terms) {
             let column = term.parameter.column().unwrap_or_default();
             for (value, entry) in predicted.iter_mut().zip(column) {
@@ -76,44 +71,53 @@ impl Problem<'_> {
         Ok(predicted)
     }
 
-    /// Of at most so many model runs.
-    pub fn calibration<'m>(
-        &self,
-        model: &'m CableModel<'m>,
-        profiles: bool,
-        runs: usize,
-    ) -> Result<Calibration<'m>, Error> {
+    /// Fits, with what is known of the model before.
+    pub fn fit(&self, way: Way<'_>, known: Option<Emulator>) -> Result<Fit, Error> {
         let functions = match self.options.discrepancy {
-            Some(share) => discrepancy(self.series, self.models, share)?,
+            Some(share) => discrepancy(self.rows, share)?,
             None => Vec::new(),
         };
-        let readings = || self.series.iter().map(|series| series.readings);
-        let sigmas: Option<Vec<Vec<f64>>> = readings().map(Readings::sigmas).collect();
-        let relative = noise::relative_sigmas(self.series);
-        let mut options = Options::default();
-        options.loss = self.options.loss;
-        options.max_evaluations = runs.max(1);
-        options.relative_noise = RIPPLE[model.level.min(LAST_LEVEL) as usize];
-        options.profiles = profiles;
-        let build = || {
+        let model = self.model(way.mesh, 1.0);
+        let fit = || {
             let unknowns = self.unknowns.iter();
             let parameters = unknowns.map(|unknown| unknown.parameter(self.prior(*unknown)));
             let mut parameters = parameters.collect::<Result<Vec<_>, CalibrationError>>()?;
             parameters.extend(self.terms.iter().map(|term| term.parameter.clone()));
-            let forces = readings().flat_map(Readings::values).collect();
-            let calibration = Calibration::new(model, parameters, forces)?;
-            let calibration = match (sigmas, relative) {
-                (Some(sigmas), _) => calibration.with_sigmas(sigmas.concat())?,
-                (None, Some(relative)) => calibration.with_relative_sigmas(relative)?,
-                (None, None) => calibration,
-            };
-            let calibration = match self.options.discrepancy {
-                Some(_) => calibration.with_discrepancy(&functions)?,
-                None => calibration,
-            };
-            calibration.with_options(options)
+            let pairs = self.rows.iter().zip(way.difference);
+            let values = pairs.map(|(row, difference)| row.reading.value - difference);
+            let mut calibration = Calibration::new(&model, parameters, values.collect())?
+                .with_options(self.statistics(&way))?
+                .with_discrepancy(&functions)?;
+            if let Some(sigmas) = self.rows.iter().map(|row| row.reading.sigma).collect() {
+                calibration = calibration.with_sigmas(sigmas)?;
+            } else if let Some(relative) = noise::relative_sigmas(self.rows) {
+                calibration = calibration.with_relative_sigmas(relative)?;
+            }
+            match known {
+                Some(emulator) => calibration.with_emulator(emulator).fit(),
+                None => calibration.fit(),
+            }
         };
-        build().map_err(study)
+        fit().map_err(|error| match error {
+            // Of all meshes together.
+            CalibrationError::EvaluationLimit { .. } => {
+                study(CalibrationError::EvaluationLimit { limit: self.limit })
+            }
+            other => study(other),
+        })
+    }
+
+    fn statistics(&self, way: &Way<'_>) -> Options {
+        let errors = self
+            .models
+            .iter()
+            .map(|model| Levels::typical_error(way.mesh.level(model)));
+        let mut options = Options::default();
+        options.loss = self.options.loss;
+        options.max_evaluations = way.runs.max(1);
+        options.relative_noise = RIPPLE * errors.fold(0.0, f64::max);
+        options.profiles = way.profiles;
+        options
     }
 
     /// What the scenes say.
@@ -146,61 +150,32 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         return unfit("series", "none", "there is nothing to fit");
     }
     if options.discrepancy.is_some() && options.loss != Loss::Squares {
-        return unfit(
-            "discrepancy",
-            "a robust loss beside it",
-            "it takes what is left of a reading for independent noise; leave one of them out",
-        );
+        let reason = "it takes what is left of a reading for independent noise; leave one of them out";
+        return unfit("discrepancy", "a robust loss beside it", reason);
     }
+    let [friction, shape_factor, ground] = [
+        Quantity::DynamicCoefficient,
+        Quantity::ShapeFactor,
+        Quantity::GroundStiffness,
+    ]
+    .map(Unknown::shared);
     let mut unknowns = options.unknowns.clone();
-    let coulomb = |unknown: &Unknown| {
-        series
-            .iter()
-            .enumerate()
-            .any(|(index, one)| unknown.acts_on(index) && one.scene.friction.law() == FrictionLaw::Coulomb)
-    };
     if unknowns.is_empty() {
-        unknowns.push(Unknown::shared(Quantity::DynamicCoefficient));
-        let shape_factor = Unknown::shared(Quantity::ShapeFactor);
-        if !coulomb(&shape_factor) {
-            unknowns.push(shape_factor);
-        }
+        unknowns.push(friction);
+        unknowns.extend((!is_coulomb(shape_factor, series)).then_some(shape_factor));
     }
-    let ground = Unknown::shared(Quantity::GroundStiffness);
     if options.deflection.is_some() && !unknowns.contains(&ground) {
         unknowns.push(ground);
     }
-    let mut all = unknowns.iter();
-    if all.any(|unknown| unknown.quantity == Quantity::ShapeFactor && coulomb(unknown)) {
-        return unfit("friction.law", "coulomb", "it has no shape factor to be fitted");
-    }
-    let mut indices = unknowns.iter().filter_map(|unknown| unknown.series);
-    if indices.any(|index| index >= series.len()) {
-        let found = "a series of a higher index than there are";
-        return unfit(
-            "unknowns",
-            found,
-            "series are counted from 0, and in names from 1",
-        );
-    }
-    let has_section = |unknown: &Unknown| {
-        let Quantity::SectionCoefficient(section) = unknown.quantity else {
-            return true;
-        };
-        let of_series = series.iter().enumerate();
-        let mut scenes = of_series.filter(|(index, _)| unknown.acts_on(*index));
-        scenes.all(|(_, one)| section < one.scene.route.len())
-    };
-    if !unknowns.iter().all(has_section) {
-        let found = "no section of this number";
-        return unfit("route", found, "sections of [[route]] are counted from 0");
+    for unknown in &unknowns {
+        check(*unknown, series)?;
     }
     if let [only] = series {
         // What has a prior needs no reading.
-        let has_prior = |unknown: &&Unknown| {
-            unknown.quantity.is_of_cell() || (options.deflection.is_some() && **unknown == ground)
+        let has_prior = |unknown: &Unknown| {
+            unknown.quantity.is_of_cell() || (options.deflection.is_some() && *unknown == ground)
         };
-        let free = unknowns.len() - unknowns.iter().filter(has_prior).count();
+        let free = unknowns.iter().filter(|unknown| !has_prior(unknown)).count();
         let needed = match only.readings.sigmas() {
             Some(_) => free.max(1),
             None => (free + 1).max(2),
@@ -208,4 +183,40 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         only.readings.check_count(unknowns.len(), needed)?;
     }
     Ok(unknowns)
+}
+
+/// Refuses what a scene of the series that it acts on does not have.
+fn check(unknown: Unknown, series: &[Series<'_>]) -> Result<(), Error> {
+    if unknown.series.is_some_and(|index| index >= series.len()) {
+        let found = "a series of a higher index than there are";
+        return unfit(
+            "unknowns",
+            found,
+            "series are counted from 0, and in names from 1",
+        );
+    }
+    match unknown.quantity {
+        Quantity::ShapeFactor if is_coulomb(unknown, series) => {
+            unfit("friction.law", "coulomb", "it has no shape factor to be fitted")
+        }
+        Quantity::SectionCoefficient(section)
+            if scenes_of(unknown, series).any(|scene| section >= scene.route.len()) =>
+        {
+            let reason = "sections of [[route]] are counted from 0";
+            unfit("route", "no section of this number", reason)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn scenes_of<'a>(unknown: Unknown, series: &'a [Series<'a>]) -> impl Iterator<Item = &'a Scene> {
+    let own = series
+        .iter()
+        .enumerate()
+        .filter(move |(index, _)| unknown.acts_on(*index));
+    own.map(|(_, one)| one.scene)
+}
+
+fn is_coulomb(unknown: Unknown, series: &[Series<'_>]) -> bool {
+    scenes_of(unknown, series).any(|scene| scene.friction.law() == FrictionLaw::Coulomb)
 }

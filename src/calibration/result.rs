@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::judgement::{LackOfFit, misses_by};
+use super::diagnosis::{LackOfFit, misses_by};
 use crate::finite;
 
 /// A calibrated scene.

@@ -6,10 +6,11 @@ use calibrate::{Parameter, Prior};
 
 use super::cell::Observed;
 use super::error::{study, unfit};
-use super::model::SeriesModel;
-use super::options::{CalibrateOptions, Series};
+use super::options::CalibrateOptions;
+use super::row::{Instrument, Row, instruments};
 use super::unknown::{Quantity, Unknown};
 use crate::Error;
+use crate::readings::Reading;
 use crate::shown::words_if;
 
 /// Standard deviation of a cell's error before the readings, as a share of its largest force: any more would be seen at a glance.
@@ -39,42 +40,29 @@ pub struct Cell {
 }
 
 /// The load cells of all series.
-pub fn cells(series: &[Series<'_>], models: &[SeriesModel]) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = Vec::new();
-    let rows: usize = models.iter().map(|model| model.observed.len()).sum();
-    let mut row = 0;
-    for (index, (one, model)) in series.iter().zip(models).enumerate() {
-        for (reading, &(_, observed)) in one.readings.readings().iter().zip(&model.observed) {
-            if matches!(observed, Observed::Force(_) | Observed::ForceAt(_)) {
-                let same = |cell: &Cell| cell.series == index && cell.observed == observed;
-                let place = cells.iter().position(same).unwrap_or_else(|| {
-                    cells.push(Cell {
-                        series: index,
-                        observed,
-                        shares: false,
-                        offset: vec![0.0; rows],
-                        drift: vec![0.0; rows],
-                        largest: 0.0,
-                        last: 1.0,
-                    });
-                    cells.len() - 1
-                });
-                let cell = &mut cells[place];
-                let pass = reading.passes as f64;
-                (cell.offset[row], cell.drift[row]) = (1.0, pass);
-                (cell.largest, cell.last) = (cell.largest.max(reading.value.abs()), cell.last.max(pass));
-            }
-            row += 1;
+pub fn cells(rows: &[Row<'_>]) -> Vec<Cell> {
+    let mut cells = instruments(rows);
+    cells.retain(|(_, observed)| matches!(observed, Observed::Force(_) | Observed::ForceAt(_)));
+    let cell = |&(series, observed): &Instrument| {
+        let of = |value: fn(&Reading) -> f64| -> Vec<f64> {
+            let own = |row: &Row<'_>| row.instrument() == (series, observed);
+            rows.iter()
+                .map(|row| if own(row) { value(row.reading) } else { 0.0 })
+                .collect()
+        };
+        let most = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(*value));
+        let drift = of(|reading| reading.passes as f64);
+        Cell {
+            series,
+            observed,
+            shares: cells.iter().filter(|(other, _)| *other == series).count() > 1,
+            offset: of(|_| 1.0),
+            largest: most(&of(|reading| reading.value.abs())),
+            last: most(&drift).max(1.0),
+            drift,
         }
-    }
-    for k in 0..cells.len() {
-        cells[k].shares = cells
-            .iter()
-            .filter(|other| other.series == cells[k].series)
-            .count()
-            > 1;
-    }
-    cells
+    };
+    cells.iter().map(cell).collect()
 }
 
 impl Cell {
@@ -87,14 +75,14 @@ impl Cell {
     }
 }
 
-/// The terms that are asked for: an error of each cell.
+/// The terms that are asked for: an error of each cell of so many series.
 pub fn terms(
-    series: &[Series<'_>],
-    models: &[SeriesModel],
+    series: usize,
+    rows: &[Row<'_>],
     asked: &[Unknown],
     options: &CalibrateOptions<'_>,
 ) -> Result<Vec<Term>, Error> {
-    let cells = cells(series, models);
+    let cells = cells(rows);
     let mut terms = Vec::new();
     for unknown in asked {
         let own: Vec<&Cell> = cells.iter().filter(|cell| unknown.acts_on(cell.series)).collect();
@@ -103,7 +91,7 @@ pub fn terms(
             return unfit("fit", "an error of a load cell", reason);
         }
         for cell in own {
-            let name = cell.name(unknown.quantity, series.len());
+            let name = cell.name(unknown.quantity, series);
             terms.push(term(cell, unknown.quantity, &name, options)?);
         }
     }

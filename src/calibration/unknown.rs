@@ -37,11 +37,10 @@ const NAMES: [(&str, Quantity); 5] = [
 /// Its name; of a section its key, `route.1.dynamic_coefficient`.
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Self::SectionCoefficient(index) = self {
-            return write!(f, "route.{index}.dynamic_coefficient");
+        match (self, NAMES.iter().find(|(_, quantity)| quantity == self)) {
+            (Self::SectionCoefficient(index), _) => write!(f, "route.{index}.dynamic_coefficient"),
+            (_, name) => f.pad(name.map_or("", |(name, _)| name)),
         }
-        let name = NAMES.iter().find(|(_, quantity)| quantity == self);
-        f.pad(name.map_or("", |(name, _)| name))
     }
 }
 
@@ -49,22 +48,18 @@ impl FromStr for Quantity {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let of_section = || {
-            text.strip_prefix("route.")?
-                .strip_suffix(".dynamic_coefficient")?
-                .parse()
-                .ok()
-        };
-        let known = NAMES.iter().find(|(name, _)| *name == text);
-        let names = || NAMES.map(|(name, _)| name).join(", ");
-        known
-            .map(|(_, quantity)| *quantity)
-            .or_else(|| of_section().map(Self::SectionCoefficient))
+        if let Some((_, quantity)) = NAMES.iter().find(|(name, _)| *name == text) {
+            return Ok(*quantity);
+        }
+        let section = text
+            .strip_prefix("route.")
+            .and_then(|rest| rest.strip_suffix(".dynamic_coefficient"));
+        section
+            .and_then(|index| index.parse().ok())
+            .map(Self::SectionCoefficient)
             .ok_or_else(|| {
-                format!(
-                    "found \"{text}\"; allowed: {}, route.1.dynamic_coefficient",
-                    names()
-                )
+                let names = NAMES.map(|(name, _)| name).join(", ");
+                format!("found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient")
             })
     }
 }

@@ -1,21 +1,21 @@
 //! `creepage calibrate`: parameters from readings.
 
 use std::io::Write;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
-use std::sync::Once;
 
 use super::failure::Failure;
 use super::progress::watched;
 use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
-use crate::Readings;
 use crate::calibration::{
     CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, ResidualSize, SHARES,
     Series, Unknown,
 };
 use crate::scene::{Dimension, FrictionLaw, four_digits};
 use crate::shown::{ROWS, percent};
+use crate::{Error, Readings};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -75,27 +75,34 @@ pub struct Arguments {
 }
 
 fn positive_length(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::Length, "length such as \"115 um\"")
+    let range = f64::MIN_POSITIVE..=f64::MAX;
+    value(
+        text,
+        Dimension::Length,
+        range,
+        "a positive length such as \"115 um\"",
+    )
 }
 
 fn positive_force(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::Force, "force such as \"20 N\"")
+    let range = f64::MIN_POSITIVE..=f64::MAX;
+    value(text, Dimension::Force, range, "a positive force such as \"20 N\"")
 }
 
 fn share_of_discrepancy(text: &str) -> Result<f64, String> {
-    let allowed = "0.01 % to 1000 % of the largest reading";
-    match Dimension::Ratio.parse_argument(text) {
-        Ok(share) if SHARES.contains(&share) => Ok(share),
-        Ok(_) => Err(format!("found \"{text}\"; allowed: {allowed}")),
-        Err(error) => Err(format!("found \"{text}\": {error}; allowed: {allowed}")),
-    }
+    value(
+        text,
+        Dimension::Ratio,
+        SHARES,
+        "0.01 % to 1000 % of the largest reading",
+    )
 }
 
-fn positive(text: &str, dimension: Dimension, allowed: &str) -> Result<f64, String> {
+fn value(text: &str, dimension: Dimension, range: RangeInclusive<f64>, allowed: &str) -> Result<f64, String> {
     match dimension.parse_argument(text) {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        Ok(_) => Err(format!("found \"{text}\"; allowed: a finite, positive {allowed}")),
-        Err(error) => Err(format!("found \"{text}\": {error}; allowed: a {allowed}")),
+        Ok(value) if range.contains(&value) => Ok(value),
+        Ok(_) => Err(format!("found \"{text}\"; allowed: {allowed}")),
+        Err(error) => Err(format!("found \"{text}\": {error}; allowed: {allowed}")),
     }
 }
 
@@ -118,50 +125,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         })
     };
     let inputs = files.iter().map(input).collect::<Result<Vec<_>, _>>()?;
-    let readings = files
-        .iter()
-        .map(|(_, data)| arguments.reading.read(data))
-        .collect::<Result<Vec<_>, _>>()?;
+    let readings = files.iter().map(|(_, data)| arguments.reading.read(data));
+    let readings = readings.collect::<Result<Vec<_>, _>>()?;
     let read = files.iter().flat_map(|(scene, data)| [&**scene, &**data]);
     let mut files = arguments.output.files(read);
     let destination = arguments.output.destination(&mut files)?;
-    let deflection = arguments.deflection.zip(arguments.deflection_sigma);
-    let options = CalibrateOptions {
-        unknowns: arguments.fit.clone(),
-        zero_offset_sigma: arguments.zero_offset_sigma,
-        drift_sigma: arguments.drift_sigma,
-        discrepancy: arguments.discrepancy,
-        deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
-        loss: if arguments.robust {
-            Loss::TUKEY
-        } else {
-            Loss::Squares
-        },
-        max_evaluations: arguments.max_evaluations,
-        ..CalibrateOptions::default()
-    };
-    let most = arguments.max_evaluations;
-    let usual = usual_runs(arguments.fit.len()).min(most);
-    let told = Once::new();
-    let words = |share: f64| {
-        told.call_once(|| tell(&readings, usual, most));
-        let runs = share * most as f64;
-        if runs < usual as f64 {
-            format!("{runs:.0} of about {usual} model runs")
-        } else {
-            format!("{runs:.0} model runs, more than usual, at most {most}")
-        }
-    };
-    let answer = watched(usual as f64 / most as f64, words, |progress| {
-        let pairs = inputs.iter().zip(&readings);
-        let series: Vec<Series<'_>> = pairs
-            .map(|(input, readings)| Series {
-                scene: &input.scene,
-                readings,
-            })
-            .collect();
-        crate::calibrate_jointly(&series, &CalibrateOptions { progress, ..options })
-    });
+    let answer = calibrate(arguments, &inputs, &readings);
     let mut answer = match &inputs[..] {
         [only] => only.located(answer)?,
         // Which of the files is at fault is not known.
@@ -172,59 +141,77 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let slips: Vec<String> = inputs.into_iter().flat_map(|input| input.warnings).collect();
     answer.warnings.splice(0..0, slips);
     destination.write(&answer, &answer.fit, || print(&answer, law))?;
-    let missed = answer.misses_by().map(|times| {
-        Failure::NotKept(format!(
+    match answer.misses_by() {
+        None => Ok(()),
+        Some(times) => Err(Failure::NotKept(format!(
             "the model misses these readings by {times:.0} times their spread: see whether units, ends, ground and traffic are those of the scene"
-        ))
-    });
-    missed.map_or(Ok(()), Err)
+        ))),
+    }
 }
 
-/// Runs of the model that a fit of so many parameters usually takes, measured on one to four; two are fitted where none is named.
-fn usual_runs(parameters: usize) -> usize {
-    let parameters = if parameters == 0 { 2 } else { parameters };
-    16 + 25 * parameters
-}
-
-/// Says what takes so long.
-fn tell(readings: &[Readings], usual: usize, most: usize) {
-    let count: usize = readings.iter().map(|series| series.readings().len()).sum();
-    let passes: u64 = readings.iter().map(Readings::last_pass).sum();
-    let _ = writeln!(
-        terminal::err(),
-        "a fit to {count} readings takes about {usual} runs of the model, at most {most}, each of {passes} passes"
-    );
+fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> Result<Calibrated, Error> {
+    let deflection = arguments.deflection.zip(arguments.deflection_sigma);
+    let options = CalibrateOptions {
+        unknowns: arguments.fit.clone(),
+        zero_offset_sigma: arguments.zero_offset_sigma,
+        drift_sigma: arguments.drift_sigma,
+        discrepancy: arguments.discrepancy,
+        deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
+        loss: if arguments.robust {
+            Loss::Tukey
+        } else {
+            Loss::Squares
+        },
+        max_evaluations: arguments.max_evaluations,
+        ..CalibrateOptions::default()
+    };
+    let pairs = inputs.iter().zip(readings);
+    let series: Vec<Series<'_>> = pairs
+        .map(|(input, readings)| Series {
+            scene: &input.scene,
+            readings,
+        })
+        .collect();
+    let most = arguments.max_evaluations as f64;
+    // Measured on one to four parameters; two are fitted where none is named.
+    let usual = 16
+        + 25 * if arguments.fit.is_empty() {
+            2
+        } else {
+            arguments.fit.len()
+        };
+    let words = |share: f64| format!("{:.0} of about {usual} model runs, at most {most}", share * most);
+    watched(usual as f64 / most, words, |progress| {
+        crate::calibrate_jointly(&series, &CalibrateOptions { progress, ..options })
+    })
 }
 
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
-    writeln!(out, "{}, law {}", titles.join("; "), law.name())?;
+    writeln!(out, "{}, law {}\n", titles.join("; "), law.name())?;
     let names = [
         "parameter",
         "value",
         "standard error",
         "95 % interval",
         "identifiable",
-    ]
-    .map(str::to_owned);
+    ];
     let row = |parameter: &FittedParameter| {
         let error = parameter
             .standard_error
             .map_or_else(|| "unknown".into(), significant);
         let identifiable = if parameter.identifiable { "yes" } else { "NO" };
-        let value = significant(parameter.value);
         vec![
-            label(parameter),
-            value,
+            label(&parameter.name, parameter.unit),
+            significant(parameter.value),
             error,
             interval(parameter.interval_95),
             identifiable.to_owned(),
         ]
     };
     let rows: Vec<Vec<String>> = answer.parameters.iter().map(row).collect();
-    writeln!(out)?;
-    terminal::table(&mut out, &names, &rows)?;
+    terminal::table(&mut out, &names.map(str::to_owned), &rows)?;
     for i in 1..answer.parameters.len() {
         for j in 0..i {
             if let Some(correlation) = answer.correlation[i][j] {
@@ -233,29 +220,37 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             }
         }
     }
+    writeln!(out)?;
     print_readings(&mut out, answer)?;
     writeln!(out)?;
+    print_quality(&mut out, answer)
+}
+
+/// How well the model follows the readings, and what the answer rests on.
+fn print_quality(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
     let explained = answer
         .r_squared
         .map_or_else(String::new, |r| format!(", R² {r:.5}"));
     let residuals: Vec<String> = answer.residuals.iter().map(ToString::to_string).collect();
+    let (residuals, freedom) = (residuals.join(", "), four_digits(answer.degrees_of_freedom));
     writeln!(
         out,
-        "residuals: {}{explained}, {} degrees of freedom",
-        residuals.join(", "),
-        four_digits(answer.degrees_of_freedom)
+        "residuals: {residuals}{explained}, {freedom} degrees of freedom"
     )?;
     let lack = &answer.lack_of_fit;
-    let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));
+    let tests = [
+        Some(lack.p_runs),
+        lack.p_trend,
+        lack.p_offset,
+        lack.p_noise,
+        lack.p_sigma,
+    ];
+    let [signs, drift, zero, size, sigmas] =
+        tests.map(|p| p.map_or_else(|| "-".into(), |p| format!("{p:.2}")));
+    let verdict = if lack.suspicious { "SUSPICIOUS" } else { "yes" };
     writeln!(
         out,
-        "whether they are noise: by chance signs {:.2}, drift {}, zero {}, size {}, sigmas {}: {}",
-        lack.p_runs,
-        chance(lack.p_trend),
-        chance(lack.p_offset),
-        chance(lack.p_noise),
-        chance(lack.p_sigma),
-        if lack.suspicious { "SUSPICIOUS" } else { "yes" }
+        "whether they are noise: by chance signs {signs}, drift {drift}, zero {zero}, size {size}, sigmas {sigmas}: {verdict}"
     )?;
     for assumption in &answer.assumptions {
         writeln!(out, "assumed: {assumption}")?;
@@ -268,19 +263,16 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         only(answer).map_or("largest reading", |kind| kind.measured),
         shifts.fold(0.0_f64, |most, &error| most.max(error))
     )?;
+    let (method, first) = (&answer.method, answer.fit[0].measured);
     writeln!(
         out,
         "method: cable {}, {} {}, node spacing {:.3} m, {} model runs; {}",
-        answer.method.cable,
-        if answer.fit[0].measured == "force" {
-            "load cell"
-        } else {
-            answer.fit[0].measured
-        },
-        answer.method.load_cell[0],
-        answer.method.node_spacing_m[0],
+        method.cable,
+        if first == "force" { "load cell" } else { first },
+        method.load_cell[0],
+        method.node_spacing_m[0],
         answer.evaluations,
-        answer.method.intervals
+        method.intervals
     )?;
     Ok(())
 }
@@ -295,19 +287,13 @@ fn only(answer: &Calibrated) -> Option<&ResidualSize> {
 
 fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
     let unit = only(answer).map_or("1", |kind| kind.unit);
-    let [measured, fitted, residual] = ["measured", "fitted", "residual"].map(|name| match unit {
-        "1" => name.to_owned(),
-        unit => format!("{name}, {unit}"),
-    });
+    let [measured, fitted, residual] = ["measured", "fitted", "residual"].map(|name| label(name, unit));
     let names = ["pass".to_owned(), measured, fitted, residual, String::new()];
     let stride = answer.fit.len().div_ceil(ROWS).max(1);
     let row = |row: &FittedReading| {
-        let shown = |value: f64| {
-            if row.unit == "N" {
-                format!("{value:.1}")
-            } else {
-                format!("{value:.3e}")
-            }
+        let shown = |value: f64| match row.unit {
+            "N" => format!("{value:.1}"),
+            _ => format!("{value:.3e}"),
         };
         let [measured, fitted, residual] = [row.value, row.fitted, row.residual].map(shown);
         let mut of = Vec::new();
@@ -323,22 +309,19 @@ fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failu
         vec![row.pass.to_string(), measured, fitted, residual, of.join("  ")]
     };
     let rows: Vec<Vec<String>> = answer.fit.iter().step_by(stride).map(row).collect();
-    writeln!(out)?;
     terminal::table(out, &names, &rows)?;
     if stride > 1 {
-        writeln!(
-            out,
-            "(every {stride} of {} readings; --csv writes all)",
-            answer.fit.len()
-        )?;
+        let count = answer.fit.len();
+        writeln!(out, "(every {stride} of {count} readings; --csv writes all)")?;
     }
     Ok(())
 }
 
-fn label(parameter: &FittedParameter) -> String {
-    match parameter.unit {
-        "1" => parameter.name.clone(),
-        unit => format!("{}, {unit}", parameter.name),
+/// A name with its unit.
+fn label(name: &str, unit: &str) -> String {
+    match unit {
+        "1" => name.to_owned(),
+        unit => format!("{name}, {unit}"),
     }
 }
 

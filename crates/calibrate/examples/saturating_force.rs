@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
     ];
     let mut options = Options::default();
-    options.loss = Loss::TUKEY;
+    options.loss = Loss::Tukey;
     let fit = Calibration::new(&model, parameters, forces)?
         .with_options(options)?
         .fit()?;

@@ -1,11 +1,10 @@
 //! What is given, and the front door: a calibration is put together, then fitted.
 
 use std::fmt;
-use std::sync::Arc;
 
 use crate::learning;
-use crate::problem::{Problem, check_count, check_each};
-use crate::{CalibrationError, Emulator, Fit, Model, Options, Parameter, Prior};
+use crate::problem::Problem;
+use crate::{CalibrationError, Emulator, Estimate, Fit, Model, Options, Parameter, Prior};
 
 /// Bounds of a coefficient of the discrepancy, in its standard deviations.
 const FARTHEST: f64 = 10.0;
@@ -20,12 +19,17 @@ pub struct Calibration<'a> {
 
 impl fmt::Debug for Calibration<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Calibration")
-            .field("parameters", &self.problem.parameters)
-            .field("observations", &self.problem.observations)
-            .field("sigmas", &self.problem.sigmas)
-            .field("options", &self.problem.options)
-            .finish_non_exhaustive()
+        let Problem {
+            parameters,
+            observations,
+            sigmas,
+            options,
+            ..
+        } = &self.problem;
+        write!(
+            f,
+            "Calibration({parameters:?}, {observations:?}, {sigmas:?}, {options:?})"
+        )
     }
 }
 
@@ -42,8 +46,27 @@ impl<'a> Calibration<'a> {
         parameters: Vec<Parameter>,
         observations: Vec<f64>,
     ) -> Result<Self, CalibrationError> {
+        for (index, parameter) in parameters.iter().enumerate() {
+            let name = parameter.name().to_owned();
+            if parameters[..index].iter().any(|other| other.name() == name) {
+                return Err(CalibrationError::DuplicateParameter { name });
+            }
+            if let Some(column) = parameter.column() {
+                check_count(&format!("entries in the column of {name}"), column, &observations)?;
+            }
+        }
+        check_each(&observations, "value", "finite", |_| true)?;
         Ok(Self {
-            problem: Problem::new(model, parameters, observations)?,
+            problem: Problem {
+                model,
+                asked: parameters.len(),
+                parameters,
+                sigmas: vec![1.0; observations.len()],
+                observations,
+                knows_noise: false,
+                options: Options::default(),
+                emulator: None,
+            },
             discrepancy: Vec::new(),
         })
     }
@@ -65,11 +88,7 @@ impl<'a> Calibration<'a> {
         };
         self.discrepancy.clear();
         for function in functions {
-            check_count(
-                "values of a function",
-                function.len(),
-                self.problem.observations.len(),
-            )?;
+            check_count("values of a function", function, &self.problem.observations)?;
             let term = Parameter::term("discrepancy", -FARTHEST, FARTHEST, function)?;
             self.discrepancy.push(term.with_prior(prior)?);
         }
@@ -82,7 +101,7 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::Invalid`] unless there is a finite and positive one for each observation.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        check_count("sigmas", sigmas.len(), self.problem.observations.len())?;
+        check_count("sigmas", &sigmas, &self.problem.observations)?;
         check_each(&sigmas, "sigma", "finite and positive", |sigma| sigma > 0.0)?;
         (self.problem.sigmas, self.problem.knows_noise) = (sigmas, true);
         Ok(self)
@@ -106,16 +125,23 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::Invalid`].
     pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
-        options.check()?;
+        let (noise, runs) = (options.relative_noise, options.max_evaluations);
+        let invalid = |what: &str, value, allowed| Err(CalibrationError::invalid(what, value, allowed));
+        if !(0.0..=0.1).contains(&noise) {
+            return invalid("relative noise of the model", noise, "between 0 and 0.1");
+        }
+        if runs == 0 {
+            return invalid("largest number of model runs", 0.0, "at least 1");
+        }
         self.problem.options = options;
         Ok(self)
     }
 
-    /// What an earlier fit of the same parameters and observations learned of a coarser model: this one
-    /// runs first where the answer of that fit rests, and learns what the coarser model misses.
+    /// What an earlier fit of the same parameters learned of the same model, to other observations or with
+    /// other terms: this one begins with its runs.
     #[must_use]
-    pub fn with_coarse(mut self, coarse: Emulator) -> Self {
-        self.problem.coarse = Some(Arc::new(coarse));
+    pub fn with_emulator(mut self, emulator: Emulator) -> Self {
+        self.problem.emulator = Some(emulator);
         self
     }
 
@@ -135,9 +161,9 @@ impl<'a> Calibration<'a> {
     /// let calibration = Calibration::new(&model, parameters, vec![124.0, 214.0, 351.0, 472.0, 541.0])?;
     /// let fit = calibration.fit()?;
     /// assert!(fit.estimates[0].interval.contains(550.0));
-    /// // What was learned spares runs where the model becomes finer.
-    /// let again = calibration.with_coarse(fit.emulator.clone()).fit()?;
-    /// assert!(again.evaluations < fit.evaluations);
+    /// // What was learned of the model serves other fits.
+    /// let again = calibration.with_emulator(fit.emulator.clone()).fit()?;
+    /// assert!(again.evaluations <= fit.evaluations + 3);
     /// # Ok::<(), calibrate::CalibrationError>(())
     /// ```
     ///
@@ -149,19 +175,51 @@ impl<'a> Calibration<'a> {
         let problem = &self.problem;
         problem.check()?;
         let mut emulator = learning::begin(problem)?;
-        let mut solution = learning::converge(problem, &mut emulator)?;
+        let solution = learning::converge(problem, &mut emulator)?;
+        let mut estimates = solution.estimates(problem);
         if self.discrepancy.is_empty() {
-            return Ok(Fit::new(problem, emulator, solution));
+            return Ok(Fit::new(problem, emulator, solution, estimates));
         }
-        let plain = solution.estimates;
         let mut wider = problem.clone();
         wider.parameters.extend_from_slice(&self.discrepancy);
-        solution = learning::converge(&wider, &mut emulator)?;
-        for (estimate, plain) in solution.estimates.iter_mut().zip(&plain) {
+        let solution = learning::converge(&wider, &mut emulator)?;
+        for (plain, estimate) in estimates.iter_mut().zip(solution.estimates(&wider)) {
             // A model that may be wrong knows no more than one that may not.
-            estimate.interval = estimate.interval.with(&plain.interval);
-            estimate.identifiable = estimate.interval.is_closed();
+            let interval = estimate.interval.with(&plain.interval);
+            *plain = Estimate {
+                identifiable: interval.is_closed(),
+                interval,
+                ..estimate
+            };
         }
-        Ok(Fit::new(&wider, emulator, solution))
+        Ok(Fit::new(&wider, emulator, solution, estimates))
+    }
+}
+
+/// Refuses another number of things than of observations.
+fn check_count(what: &str, found: &[f64], observations: &[f64]) -> Result<(), CalibrationError> {
+    if found.len() == observations.len() {
+        return Ok(());
+    }
+    let (what, allowed) = (format!("number of {what}"), "one for each observation");
+    Err(CalibrationError::invalid(what, found.len() as f64, allowed))
+}
+
+/// Refuses a value for an observation that does not hold.
+fn check_each(
+    values: &[f64],
+    quantity: &str,
+    allowed: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<(), CalibrationError> {
+    match values
+        .iter()
+        .position(|&value| !(value.is_finite() && holds(value)))
+    {
+        None => Ok(()),
+        Some(index) => {
+            let what = format!("{quantity} of observation {index}");
+            Err(CalibrationError::invalid(what, values[index], allowed))
+        }
     }
 }

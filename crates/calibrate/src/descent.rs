@@ -58,64 +58,44 @@ pub(crate) fn descend(
     start: DVector<f64>,
     held: Option<usize>,
 ) -> Result<Point, CalibrationError> {
-    let moving: Vec<usize> = (0..start.len()).filter(|&k| Some(k) != held).collect();
     let first = likelihood.point(start);
-    if moving.is_empty() || !deviance.total(&first.residuals).is_finite() {
+    if !deviance.total(&first.residuals).is_finite() {
         return Ok(first);
     }
-    let variables = first.free.select_rows(&moving);
     let surface = Surface {
         likelihood,
         deviance,
-        start: &first.free,
-        moving: &moving,
+        held,
         hessian: RefCell::default(),
     };
-    let mut free = first.free.clone();
-    let found = surface
-        .minimise(variables)
-        .map_err(|_| CalibrationError::NotConverged)?;
-    for (&k, z) in moving.iter().zip(&found) {
-        free[k] = z.clamp(-FARTHEST, FARTHEST);
-    }
-    Ok(likelihood.point(free))
+    let found = minimise(surface, first.free).map_err(|_| CalibrationError::NotConverged)?;
+    Ok(likelihood.point(found.map(|z| z.clamp(-FARTHEST, FARTHEST))))
 }
 
-/// The deviance over the variables that move.
+fn minimise(surface: Surface<'_>, start: DVector<f64>) -> Result<DVector<f64>, Error> {
+    // Conjugate gradients end after as many steps as there are variables, but for rounding.
+    let steps = Steihaug::new().with_max_iters(2 * start.len() as u64);
+    let mut region = TrustRegion::new(steps).with_max_radius(LONGEST_STEP)?;
+    let mut problem = Problem::new(surface);
+    let first = Iteration::new().param(start.clone());
+    let mut state = region.init(&mut problem, first)?.0;
+    for _ in 0..MAX_ITERATIONS {
+        if has_converged(&state) {
+            break;
+        }
+        state = region.next_iter(&mut problem, state)?.0;
+    }
+    Ok(state.take_param().unwrap_or(start))
+}
+
+/// The deviance over the free variables.
 struct Surface<'a> {
     likelihood: &'a Likelihood<'a>,
     deviance: Deviance,
-    start: &'a DVector<f64>,
-    moving: &'a [usize],
+    /// A variable that stays: its slope is 0.
+    held: Option<usize>,
     /// At the variables of the last gradient.
     hessian: RefCell<DMatrix<f64>>,
-}
-
-impl Surface<'_> {
-    fn minimise(self, variables: DVector<f64>) -> Result<DVector<f64>, Error> {
-        // Conjugate gradients end after as many steps as there are variables, but for rounding.
-        let steps = Steihaug::new().with_max_iters(2 * variables.len() as u64);
-        let mut region = TrustRegion::new(steps).with_max_radius(LONGEST_STEP)?;
-        let mut problem = Problem::new(self);
-        let mut state = region
-            .init(&mut problem, Iteration::new().param(variables.clone()))?
-            .0;
-        for _ in 0..MAX_ITERATIONS {
-            if has_converged(&state) {
-                break;
-            }
-            state = region.next_iter(&mut problem, state)?.0;
-        }
-        Ok(state.take_param().unwrap_or(variables))
-    }
-
-    fn point(&self, variables: &DVector<f64>) -> Point {
-        let mut free = self.start.clone();
-        for (&k, &z) in self.moving.iter().zip(variables) {
-            free[k] = z;
-        }
-        self.likelihood.point(free)
-    }
 }
 
 /// By the length of the undamped step in standard errors, √(½ gᵀH⁻¹g) (D. M. Bates, D. G. Watts, "A
@@ -135,9 +115,12 @@ impl CostFunction for Surface<'_> {
     type Param = DVector<f64>;
     type Output = f64;
 
-    fn cost(&self, variables: &DVector<f64>) -> Result<f64, Error> {
-        let springs: f64 = variables.iter().map(|&z| beyond(z).powi(2)).sum();
-        Ok(self.deviance.total(&self.point(variables).residuals) + springs)
+    fn cost(&self, free: &DVector<f64>) -> Result<f64, Error> {
+        let springs: f64 = free.iter().map(|&z| beyond(z).powi(2)).sum();
+        Ok(self
+            .deviance
+            .total(&self.likelihood.point(free.clone()).residuals)
+            + springs)
     }
 }
 
@@ -145,16 +128,19 @@ impl Gradient for Surface<'_> {
     type Param = DVector<f64>;
     type Gradient = DVector<f64>;
 
-    fn gradient(&self, variables: &DVector<f64>) -> Result<DVector<f64>, Error> {
-        let point = self.point(variables);
-        let jacobian = self.likelihood.jacobian(&point.free).select_columns(self.moving);
-        let weights = self.deviance.weights(&point.residuals);
-        let springs = variables.map(|z| 2.0 * beyond(z));
+    fn gradient(&self, free: &DVector<f64>) -> Result<DVector<f64>, Error> {
+        let residuals = self.likelihood.point(free.clone()).residuals;
+        let mut jacobian = self.likelihood.jacobian(free);
+        if let Some(held) = self.held {
+            jacobian.column_mut(held).fill(0.0);
+        }
+        let weights = self.deviance.weights(&residuals);
+        let springs = free.map(|z| 2.0 * beyond(z));
         let mut hessian = 2.0 * information(&jacobian, &weights);
         for (k, &spring) in springs.iter().enumerate() {
             hessian[(k, k)] += 2.0 * if spring == 0.0 { RIDGE } else { 1.0 };
         }
-        let gradient = 2.0 * jacobian.tr_mul(&weights.component_mul(&point.residuals)) + springs;
+        let gradient = 2.0 * jacobian.tr_mul(&weights.component_mul(&residuals)) + springs;
         // Steihaug's steps panic where a number is none.
         let mut entries = gradient.iter().chain(&hessian);
         if !entries.all(|entry| entry.abs() < 1e60) {

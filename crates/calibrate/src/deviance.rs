@@ -31,6 +31,16 @@ pub(crate) struct Deviance {
 }
 
 impl Deviance {
+    /// Before anything is known of the noise.
+    pub fn new(loss: Loss, data: usize) -> Self {
+        Self {
+            loss,
+            data,
+            spread: 1.0,
+            normalisation: 1.0,
+        }
+    }
+
     /// D of the residuals; infinite where the model has no answer.
     pub fn total(&self, residuals: &DVector<f64>) -> f64 {
         let (data, priors) = residuals.as_slice().split_at(self.data.min(residuals.len()));

@@ -34,38 +34,56 @@ pub struct Emulator {
 }
 
 impl Emulator {
-    /// One that has seen no run of a model with these `parameters` and `parts`, whose own noise is the share
-    /// `relative_noise` of its predictions; it learns what a `trend` misses.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and a coarse emulator
-    /// of other parameters or parts.
-    pub(crate) fn new(
-        parameters: Vec<Parameter>,
-        parts: Vec<Part>,
-        relative_noise: f64,
-        trend: Option<Arc<Self>>,
-    ) -> Result<Self, CalibrationError> {
-        let emulator = Self {
+    /// One that has seen no run of a model with these `parameters` and `parts`.
+    pub(crate) fn new(parameters: Vec<Parameter>, parts: Vec<Part>) -> Self {
+        Self {
             parameters,
             parts,
-            trend,
-            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
+            trend: None,
+            nugget: NUGGETS.0,
             runs: Vec::new(),
             failures: Vec::new(),
             krigings: Vec::new(),
             optimum: None,
-        };
-        let is_other =
-            |coarse: &Arc<Self>| coarse.parameters != emulator.parameters || coarse.parts != emulator.parts;
-        if emulator.trend.as_ref().is_some_and(is_other) {
-            let what = "number of parameters of a fit that begins with a coarser one";
-            let allowed = "the same parameters and observations as there";
-            let count = emulator.parameters.len() as f64;
-            return Err(CalibrationError::invalid(what, count, allowed));
         }
-        Ok(emulator)
+    }
+
+    /// One of a finer model, which has seen none of its runs and learns what this one misses: a fit that begins
+    /// with it runs first at the optimum of this one.
+    #[must_use]
+    pub fn of_finer(self) -> Self {
+        let fresh = Self::new(self.parameters.clone(), self.parts.clone());
+        Self {
+            trend: Some(Arc::new(self)),
+            ..fresh
+        }
+    }
+
+    /// The same for a model whose own noise is the share `relative_noise` of its predictions.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::Invalid`] unless it is an emulator of these parameters and parts.
+    pub(crate) fn of_model(
+        self,
+        parameters: &[Parameter],
+        parts: &[Part],
+        relative_noise: f64,
+    ) -> Result<Self, CalibrationError> {
+        if self.parameters != parameters || self.parts != parts {
+            let what = "number of parameters of a fit that begins with an earlier one";
+            let allowed = "the same parameters and number of observations as there";
+            return Err(CalibrationError::invalid(what, parameters.len() as f64, allowed));
+        }
+        Ok(Self {
+            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
+            ..self
+        })
+    }
+
+    /// The optimum of the coarser model, if there is one.
+    pub(crate) fn coarse_optimum(&self) -> Option<DVector<f64>> {
+        self.trend.as_ref()?.optimum.clone()
     }
 
     /// Runs of the model that it rests on, without those of a coarser model.
@@ -87,7 +105,7 @@ impl Emulator {
     }
 
     /// Whether the model ran there.
-    pub(crate) fn knows(&self, place: &DVector<f64>) -> bool {
+    pub(crate) fn has_run(&self, place: &DVector<f64>) -> bool {
         let runs = self.runs.iter().map(|(run, _)| run);
         runs.chain(&self.failures).any(|other| is_same(other, place))
     }
@@ -96,13 +114,6 @@ impl Emulator {
     pub(crate) fn known(&self, place: &DVector<f64>) -> Option<Vec<f64>> {
         let (_, beyond) = self.runs.iter().find(|(run, _)| is_same(run, place))?;
         Some((self.expected(place) + beyond).data.into())
-    }
-
-    /// Whether the model should have an answer at a place: whether the nearest run has.
-    fn has_answer(&self, place: &DVector<f64>) -> bool {
-        let distance = |run: &DVector<f64>| (run - place).norm_squared();
-        let failed = self.failures.iter().map(distance).fold(f64::INFINITY, f64::min);
-        failed.is_infinite() || self.runs.iter().any(|(run, _)| distance(run) < failed)
     }
 
     /// Adds runs at places, with what the model predicted where it had an answer.
@@ -125,16 +136,23 @@ impl Emulator {
         self.krigings = self.parts.iter().map(of_part).collect();
     }
 
-    /// Predictions at a place; nothing where the model should have no answer.
+    /// Predictions at a place; nothing where the model should have no answer, because the nearest run has
+    /// none.
     pub(crate) fn at(&self, place: &DVector<f64>) -> Option<DVector<f64>> {
-        self.has_answer(place).then(|| self.predict(place))
+        let distance = |run: &DVector<f64>| (run - place).norm_squared();
+        let failed = self.failures.iter().map(distance).fold(f64::INFINITY, f64::min);
+        let has_answer = failed.is_infinite() || self.runs.iter().any(|(run, _)| distance(run) < failed);
+        has_answer.then(|| self.predict(place))
+    }
+
+    fn count(&self) -> usize {
+        self.parts.iter().map(|part| part.predictions).sum()
     }
 
     /// What the coarser model predicts, if there is one.
     fn expected(&self, place: &DVector<f64>) -> DVector<f64> {
-        let count = self.parts.iter().map(|part| part.predictions).sum();
         let trend = self.trend.as_ref().map(|trend| trend.predict(place));
-        trend.unwrap_or_else(|| DVector::zeros(count))
+        trend.unwrap_or_else(|| DVector::zeros(self.count()))
     }
 
     fn predict(&self, place: &DVector<f64>) -> DVector<f64> {
@@ -148,9 +166,8 @@ impl Emulator {
 
     /// Derivatives of the predictions by the shares, a column each.
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DMatrix<f64> {
-        let count = self.parts.iter().map(|part| part.predictions).sum();
         let trend = self.trend.as_ref().map(|trend| trend.slopes(place));
-        let mut slopes = trend.unwrap_or_else(|| DMatrix::zeros(count, place.len()));
+        let mut slopes = trend.unwrap_or_else(|| DMatrix::zeros(self.count(), place.len()));
         for kriging in &self.krigings {
             for (input, slope) in kriging.slopes(place) {
                 let mut rows = slopes.rows_range_mut(kriging.rows.clone());
@@ -160,47 +177,34 @@ impl Emulator {
         slopes
     }
 
-    /// What it knows of its own error, if the square of that of prediction k counts `weights[k]`.
-    pub(crate) fn doubt(&self, weights: &[f64]) -> Doubt {
+    /// Those of some places, each with a standard error of all predictions together that is allowed there, at
+    /// which the model should run, as it did at `ran`: the one of most doubt, then of what that run leaves,
+    /// until all is allowed. The square of an error of prediction k counts `weights[k]`.
+    pub(crate) fn doubtful(
+        &self,
+        weights: &[f64],
+        ran: &DVector<f64>,
+        mut places: Vec<(DVector<f64>, f64)>,
+    ) -> Vec<DVector<f64>> {
         let of_part = |kriging: &Kriging| (kriging.scale(weights), kriging.design.clone());
-        Doubt(self.krigings.iter().map(of_part).collect())
-    }
-}
-
-/// Standard error of an emulator's predictions, all of them together, by the variance of each part and its
-/// runs.
-pub(crate) struct Doubt(Vec<(f64, Design)>);
-
-impl Doubt {
-    fn at(&self, place: &DVector<f64>) -> f64 {
-        let variances = self
-            .0
-            .iter()
-            .map(|(scale, design)| scale * design.variance(place));
-        variances.sum::<f64>().sqrt()
-    }
-
-    /// What is left of it once the model has run there.
-    pub fn learn(&mut self, place: &DVector<f64>) {
-        for (_, design) in &mut self.0 {
-            design.learn(place);
-        }
-    }
-
-    /// Those of some places, each with a standard error that is allowed there, at which the model should
-    /// run: the one of most doubt, then of what that run leaves, until all is allowed.
-    pub fn asked(&mut self, mut places: Vec<(DVector<f64>, f64)>) -> Vec<DVector<f64>> {
-        let mut asked = Vec::new();
+        let mut parts: Vec<(f64, Design)> = self.krigings.iter().map(of_part).collect();
+        let (mut next, mut doubtful) = (ran.clone(), Vec::new());
         loop {
-            let sizes = places.iter().map(|(place, allowed)| self.at(place) / allowed);
-            let sizes = sizes.map(|size| if size.is_nan() { f64::INFINITY } else { size });
-            let largest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-            let Some((index, _)) = largest.filter(|(_, size)| *size > 1.0) else {
-                return asked;
+            for (_, design) in &mut parts {
+                design.learn(&next);
+            }
+            let doubt = |(place, allowed): &(DVector<f64>, f64)| {
+                let variances = parts.iter().map(|(scale, design)| scale * design.variance(place));
+                let doubt = variances.sum::<f64>().sqrt() / allowed;
+                if doubt.is_nan() { f64::INFINITY } else { doubt }
             };
-            let (place, _) = places.swap_remove(index);
-            self.learn(&place);
-            asked.push(place);
+            let sizes = places.iter().map(doubt).enumerate();
+            let largest = sizes.max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((index, _)) = largest.filter(|(_, size)| *size > 1.0) else {
+                return doubtful;
+            };
+            (next, _) = places.swap_remove(index);
+            doubtful.push(next.clone());
         }
     }
 }

@@ -4,7 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::parameter::FARTHEST;
 use crate::problem::Problem;
-use crate::solution::{Solution, freedom};
+use crate::search::{freedom, misfit};
+use crate::solution::Solution;
 use crate::{Emulator, Estimate, Warning};
 
 /// A calibrated model.
@@ -50,7 +51,12 @@ pub struct Fit {
 
 impl Fit {
     /// The answer of a solution at whose optimum the model ran.
-    pub(crate) fn new(problem: &Problem<'_>, emulator: Emulator, solution: Solution) -> Self {
+    pub(crate) fn new(
+        problem: &Problem<'_>,
+        emulator: Emulator,
+        solution: Solution,
+        estimates: Vec<Estimate>,
+    ) -> Self {
         let (optimum, count) = (&solution.optimum, problem.observations.len());
         let deviance = optimum.deviance;
         let observed = DVector::from_column_slice(&problem.observations);
@@ -73,7 +79,7 @@ impl Fit {
         let covariance = &solution.covariance;
         let correlations = |i| (0..problem.asked).map(|j| covariance.correlation(i, j)).collect();
         Self {
-            warnings: warnings(problem, &solution),
+            warnings: warnings(problem, &solution, &estimates),
             correlation: (0..problem.asked).map(correlations).collect(),
             fitted: (&observed - &residuals).data.into(),
             r_squared: (variation > 0.0).then(|| 1.0 - residuals.norm_squared() / variation),
@@ -92,7 +98,7 @@ impl Fit {
             jacobian: optimum.jacobian.rows(0, count).into_owned(),
             curvatures: curvatures.rows(0, count).into_owned(),
             covariance: solution.covariance.matrix,
-            estimates: solution.estimates,
+            estimates,
             sigmas,
         }
     }
@@ -109,46 +115,47 @@ impl Fit {
 
     /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
     pub fn standardised_noise(&self) -> Vec<f64> {
-        let parts = self.residuals.iter().zip(&self.smooth);
-        let noise = parts.map(|(residual, smooth)| residual - smooth);
-        self.standardised(&noise.collect::<Vec<_>>()).data.into()
+        let parts = self.residuals.iter().zip(&self.smooth).zip(&self.sigmas);
+        parts
+            .map(|((residual, smooth), sigma)| (residual - smooth) / sigma)
+            .collect()
     }
 
-    /// Numbers in the unit of the observations, in those of the sigmas; 0 if there are too few.
-    pub(crate) fn standardised(&self, values: &[f64]) -> DVector<f64> {
-        let value = |row: usize| values.get(row).copied().unwrap_or(0.0);
-        DVector::from_fn(self.sigmas.len(), |row, _| value(row) / self.sigmas[row])
-    }
-
-    /// By how many standard errors each estimate would move, to first order, if the model predicted
-    /// `change` more, in the observations' unit: what an error of the model does to the parameters. 0
-    /// for what has no standard error.
-    pub fn shift(&self, change: &[f64]) -> Vec<f64> {
-        let weighted = self.standardised(change).component_mul(&self.curvatures);
-        let moved = -(&self.covariance * self.jacobian.tr_mul(&weighted));
+    /// What an error of the model by which it predicts `change` more, in the observations' unit, does to the
+    /// parameters, to first order: by how many standard errors each estimate would move (0 for what has
+    /// none), and how many standard errors of all readings together no move of them would make good.
+    pub fn shift(&self, change: &[f64]) -> (Vec<f64>, f64) {
+        let entry = |row: usize| change.get(row).map_or(0.0, |value| value / self.sigmas[row]);
+        let change = DVector::from_fn(self.sigmas.len(), |row, _| entry(row));
+        let weighted = change.component_mul(&self.curvatures);
+        let across = self.jacobian.tr_mul(&weighted);
+        let moved = -(&self.covariance * &across);
         let shift = |k: usize| {
             let error = self.covariance[(k, k)].sqrt();
             if error > 0.0 { moved[k] / error } else { 0.0 }
         };
-        (0..self.estimates.len()).map(shift).collect()
+        let left = change.dot(&weighted) + across.dot(&moved);
+        (
+            (0..self.estimates.len()).map(shift).collect(),
+            left.max(0.0).sqrt(),
+        )
     }
 }
 
 /// What is to be said of a solution.
-fn warnings(problem: &Problem<'_>, solution: &Solution) -> Vec<Warning> {
-    let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
-    for (estimate, free) in solution.estimates.iter().zip(&solution.optimum.point.free) {
+fn warnings(problem: &Problem<'_>, solution: &Solution, estimates: &[Estimate]) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = misfit(problem, &solution.optimum).into_iter().collect();
+    for (estimate, free) in estimates.iter().zip(&solution.optimum.point.free) {
         let (name, interval, value) = (estimate.name.clone(), estimate.interval, estimate.value);
-        if !estimate.identifiable {
+        if !estimate.identifiable && problem.options.profiles {
             warnings.push(Warning::NotIdentifiable { name, interval });
         } else if free.abs() >= FARTHEST {
             warnings.push(Warning::AtBound { name, value });
         }
     }
     // An interval that is open says more than another minimum does.
-    let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
-    let rival = solution.rival.as_ref().filter(|_| closed);
-    warnings.extend(rival.map(|rival| {
+    let closed = estimates.iter().all(|estimate| estimate.identifiable);
+    warnings.extend(solution.rival().filter(|_| closed).map(|rival| {
         let pairs = problem.parameters.iter().take(problem.asked).zip(&rival.free);
         Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(z)).collect())
     }));

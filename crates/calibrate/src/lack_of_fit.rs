@@ -1,80 +1,14 @@
 //! Whether the residuals of a fit are the noise that the fit takes them for.
 //!
-//! *Signs.* Residuals that are noise change their sign from one to the next as coins do; too few changes
+//! Residuals that are noise change their sign from one to the next as coins do; too few changes
 //! show a curve that the model does not follow (A. Wald, J. Wolfowitz, "On a test whether two samples
 //! are from the same population", 1940; here with signs that are positive and negative alike, so that
 //! residuals all of one sign count).
-//!
-//! *Terms.* Would a term more in the model, such as a constant, explain them? Its column is freed of
-//! what the parameters can do, which is the score test (N. R. Draper, H. Smith, Applied Regression
-//! Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
 
-use nalgebra::DVector;
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
-
-use crate::Fit;
-
-/// Share of a column that the parameters must leave: with less the term is one of them by another name.
-const LEFT: f64 = 1e-9;
 
 /// Fewest residuals that are judged.
 const FEWEST: f64 = 3.0;
-
-/// What a term more in the model would say of the residuals.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TermTest {
-    /// Size of the term, to first order.
-    pub size: f64,
-    /// Its standard error.
-    pub standard_error: f64,
-    /// Probability that noise alone calls for so large a term.
-    pub probability: f64,
-}
-
-impl TermTest {
-    /// Tests a term with this column, an entry for each observation. `None` if the parameters can do what
-    /// the term does, or nothing is left to judge by.
-    ///
-    /// ```
-    /// use calibrate::{Calibration, ModelError, Parameter, Scale, TermTest};
-    ///
-    /// // A line through the origin, measured by an instrument whose zero is off by 2.
-    /// let places = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.map(|x| p[0] * x).to_vec()) };
-    /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
-    /// let fit = Calibration::new(&model, vec![slope], vec![3.01, 3.98, 5.02, 5.99, 7.01, 7.99])?.fit()?;
-    /// let offset = TermTest::of(&fit, &[1.0; 6]).expect("a constant is no line through the origin");
-    /// assert!((offset.size - 2.0).abs() < 0.1 && offset.probability < 1e-3);
-    /// # Ok::<(), calibrate::CalibrationError>(())
-    /// ```
-    pub fn of(fit: &Fit, column: &[f64]) -> Option<Self> {
-        if column.len() != fit.residuals.len() {
-            return None;
-        }
-        let column = fit.standardised(column);
-        // Half the second derivatives of the deviance; outliers of a robust fit hardly count.
-        let weights = DVector::from_column_slice(&fit.weights).component_mul(&fit.curvatures);
-        let weighted = column.component_mul(&weights);
-        let across = fit.jacobian.tr_mul(&weighted);
-        let full = column.dot(&weighted);
-        let left = full - across.dot(&(&fit.covariance * &across));
-        if left.is_nan() || left <= LEFT * full {
-            return None;
-        }
-        let size = weighted.dot(&DVector::from_vec(fit.standardised_noise())) / left;
-        let (gain, freedom) = (size * size * left, fit.degrees_of_freedom);
-        Some(Self {
-            size,
-            standard_error: left.sqrt().recip(),
-            probability: if fit.noise_estimated {
-                // The noise without what the term explains.
-                probability_of_gain(freedom, (freedom - gain).max(0.0), freedom - 1.0, None)?
-            } else {
-                probability_of_gain(gain, 0.0, freedom, Some(1.0))?
-            },
-        })
-    }
-}
 
 /// Probability of so few changes of sign by chance, of residuals in the order in which they were
 /// measured; `series` are independent.
@@ -108,11 +42,9 @@ pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<
 /// off the line between its neighbours, which a curve hardly moves (J. von Neumann, "Distribution of the
 /// ratio of the mean square successive difference to the variance", 1941). `None` of too few.
 pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
-    let all = series.iter().flatten();
-    let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
-    let off = |three: &[f64]| (three[1] - 0.5 * (three[0] + three[2])).powi(2) / 1.5;
-    let local = series.iter().flat_map(|residuals| residuals.windows(3)).map(off);
-    let (pieces, rough) = local.fold((0.0, 0.0), |(count, sum), off| (count + 1.0, sum + off));
+    let (count, square) = squares(series.iter().flatten().copied());
+    let off = |three: &[f64]| (three[1] - 0.5 * (three[0] + three[2])) / 1.5_f64.sqrt();
+    let (pieces, rough) = squares(series.iter().flat_map(|residuals| residuals.windows(3)).map(off));
     // Neighbouring pieces share readings: they count as half as many.
     let (freedom, half) = (count - used, 0.5 * pieces);
     if rough <= 0.0 || freedom < FEWEST || half < FEWEST {
@@ -126,10 +58,13 @@ pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
 /// which `used` are determined by parameters: χ² with what is left, or with one where nothing is, which
 /// is cautious.
 pub fn probability_of_scatter(series: &[Vec<f64>], used: f64) -> f64 {
-    let all = series.iter().flatten();
-    let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
-    let freedom: f64 = count - used;
-    ChiSquared::new(freedom.max(1.0)).map_or(1.0, |squares| 1.0 - squares.cdf(square))
+    let (count, square) = squares(series.iter().flatten().copied());
+    ChiSquared::new((count - used).max(1.0)).map_or(1.0, |squares| 1.0 - squares.cdf(square))
+}
+
+/// How many numbers there are, and the sum of their squares.
+fn squares(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    numbers.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r))
 }
 
 #[cfg(test)]

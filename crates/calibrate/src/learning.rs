@@ -1,18 +1,18 @@
 //! The loop of a fit: what the likelihood on the emulator says, the model confirms, or the emulator learns.
 //!
-//! The model runs all over the range first, or where the answer of a coarser model rests. Then it runs
-//! at the optimum, and once that holds, at the ends of the intervals, the bounds that they leave out, and
-//! low places of the profiles, wherever the emulator's own doubt could change the answer, until there is
-//! none (after D. R. Jones, M. Schonlau, W. J. Welch, "Efficient Global Optimization of Expensive
-//! Black-Box Functions", Journal of Global Optimization 13, 1998).
+//! The model runs all over the range first, or at the optimum of a coarser model. Then it runs at the
+//! optimum, and once that holds, at the ends of the intervals, the bounds that they leave out, and low
+//! places of the profiles, wherever the emulator's own doubt could change the answer, until there is none
+//! (after D. R. Jones, M. Schonlau, W. J. Welch, "Efficient Global Optimization of Expensive Black-Box
+//! Functions", Journal of Global Optimization 13, 1998).
 
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::likelihood::Likelihood;
 use crate::problem::Problem;
-use crate::search::all_over;
-use crate::solution::{Solution, solve};
+use crate::search::{all_over, optimum};
+use crate::solution::Solution;
 use crate::tuning::FIRST_RUNS;
 use crate::{CalibrationError, Emulator, ModelError};
 
@@ -24,20 +24,16 @@ const ROUNDS: usize = 80;
 ///
 /// # Errors
 ///
-/// Those of the model's parts, [`CalibrationError::EvaluationLimit`], and
-/// [`CalibrationError::NoAnswer`] if the model has none at any of these places.
+/// Those of the model's parts and of an emulator of others, [`CalibrationError::EvaluationLimit`],
+/// and [`CalibrationError::NoAnswer`] if the model has none at any of the first places.
 pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError> {
-    let parameters: Vec<_> = problem
-        .of_model()
-        .into_iter()
-        .map(|k| problem.parameters[k].clone())
-        .collect();
-    let (dimensions, noise) = (parameters.len(), problem.options.relative_noise);
-    let mut emulator = Emulator::new(parameters, problem.parts()?, noise, problem.coarse.clone())?;
-    let places = match &problem.coarse {
-        Some(coarse) => coarse.optimum.iter().cloned().collect(),
-        None => all_over(dimensions, FIRST_RUNS * (1 + dimensions)),
-    };
+    let mut emulator = problem.first_emulator()?;
+    if emulator.evaluations() > 0 {
+        return Ok(emulator);
+    }
+    let dimensions = problem.of_model().len();
+    let all = || all_over(dimensions, FIRST_RUNS * (1 + dimensions));
+    let places = emulator.coarse_optimum().map_or_else(all, |place| vec![place]);
     match run(problem, &mut emulator, places)? {
         Some(source) if emulator.runs() == 0 => {
             let places = emulator.evaluations();
@@ -57,24 +53,42 @@ pub(crate) fn converge(problem: &Problem<'_>, emulator: &mut Emulator) -> Result
     let mut last: Option<DVector<f64>> = None;
     for _ in 0..ROUNDS {
         let likelihood = Likelihood::new(problem, emulator);
-        let mut solution = solve(&likelihood, last.as_ref())?;
-        let free = solution.optimum.point.free.clone();
-        let optimum = likelihood.place(&free);
-        let mut places = doubtful(&likelihood, &solution);
-        places.insert(0, optimum.clone());
-        places.retain(|place| !emulator.knows(place));
-        if let Some(predicted) = emulator.known(&optimum)
-            && places.is_empty()
-            && solution.is_complete
-        {
-            solution.optimum.point.residuals = likelihood.residuals(&free, &predicted);
-            emulator.optimum = Some(optimum);
-            return Ok(solution);
-        }
+        let (optimum, ends) = optimum(&likelihood, last.as_ref())?;
+        let free = optimum.point.free.clone();
+        let place = likelihood.place(&free);
+        last = Some(free.clone());
+        let places = if emulator.has_run(&place) {
+            let mut solution = Solution::around(&likelihood, optimum, &ends)?;
+            if let Some(lower) = solution.lower(problem) {
+                last = Some(lower.clone());
+                continue;
+            }
+            let mut places = emulator.doubtful(
+                &weights(problem, &solution),
+                &place,
+                solution.supports(&likelihood),
+            );
+            places.retain(|place| !emulator.has_run(place));
+            if let Some(predicted) = emulator.known(&place).filter(|_| places.is_empty()) {
+                solution.optimum.point.residuals = likelihood.residuals(&free, &predicted);
+                emulator.optimum = Some(place);
+                return Ok(solution);
+            }
+            places
+        } else {
+            vec![place]
+        };
         run(problem, emulator, places)?;
-        last = Some(free);
     }
     Err(CalibrationError::NotConverged)
+}
+
+/// How much the square of an error of each prediction counts, in squared standard errors.
+fn weights(problem: &Problem<'_>, solution: &Solution) -> Vec<f64> {
+    let optimum = &solution.optimum;
+    let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+    let pairs = curvatures.iter().zip(&problem.sigmas);
+    pairs.map(|(c, sigma)| c / (sigma * sigma)).collect()
 }
 
 /// Runs the model at places where it has not run yet, and learns what it says; why it had no answer, if
@@ -90,8 +104,7 @@ fn run(
     }
     let expected = problem.observations.len();
     let run = |place: DVector<f64>| {
-        let predicted = problem.model.predict(&emulator.values(&place));
-        let predicted = match predicted {
+        let predicted = match problem.model.predict(&emulator.values(&place)) {
             Ok(values) if values.len() != expected => {
                 let found = values.len();
                 return Err(CalibrationError::PredictionLength { expected, found });
@@ -110,20 +123,4 @@ fn run(
     }
     emulator.learn(answers);
     Ok(failure)
-}
-
-/// Places on which a solution rests and where the emulator's own error could change it, once the model has
-/// run at the optimum.
-fn doubtful(likelihood: &Likelihood<'_>, solution: &Solution) -> Vec<DVector<f64>> {
-    let optimum = &solution.optimum;
-    let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-    let sigmas = likelihood.problem.sigmas.iter();
-    let weights: Vec<f64> = curvatures
-        .iter()
-        .zip(sigmas)
-        .map(|(c, sigma)| c / (sigma * sigma))
-        .collect();
-    let mut doubt = likelihood.emulator.doubt(&weights);
-    doubt.learn(&likelihood.place(&optimum.point.free));
-    doubt.asked(solution.supports.clone())
 }

@@ -31,7 +31,7 @@ pub use error::CalibrationError;
 pub use estimate::{Estimate, Interval};
 pub use fit::Fit;
 pub use lack_of_fit::{
-    TermTest, probability_of_gain, probability_of_scatter, probability_of_signs, probability_of_size,
+    probability_of_gain, probability_of_scatter, probability_of_signs, probability_of_size,
 };
 pub use loss::Loss;
 pub use model::{Model, ModelError, Part};

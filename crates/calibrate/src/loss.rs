@@ -4,32 +4,27 @@
 //! ρ = u²/2. Tukey's loss levels off beyond a few sigmas, so that outliers do not draw the fit to
 //! themselves (P. J. Huber, Robust Statistics, 1981, chapters 4 and 7).
 
+/// Where Tukey's loss turns constant, in sigmas: with this it is 95 % as efficient as least squares under
+/// Gaussian noise.
+const THRESHOLD: f64 = 4.685;
+
 /// A loss.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Loss {
     /// u²/2: best under Gaussian noise, misled by outliers.
     #[default]
     Squares,
-    /// Tukey's biweight: constant beyond this many sigmas, so that what lies there does not count at all.
-    Tukey {
-        /// Where it turns constant, in sigmas.
-        threshold: f64,
-    },
+    /// Tukey's biweight: constant beyond 4.685 sigmas, so that what lies there does not count at all.
+    Tukey,
 }
 
 impl Loss {
-    /// Tukey's loss, 95 % as efficient as least squares under Gaussian noise.
-    pub const TUKEY: Self = Self::Tukey { threshold: 4.685 };
-
     /// 2 ρ(u).
     pub(crate) fn doubled(self, u: f64) -> f64 {
         match self {
             Self::Squares => u * u,
-            Self::Tukey { threshold } => {
-                let left = (1.0 - (u / threshold).powi(2)).max(0.0);
-                threshold * threshold / 3.0 * (1.0 - left.powi(3))
-            }
+            Self::Tukey => THRESHOLD * THRESHOLD / 3.0 * (1.0 - left(u).powi(3)),
         }
     }
 
@@ -37,7 +32,7 @@ impl Loss {
     pub(crate) fn weight(self, u: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Tukey { threshold } => (1.0 - (u / threshold).powi(2)).max(0.0).powi(2),
+            Self::Tukey => left(u).powi(2),
         }
     }
 
@@ -45,10 +40,7 @@ impl Loss {
     pub(crate) fn curvature(self, u: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Tukey { threshold } => {
-                let square = (u / threshold).powi(2);
-                (1.0 - square).max(0.0) * (1.0 - 5.0 * square)
-            }
+            Self::Tukey => left(u) * (1.0 - 5.0 * (u / THRESHOLD).powi(2)),
         }
     }
 
@@ -56,4 +48,9 @@ impl Loss {
     pub(crate) fn is_robust(self) -> bool {
         self != Self::Squares
     }
+}
+
+/// 1 − (u/threshold)², as long as it is positive.
+fn left(u: f64) -> f64 {
+    (1.0 - (u / THRESHOLD).powi(2)).max(0.0)
 }

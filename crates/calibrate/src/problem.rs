@@ -1,7 +1,5 @@
 //! What is given: a model, its parameters, and the observations that they are fitted to.
 
-use std::sync::Arc;
-
 use crate::{CalibrationError, Emulator, Model, Options, Parameter, Part};
 
 /// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
@@ -20,41 +18,11 @@ pub struct Problem<'a> {
     pub options: Options,
     /// How many parameters are asked for.
     pub asked: usize,
-    pub coarse: Option<Arc<Emulator>>,
+    /// What is known of the model beforehand.
+    pub emulator: Option<Emulator>,
 }
 
-impl<'a> Problem<'a> {
-    /// Parameters of `model` to be fitted to `observations`, whose noise is the same for all.
-    pub fn new(
-        model: &'a dyn Model,
-        parameters: Vec<Parameter>,
-        observations: Vec<f64>,
-    ) -> Result<Self, CalibrationError> {
-        for (index, parameter) in parameters.iter().enumerate() {
-            let name = parameter.name().to_owned();
-            if parameters[..index].iter().any(|other| other.name() == name) {
-                return Err(CalibrationError::DuplicateParameter { name });
-            }
-            let entries = parameter.column().map_or(observations.len(), <[f64]>::len);
-            check_count(
-                &format!("entries in the column of {name}"),
-                entries,
-                observations.len(),
-            )?;
-        }
-        check_each(&observations, "value", "finite", |_| true)?;
-        Ok(Self {
-            model,
-            asked: parameters.len(),
-            parameters,
-            sigmas: vec![1.0; observations.len()],
-            observations,
-            knows_noise: false,
-            options: Options::default(),
-            coarse: None,
-        })
-    }
-
+impl Problem<'_> {
     /// The indices of the parameters that the model takes.
     pub fn of_model(&self) -> Vec<usize> {
         let of_model = |&k: &usize| self.parameters[k].column().is_none();
@@ -73,8 +41,21 @@ impl<'a> Problem<'a> {
         sizes.map(move |(value, sigma)| share * value.abs() / sigma)
     }
 
+    /// What is known of the model before the fit.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and an emulator of others.
+    pub fn first_emulator(&self) -> Result<Emulator, CalibrationError> {
+        let own = self.of_model().into_iter().map(|k| self.parameters[k].clone());
+        let (own, parts): (Vec<_>, _) = (own.collect(), self.parts()?);
+        let known = self.emulator.clone();
+        let known = known.unwrap_or_else(|| Emulator::new(own.clone(), parts.clone()));
+        known.of_model(&own, &parts, self.options.relative_noise)
+    }
+
     /// What acts on which predictions: by default every parameter of the model on all.
-    pub fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
+    fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
         let (observations, count) = (self.observations.len(), self.of_model().len());
         let mut parts = self.model.parts();
         if parts.is_empty() {
@@ -83,14 +64,23 @@ impl<'a> Problem<'a> {
                 parameters: (0..count).collect(),
             });
         }
-        let predictions = parts.iter().map(|part| part.predictions).sum();
-        check_count("predictions of the model's parts", predictions, observations)?;
-        let mut indices = parts.iter().flat_map(|part| &part.parameters);
-        if let Some(&index) = indices.find(|&&index| index >= count) {
-            let (what, allowed) = ("index of a parameter of a part", "below the number of parameters");
-            return Err(CalibrationError::invalid(what, index as f64, allowed));
+        let predictions: usize = parts.iter().map(|part| part.predictions).sum();
+        if predictions != observations {
+            let what = "number of predictions of the model's parts";
+            return Err(CalibrationError::invalid(
+                what,
+                predictions as f64,
+                "one for each observation",
+            ));
         }
-        Ok(parts)
+        let mut indices = parts.iter().flat_map(|part| &part.parameters);
+        match indices.find(|&&index| index >= count) {
+            None => Ok(parts),
+            Some(&index) => {
+                let (what, allowed) = ("index of a parameter of a part", "below the number of parameters");
+                Err(CalibrationError::invalid(what, index as f64, allowed))
+            }
+        }
     }
 
     /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.
@@ -111,34 +101,4 @@ impl<'a> Problem<'a> {
         }
         Ok(())
     }
-}
-
-/// Refuses another number of things than of observations.
-pub fn check_count(what: &str, found: usize, wanted: usize) -> Result<(), CalibrationError> {
-    if found == wanted {
-        return Ok(());
-    }
-    let what = format!("number of {what}");
-    Err(CalibrationError::invalid(
-        what,
-        found as f64,
-        "one for each observation",
-    ))
-}
-
-/// Refuses a value for an observation that does not hold.
-pub fn check_each(
-    values: &[f64],
-    quantity: &str,
-    allowed: &'static str,
-    holds: impl Fn(f64) -> bool,
-) -> Result<(), CalibrationError> {
-    let Some(index) = values
-        .iter()
-        .position(|&value| !(value.is_finite() && holds(value)))
-    else {
-        return Ok(());
-    };
-    let what = format!("{quantity} of observation {index}");
-    Err(CalibrationError::invalid(what, values[index], allowed))
 }

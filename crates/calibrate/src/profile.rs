@@ -38,9 +38,7 @@ impl ProfilePoint {
 }
 
 /// The profile of one parameter.
-#[derive(Clone)]
 pub(crate) struct Profile {
-    parameter: usize,
     /// In the order of the parameter.
     pub points: Vec<ProfilePoint>,
     /// Free variables at the lower and the upper end; `None` where the likelihood does not close.
@@ -49,92 +47,78 @@ pub(crate) struct Profile {
     pub at_ends: Vec<ProfilePoint>,
 }
 
-impl Profile {
-    /// Free variables and the rise at them, ascending, as far as the model has an answer.
-    pub fn curve(&self) -> Vec<(f64, f64)> {
-        let points = self.points.iter().chain(&self.at_ends);
-        let all = points.map(|point| (point.point.free[self.parameter], point.rise));
-        let mut curve: Vec<(f64, f64)> = all.filter(|(_, rise)| rise.is_finite()).collect();
-        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-        curve
-    }
-
-    /// Whether a point lies below both values between which it lies.
-    fn lies_above(&self, point: &ProfilePoint) -> bool {
-        let k = self.parameter;
-        let is_before = |other: &ProfilePoint| other.point.free[k] < point.point.free[k];
-        let next = self.points.partition_point(is_before);
-        let mut around = self.points[next.saturating_sub(1)..].iter().take(2);
-        around.all(|other| point.rise < other.rise - BETTER)
-    }
-
-    /// Points within reach of the optimum, which is at `here`, beyond some that are not.
-    pub fn beyond_barrier(&self, here: f64, wanted: f64) -> impl Iterator<Item = &ProfilePoint> {
-        let inside = move |point: &&ProfilePoint| point.root() < wanted;
-        let is_below = |point: &ProfilePoint| point.point.free[self.parameter] < here;
-        let (below, above) = self.points.split_at(self.points.partition_point(is_below));
-        let below = below.iter().rev().skip_while(inside).filter(inside);
-        below.chain(above.iter().skip_while(inside).filter(inside))
-    }
-}
-
 /// Profiles parameters around an optimum.
 pub(crate) struct Profiler<'a> {
     pub likelihood: &'a Likelihood<'a>,
     pub optimum: &'a Optimum,
     pub covariance: &'a Covariance,
-    /// Where descents from elsewhere ended.
+    /// Where other descents ended.
     pub others: &'a [Point],
     /// Root of the rise at which an interval ends.
     pub wanted: f64,
 }
 
 impl Profiler<'_> {
-    /// The profiles of the first `count` parameters. What one of them finds is true for all: where a point
-    /// of another lies below a profile, that one is in a wrong valley there.
+    /// The profiles of the first `count` parameters. What any descent has found is true for all: where it lies
+    /// below a profile, that one is in a wrong valley there.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::NotConverged`].
     pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
-        let first = (0..count).map(|k| self.profile(k, &[]));
-        let first = first.collect::<Result<Vec<_>, _>>()?;
-        let again = |own: &Profile| {
-            let others = first.iter().filter(|other| other.parameter != own.parameter);
-            let within = others.flat_map(|other| &other.points);
-            let within = within.filter(|point| point.root() < EXCLUSION * self.wanted);
-            let below: Vec<Point> = within
-                .filter(|point| own.lies_above(point))
-                .map(|point| point.point.clone())
-                .collect();
-            if below.is_empty() {
-                return Ok(own.clone());
+        let first = (0..count)
+            .map(|k| self.points(k))
+            .collect::<Result<Vec<_>, _>>()?;
+        let others = self.others.iter().map(|other| self.at(other.clone()));
+        let known: Vec<ProfilePoint> = first.iter().flatten().cloned().chain(others).collect();
+        let profile = |(k, mut points): (usize, Vec<ProfilePoint>)| {
+            let count = points.len();
+            for point in &known {
+                let next = points.partition_point(|other| other.point.free[k] < point.point.free[k]);
+                let mut around = points[next.saturating_sub(1)..].iter().take(2);
+                if around.all(|other| point.rise < other.rise - BETTER) {
+                    points.insert(next, point.clone());
+                }
             }
-            self.profile(own.parameter, &below)
+            if points.len() > count {
+                self.spread(k, &mut points)?;
+            }
+            self.bounded(k, points)
         };
-        first.iter().map(again).collect()
+        first.into_iter().enumerate().map(profile).collect()
     }
 
-    /// The profile of parameter `k`, and through known points: from the optimum to both bounds, and from there to the other bound and
-    /// back, of which the lower counts.
-    fn profile(&self, k: usize, known: &[Point]) -> Result<Profile, CalibrationError> {
-        let mut points = vec![ProfilePoint {
-            point: self.optimum.point.clone(),
-            rise: 0.0,
-        }];
-        for bound in [-FARTHEST, FARTHEST] {
-            points.reverse();
-            for z in self.values(k, bound) {
-                points.push(self.fit_others(k, z, &points[points.len() - 1])?);
+    /// The profile of parameter `k` along its grid.
+    fn points(&self, k: usize) -> Result<Vec<ProfilePoint>, CalibrationError> {
+        let optimum = self.at(self.optimum.point.clone());
+        let points = self.grid(k).into_iter().map(|z| self.fit_others(k, z, &optimum));
+        let mut points = points.collect::<Result<Vec<_>, _>>()?;
+        self.spread(k, &mut points)?;
+        Ok(points)
+    }
+
+    /// To the right, each point from its neighbour, and back: at each the lower one counts. Where the others move
+    /// as one from point to point, both are the same.
+    fn spread(&self, k: usize, points: &mut [ProfilePoint]) -> Result<(), CalibrationError> {
+        for _ in 0..2 {
+            for index in 1..points.len() {
+                let z = points[index].point.free[k];
+                let mut moved = &points[index].point.free - &points[index - 1].point.free;
+                moved[k] = 0.0;
+                if moved.amax() >= JUMP {
+                    let other = self.fit_others(k, z, &points[index - 1])?;
+                    if other.rise < points[index].rise {
+                        points[index] = other;
+                    }
+                }
             }
+            points.reverse();
         }
-        // A valley elsewhere may be narrower than a step of the grid.
-        let far = |point: &&Point| (&point.free - &self.optimum.point.free).amax() >= JUMP;
-        let known = self.others.iter().filter(far).chain(known);
-        points.extend(known.map(|point| self.at(point.clone())));
-        points.sort_by(|a, b| a.point.free[k].total_cmp(&b.point.free[k]));
-        for index in (0..points.len() - 1).rev() {
-            self.lower(k, &mut points, index, index + 1)?;
-        }
-        for index in 1..points.len() {
-            self.lower(k, &mut points, index, index - 1)?;
-        }
+        Ok(())
+    }
+
+    /// The profile through these points, with its ends.
+    fn bounded(&self, k: usize, mut points: Vec<ProfilePoint>) -> Result<Profile, CalibrationError> {
         let (mut ends, mut at_ends) = ([None; 2], Vec::new());
         for end in &mut ends {
             if let Some((value, near)) = self.end(k, &points)? {
@@ -144,25 +128,27 @@ impl Profiler<'_> {
             points.reverse();
         }
         Ok(Profile {
-            parameter: k,
             points,
             ends,
             at_ends,
         })
     }
 
-    /// Half of the values of parameter `k` but its estimate: to a bound, at distances that grow by one
-    /// factor from half a standard error on.
-    fn values(&self, k: usize, bound: f64) -> Vec<f64> {
+    /// Values of the free variable k from bound to bound: its estimate, and on either side as many at
+    /// distances that grow by one factor from half a standard error on.
+    fn grid(&self, k: usize) -> Vec<f64> {
         let here = self.optimum.point.free[k];
-        let (count, farthest) = (GRID / 2, bound - here);
         let error = self.covariance.standard_error(k).unwrap_or(f64::INFINITY);
-        let first = (0.5 * error / farthest.abs()).min(1.0 / count as f64);
-        let share = |index: usize| first.powf(1.0 - index as f64 / (count - 1) as f64);
-        if farthest == 0.0 {
-            return Vec::new();
+        let (count, mut values) = (GRID / 2, vec![here]);
+        for farthest in [-FARTHEST - here, FARTHEST - here] {
+            let first = (0.5 * error / farthest.abs()).min(1.0 / count as f64);
+            let share = |index: usize| first.powf(1.0 - index as f64 / (count - 1) as f64);
+            if farthest != 0.0 {
+                values.extend((0..count).map(|index| here + farthest * share(index)));
+            }
         }
-        (0..count).map(|index| here + farthest * share(index)).collect()
+        values.sort_by(f64::total_cmp);
+        values
     }
 
     /// Fits all parameters but `k`, held at `z`, from where a neighbour has them.
@@ -178,27 +164,6 @@ impl Profiler<'_> {
         ProfilePoint { point, rise }
     }
 
-    /// Takes what a neighbour leads to, if it is lower. Where the others move as one from point to point,
-    /// both are the same.
-    fn lower(
-        &self,
-        k: usize,
-        points: &mut [ProfilePoint],
-        index: usize,
-        neighbour: usize,
-    ) -> Result<(), CalibrationError> {
-        let (here, there) = (&points[index].point.free, &points[neighbour].point.free);
-        let mut moved = here - there;
-        moved[k] = 0.0;
-        if moved.amax() >= JUMP && points[neighbour].rise.is_finite() {
-            let other = self.fit_others(k, here[k], &points[neighbour])?;
-            if other.rise < points[index].rise {
-                points[index] = other;
-            }
-        }
-        Ok(())
-    }
-
     /// The free variable at the end before the first of these points, which begin at a bound, and a point
     /// next to it: what lies beyond a barrier and is not excluded belongs to the interval.
     fn end(
@@ -211,20 +176,25 @@ impl Profiler<'_> {
         let Some(inside) = inside.filter(|&index| index > 0 && is_excluded) else {
             return Ok(None);
         };
-        let mut around = [points[inside].clone(), points[inside - 1].clone()];
+        let (mut inner, mut outer) = (points[inside].clone(), points[inside - 1].clone());
         let off = |point: &ProfilePoint| (point.root() - self.wanted).abs();
         for _ in 0..HALVINGS {
-            if off(&around[0]).min(off(&around[1])) < ACCURACY * self.wanted {
+            if off(&inner).min(off(&outer)) < ACCURACY * self.wanted {
                 break;
             }
-            let z = 0.5 * (around[0].point.free[k] + around[1].point.free[k]);
-            let mut middle = [self.fit_others(k, z, &around[0])?, around[1].clone()];
-            self.lower(k, &mut middle, 0, 1)?;
-            let [middle, _] = middle;
-            let place = usize::from(middle.root() >= self.wanted);
-            around[place] = middle;
+            let z = 0.5 * (inner.point.free[k] + outer.point.free[k]);
+            let mut middle = self.fit_others(k, z, &inner)?;
+            if outer.rise.is_finite() {
+                let other = self.fit_others(k, z, &outer)?;
+                middle = if other.rise < middle.rise { other } else { middle };
+            }
+            let side = if middle.root() < self.wanted {
+                &mut inner
+            } else {
+                &mut outer
+            };
+            *side = middle;
         }
-        let [inner, outer] = around;
         let (a, b) = (inner.point.free[k], outer.point.free[k]);
         // Beyond an infinite rise the model has no answer.
         let share = ((self.wanted - inner.root()) / (outer.root() - inner.root())).clamp(0.0, 1.0);

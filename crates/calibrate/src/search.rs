@@ -1,16 +1,21 @@
 //! The way to the optimum: a scan of the emulator, descents from its best places, and the noise's scale.
 
 use nalgebra::DVector;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::covariance::parameters_from_data;
 use crate::descent::{Optimum, descend};
 use crate::deviance::Deviance;
 use crate::likelihood::{Likelihood, Point};
-use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, STARTS};
-use crate::{CalibrationError, parameter};
+use crate::problem::Problem;
+use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
+use crate::{CalibrationError, Loss, Warning, parameter};
 
 /// Repeats after which a loop is taken to go in a circle: those that end need half as many.
-pub(crate) const MAX_ROUNDS: usize = 24;
+const MAX_ROUNDS: usize = 24;
+/// Probability of residuals as large as these under the given sigmas, below which the sigmas are not
+/// believed.
+const MISFIT: f64 = 0.001;
 
 /// `count` places all over the range, as shares of it, by the generalised golden ratio (M. Roberts, "The
 /// unreasonable effectiveness of quasirandom sequences", 2018).
@@ -24,72 +29,83 @@ pub(crate) fn all_over(dimensions: usize, count: usize) -> Vec<DVector<f64>> {
     (0..count).map(place).collect()
 }
 
-/// −2 log likelihood under noise with heavy tails, whose scale is known or estimated from these residuals.
-fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
-    let sum: f64 = residuals.iter().take(data).map(|r| r.abs()).sum();
-    let priors: f64 = residuals.iter().skip(data).map(|r| r * r).sum();
-    if known_noise {
-        2.0 * sum + priors
-    } else {
-        2.0 * data as f64 * sum.max(f64::MIN_POSITIVE).ln() + priors
-    }
-}
-
-/// The optimum on the emulator, and where other descents ended; `start` is tried before the best places of
-/// a scan.
+/// The optimum on the emulator, and where other descents ended. The `last` one stays, unless another is better
+/// by more than a fraction of a standard error. Where the sigmas are not believed, only their ratios are.
 ///
 /// # Errors
 ///
 /// [`CalibrationError::NotConverged`] if no descent comes to an end.
 pub(crate) fn optimum(
     likelihood: &Likelihood<'_>,
-    start: Option<&DVector<f64>>,
+    last: Option<&DVector<f64>>,
 ) -> Result<(Optimum, Vec<Point>), CalibrationError> {
-    let (problem, known) = (likelihood.problem, likelihood.problem.knows_noise);
-    let dimensions = likelihood.of_model.len();
+    let problem = likelihood.problem;
+    let (mut best, mut ends): (Option<Optimum>, _) = (None, Vec::new());
+    for mut from in last.into_iter().cloned().chain(best_of_scan(likelihood)) {
+        if let Some(best) = &best {
+            let end = descend(likelihood, best.deviance, from, None)?;
+            let is_lower = best.deviance.total(&end.residuals) < best.value() - BETTER;
+            from = end.free.clone();
+            ends.push(end);
+            if !is_lower {
+                continue;
+            }
+        }
+        if let Ok(found) = refine(likelihood, from, problem.knows_noise) {
+            ends.extend(best.replace(found).map(|worse| worse.point));
+        }
+    }
+    let mut best = best.ok_or(CalibrationError::NotConverged)?;
+    if misfit(problem, &best).is_some() {
+        best = refine(likelihood, best.point.free, false)?;
+    }
+    if let Some(last) = last.map(|last| likelihood.point(last.clone()))
+        && best.deviance.total(&last.residuals) - best.value() < settled(problem, &best)
+    {
+        best = Optimum::at(likelihood, last, best.deviance);
+    }
+    Ok((best, ends))
+}
+
+/// Gain of the deviance from which on an optimum moves: of the ripple between runs, the parameters follow
+/// their share.
+pub(crate) fn settled(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
+    let share = problem.asked as f64 / problem.observations.len() as f64;
+    (share * noise(problem, optimum)).max(SETTLED * SETTLED)
+}
+
+/// Variance of the model's own noise, in squared standard errors of all readings together.
+pub(crate) fn noise(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
+    let weights = optimum.deviance.weights(&optimum.point.residuals);
+    let squares = problem.model_noise().zip(&weights);
+    squares.map(|(noise, weight)| weight * noise * noise).sum()
+}
+
+/// Places of the emulator all over the range at which noise with heavy tails, of a scale that is estimated
+/// from the residuals, has the largest likelihood; terms are in the middle of their ranges.
+fn best_of_scan(likelihood: &Likelihood<'_>) -> impl Iterator<Item = DVector<f64>> {
+    let (problem, dimensions) = (likelihood.problem, likelihood.of_model.len());
+    let data = problem.observations.len();
     let mut scanned = Vec::new();
     for place in all_over(dimensions, SCAN * (1 + dimensions)) {
-        // Terms from the middle of their ranges.
         let mut free = DVector::zeros(problem.parameters.len());
         for (&k, &share) in likelihood.of_model.iter().zip(&place) {
             free[k] = parameter::free(share);
         }
         let point = likelihood.point(free);
-        let score = score(&point.residuals, problem.observations.len(), known);
+        let sum: f64 = point.residuals.iter().take(data).map(|r| r.abs()).sum();
+        let priors: f64 = point.residuals.iter().skip(data).map(|r| r * r).sum();
+        let score = 2.0 * data as f64 * sum.max(f64::MIN_POSITIVE).ln() + priors;
         if score.is_finite() {
             scanned.push((score, point.free));
         }
     }
     scanned.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let best_of_scan = scanned.into_iter().map(|(_, free)| free).take(STARTS);
-    let mut best: Option<Optimum> = None;
-    let mut others = Vec::new();
-    for from in start.into_iter().cloned().chain(best_of_scan) {
-        let lower = match &best {
-            None => Some(from),
-            Some(best) => {
-                let other = descend(likelihood, best.deviance, from, None)?;
-                let is_lower = best.deviance.total(&other.residuals) < best.value() - BETTER;
-                others.push(if is_lower {
-                    best.point.clone()
-                } else {
-                    other.clone()
-                });
-                is_lower.then_some(other.free)
-            }
-        };
-        let found = lower.and_then(|from| refine(likelihood, from, known).ok());
-        best = found.or(best);
-    }
-    Ok((best.ok_or(CalibrationError::NotConverged)?, others))
+    scanned.into_iter().map(|(_, free)| free).take(STARTS)
 }
 
 /// Descends, adapting the scale of the noise.
-///
-/// # Errors
-///
-/// As for [`optimum`].
-pub(crate) fn refine(
+fn refine(
     likelihood: &Likelihood<'_>,
     mut start: DVector<f64>,
     known_noise: bool,
@@ -97,15 +113,10 @@ pub(crate) fn refine(
     let problem = likelihood.problem;
     let data = problem.observations.len();
     let least = problem.model_noise().fold(f64::MIN_POSITIVE, f64::max);
-    let mut deviance = Deviance {
-        loss: problem.options.loss,
-        data,
-        spread: 1.0,
-        normalisation: 1.0,
-    };
     let freedom = (data as f64 - problem.asked as f64).max(1.0);
     let residuals = likelihood.point(start.clone()).residuals;
-    deviance = deviance.scaled(&residuals, known_noise, freedom, least);
+    let first = Deviance::new(problem.options.loss, data);
+    let mut deviance = first.scaled(&residuals, known_noise, freedom, least);
     for round in 0..MAX_ROUNDS {
         let point = descend(likelihood, deviance, start, None)?;
         let mut found = Optimum::at(likelihood, point, deviance);
@@ -122,4 +133,24 @@ pub(crate) fn refine(
         (deviance, start) = (next, found.point.free);
     }
     Err(CalibrationError::NotConverged)
+}
+
+/// Observations less the parameters that they determine.
+pub(crate) fn freedom(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
+    (problem.observations.len() as f64 - parameters_from_data(optimum)).max(0.0)
+}
+
+/// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
+pub(crate) fn misfit(problem: &Problem<'_>, optimum: &Optimum) -> Option<Warning> {
+    if !problem.knows_noise || problem.options.loss != Loss::Squares {
+        return None;
+    }
+    let residuals = optimum.point.residuals.iter().take(optimum.deviance.data);
+    let freedom = freedom(problem, optimum);
+    let sum: f64 = residuals.map(|r| r * r).sum();
+    let probability = 1.0 - ChiSquared::new(freedom).ok()?.cdf(sum);
+    (freedom >= 1.0 && probability < MISFIT).then_some(Warning::Misfit {
+        reduced_chi_square: sum / freedom,
+        probability,
+    })
 }

@@ -1,210 +1,151 @@
 //! An optimum on the emulator, and what is known around it.
 
 use nalgebra::DVector;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::covariance::{Covariance, parameters_from_data, quantile};
+use crate::covariance::{Covariance, quantile};
 use crate::descent::Optimum;
 use crate::estimate::{Estimate, Interval};
 use crate::likelihood::{Likelihood, Point};
 use crate::problem::Problem;
 use crate::profile::{EXCLUSION, Profile, ProfilePoint, Profiler};
-use crate::search::{self, MAX_ROUNDS};
-use crate::tuning::{BETTER, FAR, HIDDEN, HIGH, NEAR, SETTLED, SURE};
-use crate::{CalibrationError, Loss, Parameter, Scale, Warning};
+use crate::search::{freedom, misfit, noise, settled};
+use crate::tuning::{BETTER, HIDDEN, HIGH, SURE};
+use crate::{CalibrationError, Parameter};
 
-/// Probability of residuals as large as these under the given sigmas, below which the sigmas are not
-/// believed.
-const MISFIT: f64 = 0.001;
+/// Probability that an interval leaves out the true value on a side.
+const TAIL: f64 = 0.025;
 
 pub(crate) struct Solution {
     pub optimum: Optimum,
     pub covariance: Covariance,
-    pub estimates: Vec<Estimate>,
-    /// Whether the intervals are those that were asked for.
-    pub is_complete: bool,
-    /// Places on which it rests, and the standard error of all readings together up to which the emulator
-    /// is believed there.
-    pub supports: Vec<(DVector<f64>, f64)>,
-    /// A minimum elsewhere that fits about as well.
-    pub rival: Option<Point>,
-    /// Whether the noise was estimated from the residuals, and if so, because the sigmas are not believed.
+    /// Of the parameters that are asked for, if profiles are.
+    pub profiles: Vec<Profile>,
+    /// Whether the noise is estimated from the residuals.
     pub noise_estimated: bool,
-    pub misfit: Option<Warning>,
+    /// Root of the rise at which an interval ends.
+    wanted: f64,
 }
 
-/// Searches the optimum on a likelihood and describes it: with profiles, if they are asked for, once it lies
-/// near the start, which is the optimum if no other is better by more than a fraction of a standard error.
-///
-/// # Errors
-///
-/// [`CalibrationError::NotConverged`].
-pub(crate) fn solve(
-    likelihood: &Likelihood<'_>,
-    start: Option<&DVector<f64>>,
-) -> Result<Solution, CalibrationError> {
-    let problem = likelihood.problem;
-    let (mut optimum, others) = search::optimum(likelihood, start)?;
-    let last = start.map(|start| likelihood.point(start.clone()));
-    for _ in 0..MAX_ROUNDS {
-        let misfit = misfit(problem, &optimum);
-        if misfit.is_some() {
-            // The sigmas are not believed: only their ratios are.
-            optimum = search::refine(likelihood, optimum.point.free, false)?;
-        }
-        let value = |point: &Point| optimum.deviance.total(&point.residuals);
-        let gain = last
-            .as_ref()
-            .map_or(f64::INFINITY, |last| value(last) - optimum.value());
-        // Of the ripple between runs, the parameters follow their share.
-        let share = (problem.asked as f64 / problem.observations.len() as f64).sqrt();
-        let least = SETTLED.max(FAR.min(share * noise(problem, &optimum))).powi(2);
-        if let Some(last) = last.clone().filter(|_| gain < least) {
-            optimum = Optimum::at(likelihood, last, optimum.deviance);
-        }
-        let is_near = gain < NEAR || problem.coarse.is_some();
-        let is_profiled = problem.options.profiles && is_near;
-        let noise_estimated = !problem.knows_noise || misfit.is_some() || problem.options.loss.is_robust();
-        let tail = 0.5 * (1.0 - problem.options.confidence);
+impl Solution {
+    /// What is known around an optimum, where descents ended at `others` too.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::NotConverged`].
+    pub fn around(
+        likelihood: &Likelihood<'_>,
+        optimum: Optimum,
+        others: &[Point],
+    ) -> Result<Self, CalibrationError> {
+        let problem = likelihood.problem;
+        let is_robust = problem.options.loss.is_robust();
+        let noise_estimated = !problem.knows_noise || is_robust || misfit(problem, &optimum).is_some();
         let covariance = Covariance::of(&optimum);
+        let wanted = quantile(TAIL, noise_estimated.then(|| freedom(problem, &optimum)));
         let profiler = Profiler {
             likelihood,
-            wanted: quantile(tail, noise_estimated.then(|| freedom(problem, &optimum))),
             optimum: &optimum,
             covariance: &covariance,
-            others: &others,
+            others,
+            wanted,
         };
-        let profiles = profiler.profiles(if is_profiled { problem.asked } else { 0 })?;
-        let points = profiles.iter().flat_map(|profile| &profile.points);
-        let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise));
-        if let Some(lower) = lowest.filter(|lowest| lowest.rise < -least.max(BETTER)) {
-            optimum = search::refine(likelihood, lower.point.free.clone(), problem.knows_noise)?;
-            continue;
-        }
-        return Ok(Solution {
-            estimates: estimates(&profiler, &profiles),
-            is_complete: is_profiled || !problem.options.profiles,
-            supports: supports(&profiler, &profiles),
-            rival: rival(&profiler, &profiles),
-            noise_estimated,
-            misfit,
-            covariance,
+        let count = if problem.options.profiles {
+            problem.asked
+        } else {
+            0
+        };
+        let profiles = profiler.profiles(count)?;
+        Ok(Self {
             optimum,
-        });
+            covariance,
+            profiles,
+            noise_estimated,
+            wanted,
+        })
     }
-    Err(CalibrationError::NotConverged)
-}
 
-/// The model's own noise, in standard errors of all readings together.
-fn noise(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
-    let weights = optimum.deviance.weights(&optimum.point.residuals);
-    let squares = problem.model_noise().zip(&weights);
-    let squares = squares.map(|(noise, weight)| weight * noise * noise);
-    squares.sum::<f64>().sqrt()
-}
-
-/// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
-fn misfit(problem: &Problem<'_>, optimum: &Optimum) -> Option<Warning> {
-    if !problem.knows_noise || problem.options.loss != Loss::Squares {
-        return None;
+    /// A place of a profile that is a better optimum.
+    pub fn lower(&self, problem: &Problem<'_>) -> Option<&DVector<f64>> {
+        let points = self.profiles.iter().flat_map(|profile| &profile.points);
+        let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
+        let is_lower = lowest.rise < -settled(problem, &self.optimum).max(BETTER);
+        is_lower.then_some(&lowest.point.free)
     }
-    let residuals = optimum.point.residuals.iter().take(optimum.deviance.data);
-    let freedom = freedom(problem, optimum);
-    let sum: f64 = residuals.map(|r| r * r).sum();
-    let probability = 1.0 - ChiSquared::new(freedom).ok()?.cdf(sum);
-    (freedom >= 1.0 && probability < MISFIT).then_some(Warning::Misfit {
-        reduced_chi_square: sum / freedom,
-        probability,
-    })
-}
 
-/// Observations less the parameters that they determine.
-pub(crate) fn freedom(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
-    (problem.observations.len() as f64 - parameters_from_data(optimum)).max(0.0)
-}
+    /// Places on which it rests, each with the standard error of all readings together up to which the emulator
+    /// is believed there: the ends of the intervals, the bounds that they leave out, and all low places.
+    pub fn supports(&self, likelihood: &Likelihood<'_>) -> Vec<(DVector<f64>, f64)> {
+        // Of the model's own noise nothing can be learned far out.
+        let hidden = HIDDEN.max(noise(likelihood.problem, &self.optimum).sqrt());
+        let support = |point: &ProfilePoint, least: f64, threshold: f64| {
+            let allowed = least.max(0.25 * (point.root() - threshold).abs());
+            (likelihood.place(&point.point.free), allowed)
+        };
+        let mut supports = Vec::new();
+        for Profile { points, at_ends, .. } in &self.profiles {
+            supports.extend(at_ends.iter().map(|point| support(point, SURE, self.wanted)));
+            let bounds = points.first().into_iter().chain(points.last());
+            supports.extend(bounds.map(|point| support(point, SURE, EXCLUSION * self.wanted)));
+            // A coarser model has shown where the others lie.
+            if likelihood.emulator.coarse_optimum().is_none() {
+                let low = points.iter().filter(|point| point.root() < HIGH);
+                supports.extend(low.map(|point| support(point, hidden, self.wanted)));
+            }
+        }
+        supports
+    }
 
-/// All parameters that are asked for; without profiles, their intervals are symmetric.
-fn estimates(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<Estimate> {
-    let (problem, wanted) = (profiler.likelihood.problem, profiler.wanted);
-    let one = |(k, parameter): (usize, &Parameter)| {
-        let free = profiler.optimum.point.free[k];
-        let (best, profile) = (parameter.value(free), profiles.get(k));
-        let error = profiler.covariance.standard_error(k);
-        let error = error.map(|error| error * parameter.slope(free));
-        let symmetric = |sign: f64| {
-            let reach = sign * wanted * error?;
-            let end = match parameter.scale {
-                Scale::Linear => best + reach,
-                Scale::Logarithmic => best * (reach / best).exp(),
-            };
-            (parameter.lower < end && end < parameter.upper).then_some(end)
-        };
-        let [lower, upper] = match profile {
-            Some(profile) => profile.ends.map(|end| end.map(|free| parameter.value(free))),
-            None => [-1.0, 1.0].map(symmetric),
-        };
+    /// The lowest place that an interval holds beyond some that fit worse, where a parameter fits about as
+    /// well.
+    pub fn rival(&self) -> Option<&Point> {
+        let mut rivals = Vec::new();
+        for (k, profile) in self.profiles.iter().enumerate() {
+            let is_below = |point: &ProfilePoint| point.point.free[k] < self.optimum.point.free[k];
+            let inside = |point: &&ProfilePoint| point.root() < self.wanted;
+            let (below, above) = profile.points.split_at(profile.points.partition_point(is_below));
+            rivals.extend(below.iter().rev().skip_while(inside).filter(inside));
+            rivals.extend(above.iter().skip_while(inside).filter(inside));
+        }
+        let lowest = rivals.into_iter().min_by(|a, b| a.rise.total_cmp(&b.rise));
+        lowest.map(|lowest| &lowest.point)
+    }
+
+    /// Of all parameters that are asked for.
+    pub fn estimates(&self, problem: &Problem<'_>) -> Vec<Estimate> {
+        let asked = problem.parameters.iter().take(problem.asked).enumerate();
+        asked.map(|(k, parameter)| self.estimate(k, parameter)).collect()
+    }
+
+    fn estimate(&self, k: usize, parameter: &Parameter) -> Estimate {
+        let (free, profile) = (self.optimum.point.free[k], self.profiles.get(k));
+        let ends = profile.map_or([None; 2], |profile| profile.ends);
+        let [lower, upper] = ends.map(|end| end.map(|free| parameter.value(free)));
+        let interval = Interval { lower, upper };
         // Where the model is steepest nowhere near, as at its largest value, only the interval tells how
         // exactly the parameter is known.
         let half = lower
             .zip(upper)
-            .map(|(lower, upper)| 0.5 * (upper - lower) / wanted);
-        let by_slopes = error.filter(|error| half.is_none_or(|half| *error <= 2.0 * half));
-        let curve = profile.map_or_else(Vec::new, Profile::curve);
-        let interval = Interval { lower, upper };
+            .map(|(lower, upper)| 0.5 * (upper - lower) / self.wanted);
+        let by_slopes = self
+            .covariance
+            .standard_error(k)
+            .map(|error| error * parameter.slope(free));
+        let by_slopes = by_slopes.filter(|error| half.is_none_or(|half| *error <= 2.0 * half));
+        let points = profile
+            .into_iter()
+            .flat_map(|profile| profile.points.iter().chain(&profile.at_ends));
+        let finite = points.filter(|point| point.rise.is_finite());
+        let mut curve: Vec<(f64, f64)> = finite
+            .map(|point| (parameter.value(point.point.free[k]), point.rise))
+            .collect();
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         Estimate {
             name: parameter.name().to_owned(),
-            value: best,
+            value: parameter.value(free),
             standard_error: by_slopes.or(half),
             interval,
             identifiable: interval.is_closed(),
-            profile: curve
-                .into_iter()
-                .map(|(free, rise)| (parameter.value(free), rise))
-                .collect(),
-        }
-    };
-    problem.parameters[..problem.asked]
-        .iter()
-        .enumerate()
-        .map(one)
-        .collect()
-}
-
-/// The ends of the intervals, the bounds that they leave out, and all low places: there the emulator may err
-/// by a part of what would make another answer.
-fn supports(profiler: &Profiler<'_>, profiles: &[Profile]) -> Vec<(DVector<f64>, f64)> {
-    let Profiler {
-        likelihood,
-        optimum,
-        wanted,
-        ..
-    } = *profiler;
-    // Of the model's own noise nothing can be learned far out.
-    let hidden = HIDDEN.max(noise(likelihood.problem, optimum));
-    let support = |point: &ProfilePoint, least: f64, threshold: f64| {
-        let allowed = least.max(0.25 * (point.root() - threshold).abs());
-        (likelihood.place(&point.point.free), allowed)
-    };
-    let mut supports = Vec::new();
-    for profile in profiles {
-        supports.extend(profile.at_ends.iter().map(|point| support(point, SURE, wanted)));
-        let bounds = [profile.points.first(), profile.points.last()]
-            .into_iter()
-            .flatten();
-        supports.extend(bounds.map(|point| support(point, SURE, EXCLUSION * wanted)));
-        if likelihood.problem.coarse.is_none() {
-            let low = profile.points.iter().filter(|point| point.root() < HIGH);
-            supports.extend(low.map(|point| support(point, hidden, wanted)));
+            profile: curve,
         }
     }
-    supports
-}
-
-/// The lowest place beyond a barrier that an interval does not hold, but where a parameter fits about as well.
-fn rival(profiler: &Profiler<'_>, profiles: &[Profile]) -> Option<Point> {
-    let free = &profiler.optimum.point.free;
-    let beyond = profiles.iter().zip(free);
-    let beyond = beyond.flat_map(|(profile, &here)| profile.beyond_barrier(here, profiler.wanted));
-    let lowest = beyond.min_by(|a, b| a.rise.total_cmp(&b.rise));
-    lowest.map(|lowest| lowest.point.clone())
 }

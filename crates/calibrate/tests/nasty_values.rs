@@ -69,7 +69,7 @@ proptest! {
         observations in prop::collection::vec(prop_oneof![4 => -100.0..100.0_f64, 1 => any_number()], 0..7),
         sigmas in prop::option::of(any_number()),
         (answer, profiles, robust) in (answers(), any::<bool>(), any::<bool>()),
-        (confidence, noise, threshold) in (any_number(), any_number(), any_number()),
+        noise in any_number(),
         evaluations in 0_usize..150,
     ) {
         let scale = |logarithmic| if logarithmic { Scale::Logarithmic } else { Scale::Linear };
@@ -88,12 +88,10 @@ proptest! {
             calibration = known;
         }
         let default = Options::default();
-        let among = |value: f64, good: bool, usual: f64| if good { value } else { usual };
         let mut hostile = Options::default();
-        hostile.loss = if robust { Loss::Tukey { threshold } } else { Loss::Squares };
+        hostile.loss = if robust { Loss::Tukey } else { Loss::Squares };
         hostile.max_evaluations = evaluations;
-        hostile.confidence = among(confidence, !ordinary, default.confidence);
-        hostile.relative_noise = among(noise, !ordinary, default.relative_noise);
+        hostile.relative_noise = if ordinary { default.relative_noise } else { noise };
         hostile.profiles = profiles;
         let mut few = default;
         few.max_evaluations = evaluations.max(1);
@@ -105,7 +103,8 @@ proptest! {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()), "{:?}", fit.values());
             fit.shift(&[f64::NAN; 9]);
             fit.shift(&[]);
-            let _ = calibration.with_coarse(fit.emulator).fit();
+            let _ = calibration.clone().with_emulator(fit.emulator.clone()).fit();
+            let _ = calibration.with_emulator(fit.emulator.of_finer()).fit();
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use calibrate::{Calibration, Fit, ModelError, Parameter, Prior, Scale, TermTest};
+use calibrate::{Calibration, Fit, ModelError, Parameter, Prior, Scale};
 
 const PASSES: usize = 30;
 
@@ -84,49 +84,26 @@ fn terms_fit_as_a_models_parameters_do() {
     assert!(runs.into_inner() <= 60, "{}", fit.evaluations);
 }
 
-/// What a fit without a term says of it is what a fit with it finds.
+/// What the parameters can make good, and what they cannot: a constant and a parabola beside a line, whose
+/// distance from the nearest line is exact.
 #[test]
-fn a_missing_term_is_told() {
-    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
-        Ok(column(|pass| p[0] * (1.0 - (-pass / p[1]).exp())))
-    };
-    let pass = column(|pass| pass);
-    let fit = |data: Vec<f64>| {
-        Calibration::new(&model, parameters(), data)
-            .unwrap()
-            .fit()
-            .unwrap()
-    };
-    // Not linear: half of its size is what first order sees of the drift.
-    let test = TermTest::of(&fit(observations(4)), &pass).unwrap();
-    assert!(
-        test.probability < 1e-4 && (0.7..2.5).contains(&test.size),
-        "{test:?}"
-    );
-    // Of clean data one in twenty calls for it.
-    let called = (0..300)
-        .filter(|&seed| {
-            let own = observations(seed);
-            let clean = (0..)
-                .zip(own)
-                .map(|(k, force)| force - 20.0 - 1.5 * (f64::from(k) + 1.0))
-                .collect();
-            TermTest::of(&fit(clean), &pass).unwrap().probability < 0.05
-        })
-        .count();
-    assert!((5..=28).contains(&called), "{called} of 300, 15 are expected");
-}
-
-#[test]
-fn what_the_parameters_do_themselves_is_no_term() {
+fn what_the_parameters_make_good_is_told() {
     let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(column(|pass| p[0] + p[1] * pass)) };
     let of = |name| Parameter::new(name, -1e4, 1e4, Scale::Linear).unwrap();
-    let fit = Calibration::new(&model, vec![of("a"), of("b")], observations(1))
+    let fit = Calibration::new(&model, vec![of("a"), of("b")], column(|pass| 100.0 + pass))
+        .unwrap()
+        .with_sigmas(vec![4.0; PASSES])
         .unwrap()
         .fit()
         .unwrap();
-    assert!(TermTest::of(&fit, &column(|_| 1.0)).is_none());
-    assert!(TermTest::of(&fit, &[1.0]).is_none());
+    let (moved, left) = fit.shift(&column(|_| 1.0));
+    let moved = moved[0] * fit.estimates[0].standard_error.unwrap();
+    assert!((moved + 1.0).abs() < 1e-3 && left < 1e-3, "{moved} {left}");
+    // Σ of the squared values of the orthogonal polynomial of second degree, n (n² − 1)(n² − 4)/180.
+    let n = PASSES as f64;
+    let parabola = (n * (n * n - 1.0) * (n * n - 4.0) / 180.0).sqrt();
+    let (_, left) = fit.shift(&column(|pass| pass * pass));
+    assert!((left * 4.0 / parabola - 1.0).abs() < 1e-3, "{left}");
 }
 
 #[test]

@@ -30,13 +30,6 @@ pub fn saturation_parameters() -> Vec<Parameter> {
     ]
 }
 
-/// Six readings of a parabola about 3, and its parameter: what lies as far below 3 fits like what lies above.
-pub fn two_minima() -> (impl Fn(&[f64]) -> Result<Vec<f64>, ModelError> + Sync, Parameter) {
-    let x = passes(6);
-    let model = move |p: &[f64]| Ok(x.iter().map(|x| x * (10.0 - (p[0] - 3.0).powi(2))).collect());
-    (model, Parameter::new("a", 0.0, 6.0, Scale::Linear).unwrap())
-}
-
 /// 1, 2, … `count`.
 pub fn passes(count: u32) -> Vec<f64> {
     (1..=count).map(f64::from).collect()
