@@ -3,7 +3,6 @@
 mod calibrate;
 mod check;
 mod completions;
-mod days;
 mod design;
 mod design_clamps;
 mod design_words;

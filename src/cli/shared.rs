@@ -206,10 +206,10 @@ impl Input {
     }
 
     /// Warns of what the answer warns of, and adds to it the warnings of the scene.
-    pub fn warn(self, warnings: &mut Vec<String>) {
+    pub fn warn(&self, warnings: &mut Vec<String>) {
         self.warn_all(warnings);
         warnings.retain(|warning| !self.is_told(warning));
-        warnings.splice(0..0, self.warnings);
+        warnings.splice(0..0, self.warnings.iter().cloned());
     }
 
     /// Whether the warning is of a key that a slip was found at.

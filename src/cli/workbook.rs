@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::shared::{STDOUT, has_ending, is_taken};
 use crate::output::{Files, Output};
-use crate::{Run, SceneFile, Units, Verdict, workbook};
+use crate::words::Answer;
+use crate::{SceneFile, Verdict, workbook};
 
 #[derive(Debug, clap::Args)]
 pub struct WorkbookArguments {
@@ -46,15 +47,9 @@ impl WorkbookArguments {
 
 impl Destination {
     /// Writes a run.
-    pub fn write(
-        &self,
-        run: &Run,
-        verdicts: &[Verdict],
-        file: &SceneFile,
-        units: &Units,
-    ) -> Result<(), Failure> {
+    pub fn write(&self, answer: &Answer<'_>, verdicts: &[Verdict], file: &SceneFile) -> Result<(), Failure> {
         let Some(output) = &self.0 else { return Ok(()) };
-        let bytes = workbook::of_run(run, verdicts, file, units);
+        let bytes = workbook::of_run(answer.run, verdicts, file, &answer.reader.units);
         let bytes = bytes.map_err(|source| output.failed(source))?;
         Ok(output.write(|out| out.write_all(&bytes))?)
     }
