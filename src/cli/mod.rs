@@ -10,6 +10,7 @@ mod explain;
 mod failure;
 mod limits;
 mod new;
+mod outputs;
 mod plan;
 mod presets;
 mod profile;
@@ -23,8 +24,6 @@ mod signals;
 mod state;
 mod sweep;
 mod terminal;
-#[cfg(feature = "xlsx")]
-mod workbook;
 
 use std::io::Write;
 use std::process::ExitCode;

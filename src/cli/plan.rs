@@ -3,8 +3,9 @@
 use std::io::Write;
 
 use super::failure::Failure;
+use super::outputs::Json;
 use super::progress::watched;
-use super::shared::{Input, Json, TrafficArguments};
+use super::shared::{Input, TrafficArguments};
 use super::terminal;
 use crate::PlanReport;
 use crate::occurrence::Occurrence;

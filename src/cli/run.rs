@@ -1,17 +1,17 @@
 //! `creepage run`: the force after every pass.
 
-use std::io::Write;
+use std::io::{self, Write};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
 use super::failure::Failure;
 use super::limits::{CheckArgument, LimitArguments};
+use super::outputs::{OutputArguments, beside};
 use super::progress::watched;
-use super::shared::{Input, OutputArguments, TrafficArguments};
-use super::state::{self, SaveArgument, StartArgument};
+use super::shared::{Input, TrafficArguments};
+use super::state::StartArgument;
 use super::terminal;
-#[cfg(feature = "xlsx")]
-use super::workbook::WorkbookArguments;
 use crate::words::{Answer, Fact, Reader, solved};
 use crate::{Limits, PassRecord, Reached, Run, RunOptions, Verdict};
 
@@ -42,11 +42,13 @@ pub struct Arguments {
     check: CheckArgument,
     #[command(flatten)]
     start: StartArgument,
-    #[command(flatten)]
-    save: SaveArgument,
+    /// Write the cable as the last pass leaves it to this file, for --from-state
+    #[arg(long, value_name = "FILE.json")]
+    save_state: Option<PathBuf>,
+    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
     #[cfg(feature = "xlsx")]
-    #[command(flatten)]
-    workbook: WorkbookArguments,
+    #[arg(long, value_name = "FILE.xlsx")]
+    xlsx: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -90,9 +92,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ];
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(&mut files)?;
-    let (start, saved) = (arguments.start.start()?, arguments.save.destination(&mut files)?);
+    let start = arguments.start.start()?;
+    let (option, path) = ("--save-state", arguments.save_state.as_deref());
+    let saved = beside(&mut files, option, path, "json", "a file for --from-state")?;
     #[cfg(feature = "xlsx")]
-    let workbook = arguments.workbook.destination(&mut files)?;
+    let workbook = {
+        let allowed = "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv";
+        beside(&mut files, "--xlsx", arguments.xlsx.as_deref(), "xlsx", allowed)?
+    };
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     let words = |_| "passes on finer and finer meshes".to_owned();
     let run = watched(1.0, words, |progress| {
@@ -107,7 +114,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut run = input.located(run)?;
     input.warn(&mut run.warnings);
     if let Some(saved) = &saved {
-        state::write(saved, &run)?;
+        let text = serde_json::to_vec(&run.state).map_err(io::Error::from)?;
+        saved.write(|out| out.write_all(&text))?;
     }
     let judged = Judged {
         run: &run,
@@ -124,7 +132,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         reader,
     };
     #[cfg(feature = "xlsx")]
-    workbook.write(&answer, verdicts, input.file())?;
+    if let Some(output) = &workbook {
+        let bytes = crate::workbook::of_run(&run, verdicts, input.file(), &reader.units);
+        let bytes = bytes.map_err(|source| output.failed(source))?;
+        output.write(|out| out.write_all(&bytes))?;
+    }
     destination.write(&judged, rows(&run.passes), || {
         print(&answer)?;
         let mut out = terminal::out();
@@ -168,7 +180,7 @@ fn print(answer: &Answer<'_>) -> Result<(), Failure> {
     if let Some(start) = &run.start {
         writeln!(out, "begins with the cable after {} passes", start.passes)?;
     }
-    for table in [Some(answer.passes()), answer.days(), answer.clamps()]
+    for table in [Some(answer.passes(true)), answer.days(), answer.clamps()]
         .into_iter()
         .flatten()
     {

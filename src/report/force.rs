@@ -42,7 +42,7 @@ pub fn force(html: &mut Html, report: &Report) {
     let caption =
         format!("Displacement of the cable’s ends{when}, positive toward growing x, downstream.{earlier}");
     figure(html, ALONE, [movement_after_passes(report)], &caption);
-    let passes = report.answer().passes();
+    let passes = report.answer().passes(false);
     let named = passes.head.last().is_some_and(|head| head == "vehicle");
     html.raw(&format!("<div class=\"passes{}\">", words_if(named, " names")));
     html.table(&passes);

@@ -58,8 +58,9 @@ pub fn over_day(day: &DayExtremes, end: CableEnd, quantity: Limited) -> [f64; 2]
 }
 
 impl Answer<'_> {
-    /// Some passes; without what stays zero, as the force on a free end. The last column says in what rows differ.
-    pub fn passes(&self) -> Table {
+    /// Some passes; without what stays zero, as the force on a free end. The largest compression has a column where there is room. The last
+    /// column says in what rows differ.
+    pub fn passes(&self, has_room: bool) -> Table {
         let Self { run, reader, scene } = self;
         let all = &run.passes;
         let columns = columns(reader, "moved *", |end, quantity| {
@@ -74,17 +75,17 @@ impl Answer<'_> {
                 |(_, end, quantity): &Column| reader.number(*quantity, after_pass(record, *end, *quantity));
             let first = std::iter::once(count(record.pass)).chain(record.years.map(after));
             let values = first.chain(columns.iter().map(value));
-            let inside = reader.number(Limited::Force, record.max_compression_n);
-            values.chain([inside]).chain(kinds.next()).collect()
+            let inside = has_room.then(|| reader.number(Limited::Force, record.max_compression_n));
+            values.chain(inside).chain(kinds.next()).collect()
         };
         let rows = rows.into_iter().map(row).collect();
         let first = ["after pass"]
             .into_iter()
             .chain(scene.traffic.per_day.map(|_| "time"));
         let names = first.chain(columns.iter().map(|(name, ..)| name.as_str()));
-        let inside = reader.head("most in cable", Limited::Force);
+        let inside = has_room.then(|| reader.head("most in cable", Limited::Force));
         let head = names
-            .chain([inside.as_str()])
+            .chain(inside.as_deref())
             .chain(kind)
             .map(str::to_owned)
             .collect();
