@@ -730,7 +730,7 @@ fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
         .iter()
         .filter(|shape| shape.len() == 4 && shape[1].0 - shape[0].0 > 100.0)
         .collect();
-    assert_eq!(boxes.len(), 2);
+    assert_eq!(boxes.len(), 3, "two layers and rock");
     // The reverse lane lies 3 m to the right of the other one, and the duct 1 m to the left.
     let scale = (signs[1] - signs[0]) / 3.0;
     let near = |one: f64, other: f64| assert!((one - other).abs() < 0.2, "{one} px, {other} px");

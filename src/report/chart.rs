@@ -5,7 +5,7 @@ use super::content::Report;
 use super::html::Html;
 use crate::figure::{Axis, Chart, Panels, Series};
 use crate::scene::{End, Scene};
-use crate::words::significant;
+use crate::words::{round_below, significant};
 use crate::{CableEnd, ForceProfile, Limited};
 
 /// Width of a figure, and height of a chart alone, of one of several, and of one of several with legends \[px\].
@@ -19,9 +19,6 @@ pub const OTHER: usize = 2;
 pub const MILLI: f64 = 1e3;
 pub const MICRO: f64 = 1e6;
 
-/// How many parts an axis along the duct may have, and the leading digits of a round one.
-const PARTS: [f64; 3] = [5.0, 4.0, 3.0];
-const ROUND: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
 /// Least part beside the end of the duct, as a share of the others.
 const LEAST_PART: f64 = 0.7;
 
@@ -34,25 +31,13 @@ pub fn figure(html: &mut Html, height: f64, charts: impl IntoIterator<Item = Cha
     }
 }
 
-/// Places along a duct of this length in any unit with their labels, the last one its end: in round parts that are all alike where there are such.
+/// Places along a duct of this length in any unit with their labels, in round parts; the last one is its end.
 pub fn ticks(length: f64) -> Vec<(f64, String)> {
-    let power = |part: f64| 10_f64.powf(part.log10().floor());
-    let is_round = |part: &f64| {
-        let leading = part / power(*part);
-        ROUND.iter().any(|round| (leading / round - 1.0).abs() < 1e-9)
-    };
-    let mut parts = PARTS.iter().map(|parts| length / parts);
-    let part = parts.find(is_round).unwrap_or_else(|| {
-        let least = length / PARTS[1];
-        let mut above = ROUND.iter().chain(&[10.0]).map(|round| round * power(least));
-        above.find(|part| *part >= least).unwrap_or(length)
-    });
-    let inside = |place: &f64| *place <= length - LEAST_PART * part;
-    let places = (0..=PARTS[0] as u32).map(|k| part * f64::from(k)).filter(inside);
-    places
-        .chain([length])
-        .map(|place| (place, significant(place)))
-        .collect()
+    let part = round_below(length / 3.0);
+    let places = (0..).map(|k| part * f64::from(k));
+    let places = places.take_while(|place| *place <= length - LEAST_PART * part);
+    let labelled = |place| (place, significant(place));
+    places.chain([length]).map(labelled).collect()
 }
 
 /// The axis along the duct.

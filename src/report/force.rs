@@ -133,7 +133,7 @@ fn movement_after_passes(report: &Report) -> Chart {
 impl Agreement {
     /// How far readings and computed force agree.
     fn sentence(&self, reader: &crate::words::Reader) -> String {
-        let [rms, mean, largest] = self.numbers().map(|force| reader.force(force));
+        let [rms, mean, largest] = [self.rms_n, self.mean_n, self.largest_n].map(|force| reader.force(force));
         let bars = words_if(
             self.readings.iter().any(|reading| reading.sigma.is_some()),
             " Bars are one standard deviation long to either side.",

@@ -20,7 +20,7 @@ pub fn holding(html: &mut Html, report: &Report) {
     };
     let own = comparison.own_stiffness.map_or(String::new(), |own| {
         format!(
-            " Stiffnesses are from a tenth to ten times that of the whole cable, EA/L = {}, and around that of the scene’s spring where it is beyond.",
+            " Stiffnesses are from a tenth to ten times that of the whole cable, EA/L = {}, beside that of the scene’s end.",
             reader.stiffness(own)
         )
     });

@@ -12,8 +12,6 @@ use crate::{CableEnd, Error, Limits, PassRecord, Progress, Run, Scene};
 const TOLERANCE: f64 = 0.05;
 /// Stiffnesses of end springs, as shares of the cable's own EA/L.
 const SPRINGS: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
-/// The same beside the scene's own spring where that is beyond these, as shares of it.
-const BESIDE: [f64; 2] = [0.3, 3.0];
 /// Clamps: place from the end that is held, as a share of the duct's length, and stiffness as a share of EA/L.
 const CLAMPS: [(f64, f64); 3] = [(0.5, 1.0), (0.5, 10.0), (0.1, 10.0)];
 
@@ -139,10 +137,6 @@ fn varied(scene: &Scene, last: &PassRecord) -> CableEnd {
 /// which the scene holds the end.
 fn suitable(end: CableEnd, own: f64, held: f64, length: f64) -> Vec<Spring> {
     let mut stiffnesses: Vec<f64> = SPRINGS.iter().map(|share| share * own).collect();
-    let is_far = held < stiffnesses[0] || held > stiffnesses[SPRINGS.len() - 1];
-    if held > 0.0 && held.is_finite() && is_far {
-        stiffnesses.extend(BESIDE.map(|share| share * held));
-    }
     stiffnesses.extend([0.0, f64::INFINITY, held]);
     stiffnesses.sort_by(f64::total_cmp);
     stiffnesses.dedup();

@@ -96,7 +96,7 @@ fn end(drawing: &mut Drawing, end: End, (x, y): (f64, f64), out: f64) {
     }
 }
 
-/// Borders between sections, with their slopes, and arcs where the duct bends.
+/// Borders between sections, with their slopes and the radii of their bends.
 fn sections(drawing: &mut Drawing, report: &Report) {
     let mut begin = 0.0;
     for section in &report.scene.route {
@@ -110,12 +110,6 @@ fn sections(drawing: &mut Drawing, report: &Report) {
             words.push(format!("{} %", significant(100.0 * section.slope)));
         }
         if let Some(radius) = section.bend_radius {
-            let arc = |k: i32| {
-                let share = 0.1 * f64::from(k);
-                let high = DEEP - DUCT - 4.0 - 20.0 * share * (1.0 - share);
-                (from + share * (to - from), high)
-            };
-            drawing.line(&(0..=10).map(arc).collect::<Vec<_>>(), Ink::Series(0), 1.2);
             words.push(format!("R {}", report.reader.length(radius)));
         }
         if to - from > 40.0 {

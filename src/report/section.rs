@@ -1,6 +1,6 @@
 //! The road's cross-section to scale: vehicles in their lanes, layers of the ground, the duct.
 
-use ground_field::{Base, Direction, Modulus};
+use ground_field::{Base, Direction, Modulus, SoilLayer};
 
 use super::chart::WIDTH;
 use super::content::Report;
@@ -8,7 +8,7 @@ use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 use crate::scene::TrafficVehicle;
 use crate::shown::words_if;
-use crate::words::{Reader, middle, round_below};
+use crate::words::middle;
 
 /// The ground's left and right edge \[px\].
 const LEFT: f64 = 12.0;
@@ -23,18 +23,16 @@ const SMALLEST: f64 = 3.5;
 const BESIDE: f64 = 0.5;
 const SHOWN: f64 = 1.4;
 const DEEPEST: f64 = 250.0;
-/// Rock that is drawn, and the longest bar of the scale \[px\].
-const ROCK: f64 = 14.0;
-const BAR: f64 = 70.0;
-/// Opacity of the softest layer, and by how much more that of the stiffest is.
+/// Opacity of the softest layer, by how much more that of the stiffest is, and that of rock.
 const OPACITY: [f64; 2] = [0.1, 0.35];
+const ROCK: f64 = 0.9;
 
 /// The drawing, and its caption.
 pub fn section(report: &Report) -> (String, String) {
     let Report { scene, reader, .. } = report;
     let across = Across::new(scene);
     let high = (across.scale * scene.duct.depth * SHOWN).min(DEEPEST);
-    let size = (WIDTH, SURFACE + high + 2.0 * Drawing::LINE);
+    let size = (WIDTH, SURFACE + high + 0.5 * Drawing::LINE);
     let mut drawing = Drawing::new("Cross-section of the road", size);
     drawing.title("Cross-section of the road", (0.5 * WIDTH, 0.5 * TITLE));
     ground(&mut drawing, scene, across.scale, high);
@@ -61,9 +59,11 @@ pub fn section(report: &Report) -> (String, String) {
         (x - beside, Anchor::End)
     };
     drawing.text(&label, (x, y), anchor);
-    across.bar(&mut drawing, SURFACE + high + Drawing::LINE, reader);
     let enlarged = words_if(inner < SMALLEST, " The duct is drawn larger than it is.");
-    let darker = words_if(scene.ground.thickness() > 0.0, " Stiffer layers are darker.");
+    let darker = words_if(
+        scene.ground.thickness() > 0.0,
+        " Stiffer layers are darker, rock is the darkest.",
+    );
     let caption = format!(
         "The road seen along the duct toward growing x: ⊗ marks vehicles that drive away, ⊙ those that come. To scale but for the height of \
          wheels.{enlarged}{darker}"
@@ -131,70 +131,47 @@ impl Across {
             drawing.text(sign, (x, y), Anchor::Middle);
         }
     }
-
-    /// How long a round length is.
-    fn bar(&self, drawing: &mut Drawing, y: f64, reader: &Reader) {
-        let unit = reader.units.length;
-        let long = round_below(unit.of_si(BAR / self.scale)) / unit.of_si(1.0);
-        let end = LEFT + self.scale * long;
-        drawing.line(&[(LEFT, y), (end, y)], Ink::Dark, 2.0);
-        for x in [LEFT, end] {
-            drawing.line(&[(x, y - 4.0), (x, y + 4.0)], Ink::Dark, 1.2);
-        }
-        drawing.text(&reader.length(long), (end + 8.0, y), Anchor::Start);
-    }
 }
 
-/// The layers, the stiffer the darker, and the base, as far as they are shown.
+/// The layers, the stiffer the darker, and the base, as far as they are shown: rock is the darkest.
 fn ground(drawing: &mut Drawing, scene: &Scene, scale: f64, high: f64) {
     let Ok(profile) = scene.ground.profile() else {
         return;
     };
-    let mut layers: Vec<(f64, f64, f64)> = Vec::new();
-    let mut top = 0.0;
-    for layer in profile.layers() {
+    // Thickness \[m\] and logarithm of the modulus.
+    let layer = |layer: &SoilLayer| {
         let modulus = match layer.modulus() {
             Modulus::Uniform(modulus) => modulus,
             Modulus::Linear { top, bottom } => 0.5 * (top + bottom),
         };
-        let bottom = top + scale * layer.thickness();
-        layers.push((top, bottom, modulus.ln()));
-        top = bottom;
-    }
+        (layer.thickness(), modulus.ln())
+    };
+    let mut layers: Vec<(f64, f64)> = profile.layers().iter().map(layer).collect();
     if let Base::HalfSpace(soil) = profile.base() {
-        layers.push((top, high.max(top), soil.young_modulus().ln()));
+        layers.push((f64::INFINITY, soil.young_modulus().ln()));
     }
-    let moduli = || layers.iter().map(|(.., modulus)| *modulus);
-    let (soft, stiff) = (
-        moduli().fold(f64::INFINITY, f64::min),
-        moduli().fold(f64::NEG_INFINITY, f64::max),
-    );
-    for (top, bottom, modulus) in layers.iter().filter(|(top, ..)| *top < high) {
-        let share = if stiff > soft {
-            (modulus - soft) / (stiff - soft)
+    let moduli = || layers.iter().map(|(_, modulus)| *modulus);
+    let soft = moduli().fold(f64::INFINITY, f64::min);
+    let range = moduli().fold(f64::NEG_INFINITY, f64::max) - soft;
+    let shares = layers.iter().map(|(thickness, modulus)| {
+        let share = if range > 0.0 {
+            (modulus - soft) / range
         } else {
             0.3
         };
-        let opacity = OPACITY[0] + share * OPACITY[1];
-        let bottom = SURFACE + bottom.min(high);
-        let layer = rectangle((LEFT, SURFACE + top), (RIGHT, bottom));
-        drawing.area(&layer, Ink::Grey, (100.0 * opacity).round() / 100.0);
-        drawing.line(&[(LEFT, bottom), (RIGHT, bottom)], Ink::Grey, 0.8);
-    }
-    if profile.base() == Base::Rigid && top < high {
-        rock(drawing, SURFACE + top, (high - top).min(ROCK));
+        (*thickness, OPACITY[0] + share * OPACITY[1])
+    });
+    let mut top = SURFACE;
+    for (thickness, opacity) in shares.chain([(f64::INFINITY, ROCK)]) {
+        let bottom = (top + scale * thickness).min(SURFACE + high);
+        if bottom > top {
+            let layer = rectangle((LEFT, top), (RIGHT, bottom));
+            drawing.area(&layer, Ink::Grey, (100.0 * opacity).round() / 100.0);
+            drawing.line(&[(LEFT, bottom), (RIGHT, bottom)], Ink::Grey, 0.8);
+        }
+        top = bottom;
     }
     drawing.line(&[(LEFT, SURFACE), (RIGHT, SURFACE)], Ink::Dark, 2.0);
-}
-
-/// Hatching below a line.
-fn rock(drawing: &mut Drawing, top: f64, high: f64) {
-    drawing.line(&[(LEFT, top), (RIGHT, top)], Ink::Dark, 1.6);
-    let step = 9.0;
-    for k in 0..=((RIGHT - LEFT - high) / step) as u32 {
-        let x = LEFT + high + step * f64::from(k);
-        drawing.line(&[(x, top), (x - high, top + high)], Ink::Dark, 0.8);
-    }
 }
 
 fn rectangle((left, top): (f64, f64), (right, bottom): (f64, f64)) -> [(f64, f64); 4] {

@@ -22,30 +22,42 @@ pub struct Fact {
     pub note: String,
 }
 
-fn fact(name: &'static str, value: String, note: String) -> Fact {
+fn fact(name: &'static str, value: String, note: impl Into<String>) -> Fact {
+    let note = note.into();
     Fact { name, value, note }
 }
 
-/// Where a force acts: on an end, or within the cable.
-type At = Option<CableEnd>;
-
-fn on(place: At) -> String {
-    place.map_or("in the cable".into(), |end| format!("on the {} end", end.name()))
+/// A force on an end, or within the cable where there is none, and when it acts.
+struct Load {
+    newtons: f64,
+    end: Option<CableEnd>,
+    when: &'static str,
 }
 
-fn force_of(place: At) -> String {
-    place.map_or("largest compression in the cable".into(), |_| {
-        format!("force {}", on(place))
-    })
-}
+impl Load {
+    fn place(&self) -> String {
+        self.end
+            .map_or("in the cable".into(), |end| format!("on the {} end", end.name()))
+    }
 
-/// What a force does, where that is not what one expects.
-fn tension(force: f64) -> &'static str {
-    words_if(force < 0.0, ", tension")
+    fn named(&self) -> String {
+        let what = self.end.map_or("largest compression", |_| "force");
+        format!("{what} {}", self.place())
+    }
+
+    /// What it does, where that is not what one expects.
+    fn tension(&self) -> &'static str {
+        words_if(self.newtons < 0.0, ", tension")
+    }
+
+    fn fact(&self, name: &'static str, reader: &Reader) -> Fact {
+        let note = format!("{}, {}{}", self.place(), self.when, self.tension());
+        fact(name, reader.force(self.newtons), note)
+    }
 }
 
 /// The held end that is pressed harder after the `last` pass; `None` where both are free.
-pub fn pressed_end(scene: &Scene, last: &PassRecord) -> At {
+pub fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<CableEnd> {
     let force = |end: &CableEnd| last.force_after(*end).abs();
     let held = CableEnd::ALL
         .into_iter()
@@ -61,26 +73,19 @@ impl Answer<'_> {
         };
         let reader = &self.reader;
         let mut facts = Vec::from(self.forces(last));
-        let farther = |end: &CableEnd| self.movement(last, *end).abs();
-        let farthest = CableEnd::ALL
-            .into_iter()
-            .max_by(|a, b| farther(a).total_cmp(&farther(b)));
-        if let Some(end) = farthest {
-            let when = if self.run.heat.is_some() { "in" } else { "after" };
-            let note = format!("{} end, {when} {}", end.name(), passes(last.pass));
-            facts.push(fact(
-                "Movement of an end",
-                reader.movement(self.movement(last, end)),
-                note,
-            ));
-        }
+        let moved = CableEnd::ALL.map(|end| (self.movement(last, end), end));
+        let [(upstream, _), (downstream, _)] = moved;
+        let (moved, end) = moved[usize::from(downstream.abs() >= upstream.abs())];
+        let when = if self.run.heat.is_some() { "in" } else { "after" };
+        let note = format!("{} end, {when} {}", end.name(), passes(last.pass));
+        facts.push(fact("Movement of an end", reader.movement(moved), note));
         let motion = &self.run.duct_motion;
         let [along, down] =
             [motion.peak_longitudinal_m, motion.peak_vertical_m].map(|peak| significant(1e6 * peak) + " µm");
         let down = format!("along its axis; {down} down");
         facts.push(fact("Peak motion of the duct", along, down));
         let error = percent(self.run.error_estimate.relative);
-        let note = "of the forces, from the computation alone".to_owned();
+        let note = "of the forces, from the computation alone";
         facts.push(fact("Estimated error", error, note));
         facts.extend(self.hardest_clamp());
         facts
@@ -89,44 +94,28 @@ impl Answer<'_> {
     /// The three facts about forces.
     fn forces(&self, last: &PassRecord) -> [Fact; 3] {
         let (run, reader) = (self.run, &self.reader);
-        let (largest, place, when) = self.hardest();
+        let largest = self.hardest();
         let time = |pass| self.scene.traffic.years_after(pass).map(after);
         let traffic = || {
             let note = time(last.pass).map_or("their rate is not known".into(), |time| format!("in {time}"));
             fact("Passes computed", count(last.pass), note)
         };
-        let note = format!("{}, {when}{}", on(place), tension(largest));
         if let Some(heat) = &run.heat {
             let day = heat.last_whole(&run.days, last.pass);
-            let swing = day.map_or(0.0, |day| day.largest_range().0);
-            let within = "on an end within the last whole day".to_owned();
-            return [
-                fact("Largest force with heat", reader.force(largest), note),
-                fact("Swing of the force", reader.force(swing), within),
-                traffic(),
-            ];
+            let swing = reader.force(day.map_or(0.0, |day| day.largest_range().0));
+            let swing = fact("Swing of the force", swing, "on an end within the last whole day");
+            return [largest.fact("Largest force with heat", reader), swing, traffic()];
         }
-        let largest = fact("Largest force of all passes", reader.force(largest), note);
-        let Some(saturation) = &run.saturation else {
-            let (force, place) = self.pressed(last);
-            let note = format!("{}{}; it {}", on(place), tension(force), self.not_level());
-            return [
-                fact("Force after the last pass", reader.force(force), note),
-                traffic(),
-                largest,
-            ];
+        let largest = largest.fact("Largest force of all passes", reader);
+        let (Some(saturation), Some(level)) = (&run.saturation, self.level()) else {
+            let now = self.now(last).fact("Force after the last pass", reader);
+            return [now, traffic(), largest];
         };
-        let later = words_if(saturation.is_beyond(&run.passes), " beyond those computed");
-        let sign = tension(saturation.force_n);
-        let note = format!("{}, after a pass{later}{sign}", on(self.level_at()));
         let reached = saturation.passes_to_95_percent;
         let time = time(reached).map_or_else(String::new, |time| format!("{time}; "));
         let time = format!("{time}{} computed", count(last.pass));
-        [
-            fact("Saturated force", reader.force(saturation.force_n), note),
-            fact("Passes to 95 % of it", count(reached), time),
-            largest,
-        ]
+        let reached = fact("Passes to 95 % of it", count(reached), time);
+        [level.fact("Saturated force", reader), reached, largest]
     }
 
     /// The clamp that is pressed hardest.
@@ -144,12 +133,8 @@ impl Answer<'_> {
 
     /// When clamps bear their largest forces.
     pub fn when_on_clamps(&self) -> &'static str {
-        let heat = self.run.heat.is_some();
-        if heat {
-            "during a pass or in heat"
-        } else {
-            "during a pass"
-        }
+        let heat = self.run.heat.as_ref();
+        heat.map_or("during a pass", |_| "during a pass or in heat")
     }
 
     /// The answer in sentences.
@@ -164,42 +149,26 @@ impl Answer<'_> {
         };
         let moved = format!("{} {}", self.by_turns(), self.moved(last));
         if self.run.heat.is_some() {
-            let (force, place, _) = self.hardest();
-            let (force, sign) = (reader.force(force), tension(force));
-            let lasting = counted(last.pass);
-            return format!(
-                "In {lasting} heat and traffic bring up to {force} {}{sign}.{moved}",
-                on(place)
-            );
+            let load = self.hardest();
+            let (lasting, force) = (counted(last.pass), reader.force(load.newtons));
+            let (place, sign) = (load.place(), load.tension());
+            return format!("In {lasting} heat and traffic bring up to {force} {place}{sign}.{moved}");
         }
-        let (force, place) = self.pressed(last);
-        let (place, amount) = (force_of(place), reader.force(force));
-        let now = format!(
-            "After {} the {place} is {amount}{}",
-            counted(last.pass),
-            tension(force)
-        );
-        let Some(saturation) = &self.run.saturation else {
-            return format!("{now}; it {}.{moved}", self.not_level());
+        let load = self.now(last);
+        let (passes, force, sign) = (counted(last.pass), reader.force(load.newtons), load.tension());
+        let now = format!("After {passes} the {} is {force}{sign}", load.named());
+        let (Some(saturation), Some(load)) = (&self.run.saturation, self.level()) else {
+            return format!("{now}; {}.{moved}", load.when.replace("where ", ""));
         };
-        let level = reader.force(saturation.force_n);
+        let (level, place) = (reader.force(load.newtons), load.named());
         let reached = counted(saturation.passes_to_95_percent);
-        let random = self.run.random.is_some();
-        let that = if random { "the mean" } else { "that" };
+        let that = self.run.random.map_or("that", |_| "the mean");
         if saturation.passes_to_95_percent > last.pass {
             return format!(
                 "{now}. It levels off at {level}; 95 % of {that} takes {reached}, more than were computed.{moved}"
             );
         }
-        let place = force_of(self.level_at());
         format!("The {place} levels off at {level}. 95 % of {that} is reached after {reached}.{moved}")
-    }
-
-    /// Why there is no force that levels off.
-    fn not_level(&self) -> &'static str {
-        self.run
-            .range
-            .map_or("has not levelled off", |_| "was larger before")
     }
 
     /// What vehicles that differ leave by turns, once nothing changes any more.
@@ -248,46 +217,64 @@ impl Answer<'_> {
         heat.map_or(last.displacement(end), |heat| heat.all_days.movement(end))
     }
 
-    /// The force that is largest in size on an end, after passes, during them and in all heat, or in the cable where none bears any; and when.
-    fn hardest(&self) -> (f64, At, &'static str) {
-        let at_rest = if self.run.heat.is_some() {
-            "in the heat of a day"
-        } else {
-            "after a pass"
-        };
+    /// The force that is largest in size on an end, after passes, during them and in all heat, or in the cable where none bears any.
+    fn hardest(&self) -> Load {
+        let at_rest = self.run.heat.as_ref();
+        let at_rest = at_rest.map_or("after a pass", |_| "in the heat of a day");
         let on_ends = Limits::both(Some(f64::INFINITY), None).verdicts(self.run);
         let hardest = on_ends.into_iter().max_by(|a, b| a.largest.total_cmp(&b.largest));
-        if let Some(end) = hardest.filter(|hardest| hardest.largest > 0.0) {
-            let force = if end.pulled { -end.largest } else { end.largest };
-            let when = if end.during_a_pass {
-                "during a pass"
-            } else {
-                at_rest
+        if let Some(hardest) = hardest.filter(|hardest| hardest.largest > 0.0) {
+            return Load {
+                newtons: if hardest.pulled {
+                    -hardest.largest
+                } else {
+                    hardest.largest
+                },
+                end: hardest.end.end(),
+                when: if hardest.during_a_pass {
+                    "during a pass"
+                } else {
+                    at_rest
+                },
             };
-            return (force, end.end.end(), when);
         }
         let days = self.run.heat.iter().map(|heat| heat.all_days.max_compression_n);
         let inside = self.run.passes.iter().map(|record| record.max_compression_n);
-        (inside.chain(days).fold(0.0, f64::max), None, at_rest)
+        Load {
+            newtons: inside.chain(days).fold(0.0, f64::max),
+            end: None,
+            when: at_rest,
+        }
     }
 
-    /// The force that matters most after a pass.
-    fn pressed(&self, last: &PassRecord) -> (f64, At) {
+    /// The force that matters most after the `last` pass, and why it does not level off.
+    fn now(&self, last: &PassRecord) -> Load {
         let end = pressed_end(self.scene, last);
-        (
-            end.map_or(last.max_compression_n, |end| last.force_after(end)),
+        Load {
+            newtons: end.map_or(last.max_compression_n, |end| last.force_after(end)),
             end,
-        )
+            when: match self.run.range {
+                None => "where it has not levelled off",
+                Some(_) => "where it was larger before",
+            },
+        }
     }
 
-    /// Where the force acts that levels off.
-    fn level_at(&self) -> At {
+    /// The force that levels off, if one does.
+    fn level(&self) -> Option<Load> {
         let level = self.run.saturation?;
-        let ends = [level.upstream_force_n, level.downstream_force_n];
+        let force = |end: &CableEnd| end.of([level.upstream_force_n, level.downstream_force_n]).abs();
         let held = CableEnd::ALL
             .into_iter()
             .filter(|end| end.held_in(self.scene) != End::Free);
-        held.max_by(|a, b| a.of(ends).abs().total_cmp(&b.of(ends).abs()))
+        Some(Load {
+            newtons: level.force_n,
+            end: held.max_by(|a, b| force(a).total_cmp(&force(b))),
+            when: match level.is_beyond(&self.run.passes) {
+                true => "after a pass beyond those computed",
+                false => "after a pass",
+            },
+        })
     }
 
     /// What heat does in the end; nothing of a cable that is not heated.

@@ -303,7 +303,7 @@ impl SceneWords<'_> {
     /// How the duct lies, for the caption of its drawing.
     pub fn lies(&self) -> String {
         if !self.scene.route.is_empty() {
-            return "Below the road the sections of the route: how they slope, and arcs where they bend."
+            return "Below the road the sections of the route: how they slope, and the radii R of their bends."
                 .to_owned();
         }
         match self.scene.duct.slope {
