@@ -137,17 +137,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let bytes = bytes.map_err(|source| output.failed(source))?;
         output.write(|out| out.write_all(&bytes))?;
     }
-    destination.write(&judged, rows(&run.passes), || {
-        print(&answer)?;
-        let mut out = terminal::out();
-        for verdict in verdicts {
-            writeln!(out, "{}", answer.verdict(verdict))?;
-        }
-        if verdicts.len() > 1 {
-            writeln!(out, "{}", Verdict::summary(verdicts))?;
-        }
-        Ok(())
-    })?;
+    destination.write(&judged, rows(&run.passes), || print(&answer, verdicts))?;
     arguments.check.judge(verdicts)
 }
 
@@ -173,7 +163,7 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)>
     })
 }
 
-fn print(answer: &Answer<'_>) -> Result<(), Failure> {
+fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
     let mut out = terminal::out();
     let Answer { run, reader, .. } = answer;
     writeln!(out, "{}", terminal::line(&run.title))?;
@@ -205,6 +195,12 @@ fn print(answer: &Answer<'_>) -> Result<(), Failure> {
     writeln!(out, "{}", solved(&run.plan, reader))?;
     for reason in [&run.error_estimate.method].into_iter().chain(&run.plan.reasons) {
         writeln!(out, "  {}", terminal::sentence(reason))?;
+    }
+    for verdict in verdicts {
+        writeln!(out, "{}", answer.verdict(verdict))?;
+    }
+    if verdicts.len() > 1 {
+        writeln!(out, "{}", Verdict::summary(verdicts))?;
     }
     Ok(())
 }

@@ -94,9 +94,10 @@ pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io
                 .max()
                 .unwrap_or_default()
                 .max(widest(column));
-            match cells(column).any(is_number) {
-                true => format!("{cell:>width$}"),
-                false => format!("{cell:<width$}"),
+            if cells(column).any(is_number) {
+                format!("{cell:>width$}")
+            } else {
+                format!("{cell:<width$}")
             }
         };
         let cells: Vec<String> = row.iter().enumerate().map(cell).collect();

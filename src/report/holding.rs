@@ -97,73 +97,73 @@ fn table(report: &Report, comparison: &Comparison) -> Table {
     }
 }
 
-/// Force against movement of the end that is varied, by all ways that have an answer, and its limits; `None` without any. Movements differ by
-/// powers of ten. What has no place on such an axis is left out, as a free end, or stands at its left edge, as a fixed one.
+/// Force against movement of the end that is varied, by all ways that have an answer, and its limits; `None` where nothing moves. Movements
+/// differ by powers of ten. What has no place on such an axis is left out, as a free end, or stands at its left edge, as a fixed one.
 fn chart(report: &Report, comparison: &Comparison) -> Option<Chart> {
     let (reader, end) = (&report.reader, comparison.end);
-    let drawn: Vec<(&Way, f64, f64)> = comparison
-        .ways
-        .iter()
-        .filter(|way| !way.is_free_end())
-        .filter_map(|way| Some((way, way.answer.as_ref().ok()?)))
-        .map(|(way, answer)| {
-            (
-                way,
-                answer.value(end, Limited::Movement),
-                answer.value(end, Limited::Force),
-            )
+    let in_unit = |quantity, value| reader.unit(quantity).of_si(value);
+    let drawn = |(way, answer): (&'_ Way, &TradeOff)| {
+        let [movement, force] =
+            [Limited::Movement, Limited::Force].map(|quantity| answer.value(end, quantity));
+        let is_drawn = !way.is_free_end() && movement <= reader.most;
+        let (movement, force) = (
+            in_unit(Limited::Movement, movement),
+            in_unit(Limited::Force, force),
+        );
+        is_drawn.then_some((way.is_clamp(), way.is_scene, movement, force))
+    };
+    let answers = comparison.ways.iter();
+    let answers = answers.filter_map(|way| Some((way, way.answer.as_ref().ok()?)));
+    let drawn: Vec<(bool, bool, f64, f64)> = answers.filter_map(drawn).collect();
+    let limits = report.verdicts.iter().filter(|verdict| verdict.end == end.into());
+    let limits: Vec<(Limited, f64, String)> = limits
+        .map(|verdict| {
+            let (quantity, limit) = (verdict.quantity, verdict.limit);
+            let label = format!("limit {}", quantity.given_in(&reader.units, limit));
+            (quantity, in_unit(quantity, limit), label)
         })
-        .filter(|(_, movement, _)| *movement <= reader.most)
         .collect();
-    let limits = || report.verdicts.iter().filter(|verdict| verdict.end == end.into());
-    let limit = limits().filter(|verdict| verdict.quantity == Limited::Movement);
+    let of_limits = limits
+        .iter()
+        .filter(|(quantity, ..)| *quantity == Limited::Movement);
     let movements = drawn
         .iter()
-        .map(|(_, movement, _)| *movement)
-        .chain(limit.map(|verdict| verdict.limit));
-    let positive = movements.filter(|metres| *metres > 0.0);
-    let (least, most) = positive.fold((f64::INFINITY, 0.0_f64), |(least, most), metres| {
-        (least.min(metres), most.max(metres))
-    });
-    if most == 0.0 {
-        return None;
-    }
-    let [in_force, in_movement] = [Limited::Force, Limited::Movement].map(|quantity| reader.unit(quantity));
-    let edge = least / ROOM;
+        .map(|way| way.2)
+        .chain(of_limits.map(|limit| limit.1));
+    let positive: Vec<f64> = movements.filter(|movement| *movement > 0.0).collect();
+    let most = positive.iter().copied().reduce(f64::max)?;
+    let edge = positive.iter().copied().fold(most, f64::min) / ROOM;
     let moved = format!("movement of the {} end", end.name());
     let along = Axis::logarithmic(reader.head(&moved, Limited::Movement));
-    let mut chart = Chart::new(
-        "Force against movement",
-        along.range(in_movement.of_si(edge), in_movement.of_si(ROOM * most)),
-        Axis::linear(reader.head("force on it", Limited::Force)),
-    );
-    for verdict in limits() {
-        let label = format!(
-            "limit {}",
-            verdict.quantity.given_in(&reader.units, verdict.limit)
-        );
-        chart = chart.refer(match verdict.quantity {
-            Limited::Force => Reference::horizontal(in_force.of_si(verdict.limit), label),
-            Limited::Movement => Reference::vertical(in_movement.of_si(verdict.limit), label),
+    let force = Axis::linear(reader.head("force on it", Limited::Force));
+    let mut chart = Chart::new("Force against movement", along.range(edge, ROOM * most), force);
+    for (quantity, limit, label) in limits {
+        chart = chart.refer(match quantity {
+            Limited::Force => Reference::horizontal(limit, label),
+            Limited::Movement => Reference::vertical(limit, label),
         });
     }
-    let points = |wanted: &dyn Fn(&Way) -> bool| -> Vec<(f64, f64)> {
-        let wanted = drawn.iter().filter(|(way, ..)| wanted(way));
+    let points = |wanted: fn(bool, bool) -> bool| -> Vec<(f64, f64)> {
+        let wanted = drawn
+            .iter()
+            .filter(|(is_clamp, is_scene, ..)| wanted(*is_clamp, *is_scene));
         wanted
-            .map(|(_, movement, force)| (in_movement.of_si(movement.max(edge)), in_force.of_si(*force)))
+            .map(|(.., movement, force)| (movement.max(edge), *force))
             .collect()
     };
-    let springs = points(&|way| !way.is_clamp());
-    let (clamps, own) = (points(&Way::is_clamp), points(&|way| way.is_scene));
-    let has = [&springs, &clamps, &own].map(|points| !points.is_empty());
     let series = [
-        Series::line_points("springs … fixed end", springs).look(0),
-        Series::points("with a clamp", clamps).look(3),
-        Series::points("the scene’s end", own).look(OTHER).marker(5),
+        (points(|is_clamp, _| !is_clamp), "springs … fixed end", 0),
+        (points(|is_clamp, _| is_clamp), "with a clamp", 3),
+        (points(|_, is_scene| is_scene), "the scene’s end", OTHER),
     ];
-    let drawn = series.into_iter().zip(has).filter(|(_, has)| *has);
-    has.contains(&true)
-        .then(|| drawn.fold(chart, |chart, (series, _)| chart.with(series)))
+    for (points, name, look) in series.into_iter().filter(|(points, ..)| !points.is_empty()) {
+        chart = chart.with(match look {
+            0 => Series::line_points(name, points).look(look),
+            OTHER => Series::points(name, points).look(look).marker(5),
+            _ => Series::points(name, points).look(look),
+        });
+    }
+    Some(chart).filter(|_| !drawn.is_empty())
 }
 
 fn caption(comparison: &Comparison, reader: &Reader) -> String {

@@ -27,7 +27,9 @@ impl Html {
     pub fn list(&mut self, points: &[String]) {
         if !points.is_empty() {
             self.raw("<ul>");
-            points.iter().for_each(|point| self.element("li", point));
+            for point in points {
+                self.element("li", point);
+            }
             self.raw("</ul>");
         }
     }

@@ -14,6 +14,9 @@ use crate::figure::dark_style;
 use crate::shown::{percent, words_if};
 use crate::words::{Table, candidates, error_parts, solved};
 
+/// Writes a part of the page.
+type Section = fn(&mut Html, &Report);
+
 impl Report {
     /// The page.
     pub fn to_html(&self) -> String {
@@ -26,10 +29,8 @@ impl Report {
             dark = dark_style(),
         ));
         self.answer_and_verdicts(&mut html);
-        let sections: [(bool, &str, fn(&mut Html, &Self)); 9] = [
-            (!self.warnings.is_empty(), "Warnings", |html, page| {
-                html.list(&page.warnings)
-            }),
+        let sections: [(bool, &str, Section); 9] = [
+            (!self.warnings.is_empty(), "Warnings", warnings),
             (true, "Scene", scene),
             (true, "Force and movement", force),
             (self.run.heat.is_some(), "Heat, day by day", heat),
@@ -101,6 +102,10 @@ impl Report {
         let from = file.map_or(String::new(), |source| format!(" from {}", source.name));
         format!("computed{date} by creepage {}{from}", env!("CARGO_PKG_VERSION"))
     }
+}
+
+fn warnings(html: &mut Html, report: &Report) {
+    html.list(&report.warnings);
 }
 
 fn scene(html: &mut Html, report: &Report) {

@@ -270,9 +270,10 @@ impl Answer<'_> {
         Some(Load {
             newtons: level.force_n,
             end: held.max_by(|a, b| force(a).total_cmp(&force(b))),
-            when: match level.is_beyond(&self.run.passes) {
-                true => "after a pass beyond those computed",
-                false => "after a pass",
+            when: if level.is_beyond(&self.run.passes) {
+                "after a pass beyond those computed"
+            } else {
+                "after a pass"
             },
         })
     }
