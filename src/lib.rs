@@ -71,6 +71,8 @@ pub use creepage_scene::presets;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 mod template;
+#[cfg(any(feature = "cli", feature = "plot"))]
+mod words;
 #[cfg(feature = "xlsx")]
 pub mod workbook;
 

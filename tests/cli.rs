@@ -98,11 +98,11 @@ fn rows_of_long_traffic_name_their_vehicle() {
     let printed = printed(&arguments);
     let row = |pass: &str| printed.lines().find(|line| line.trim_start().starts_with(pass));
     assert!(
-        row("2000000 ").is_some_and(|row| row.ends_with("back")),
+        row("2\u{a0}000\u{a0}000 ").is_some_and(|row| row.ends_with("back")),
         "{printed}"
     );
     assert!(
-        row("3000001 ").is_some_and(|row| row.ends_with("there")),
+        row("3\u{a0}000\u{a0}001 ").is_some_and(|row| row.ends_with("there")),
         "{printed}"
     );
 }
@@ -226,13 +226,13 @@ fn run_prints_a_short_table_and_the_plan() {
             .map(|line| line.split_whitespace().map_while(|n| n.parse().ok()).collect())
             .find(|row: &Vec<f64>| row.first() == Some(&(pass as f64)))
             .expect("a row for the pass");
+        // Nothing is on a free end, and a fixed one does not move.
         let expected = [
-            ("upstream_force_n", 1.0),
             ("downstream_force_n", 1.0),
             ("upstream_displacement_m", 1e3),
-            ("downstream_displacement_m", 1e3),
             ("max_compression_n", 1.0),
         ];
+        assert_eq!(row.len(), 1 + expected.len());
         for ((field, factor), shown) in expected.into_iter().zip(&row[1..]) {
             let value = factor * number(&record[field]);
             assert!((shown - value).abs() < 0.06, "pass {pass}, {field}: {row:?}");
@@ -242,7 +242,7 @@ fn run_prints_a_short_table_and_the_plan() {
         assert!(table.contains(reason.as_str().expect("a text")), "{table}");
     }
     assert!(
-        run["saturation"].is_null() && table.contains("saturation: not reached"),
+        run["saturation"].is_null() && table.contains("it has not levelled off"),
         "{table}"
     );
 }
@@ -274,7 +274,7 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
     assert_eq!(time(rows.last().expect("a pass")).0, 10_958);
     assert!(rows.iter().any(|row| time(row).0 == 1826), "the first month");
     let said = printed(&run(&[]));
-    for line in ["60 1 day ", "1826 1 month ", "10958 183 days "] {
+    for line in ["60 1 day ", "1826 1 month ", "10 958 183 days "] {
         let words = said
             .lines()
             .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -1818,12 +1818,12 @@ fn the_output_in_the_readme_is_the_output() {
     let shown = blocks(&readme, "text");
     let shown = shown.first().expect("the output of the main job");
     let printed = printed(&["run", UPPER]);
-    assert!(shown.contains("saturation: "));
+    assert!(shown.contains("Saturated force: "));
     assert_eq!(shown.lines().count(), printed.trim_end().lines().count());
     for (shown, printed) in shown.lines().zip(printed.lines()) {
-        if printed.starts_with("estimated error")
-            || printed.starts_with("plan")
-            || printed.starts_with("  ground")
+        if ["Estimated error", "Ground", "  ground", "  from runs"]
+            .iter()
+            .any(|start| printed.starts_with(start))
         {
             continue;
         }

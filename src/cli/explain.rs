@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::failure::Failure;
-use super::shared::Json;
+use super::outputs::Json;
 use super::terminal;
 use crate::scene::{KeyMeaning, key_meanings, nearest_key};
 

@@ -112,34 +112,34 @@ pub fn place(text: &str) -> Option<Place> {
 /// Smallest force \[N\] and largest movement \[m\] that a limit is likely to be.
 const LEAST_FORCE: f64 = 10.0;
 const MOST_MOVEMENT: f64 = 1.0;
+/// What a bare number would say that is hardly meant.
+type Slip = fn(f64) -> Option<String>;
 
 impl LimitArguments {
+    /// Both options, each with what was given and with how a bare number that it hardly means would be meant.
+    fn options(&self) -> [(&'static str, &[Limit], Slip); 2] {
+        let force: Slip =
+            |value| (value < LEAST_FORCE).then(|| format!("{value} N: did you mean {value}kN?"));
+        let movement: Slip =
+            |value| (value > MOST_MOVEMENT).then(|| format!("{value} m: did you mean {value}mm?"));
+        [
+            ("--limit-force", &self.limit_force, force),
+            ("--limit-movement", &self.limit_movement, movement),
+        ]
+    }
+
     /// Warns of bare numbers that were probably meant in another unit.
     pub fn warn_of_slips(&self) {
-        let bare = |limits: &[Limit]| -> Vec<f64> {
-            let bare = limits.iter().filter(|limit| limit.unit.is_none());
-            bare.map(|limit| limit.value).collect()
-        };
-        for value in bare(&self.limit_force)
-            .iter()
-            .filter(|value| **value < LEAST_FORCE)
-        {
-            terminal::warn(format_args!(
-                "--limit-force is {value} N: did you mean {value}kN?"
-            ));
-        }
-        for value in bare(&self.limit_movement)
-            .iter()
-            .filter(|value| **value > MOST_MOVEMENT)
-        {
-            terminal::warn(format_args!(
-                "--limit-movement is {value} m: did you mean {value}mm?"
-            ));
+        for (option, given, slip) in self.options() {
+            let bare = given.iter().filter(|limit| limit.unit.is_none());
+            for slip in bare.filter_map(|limit| slip(limit.value)) {
+                terminal::warn(format_args!("{option} is {slip}"));
+            }
         }
     }
 
     pub fn are_given(&self) -> bool {
-        !self.limit_force.is_empty() || !self.limit_movement.is_empty()
+        self.options().iter().any(|(_, given, _)| !given.is_empty())
     }
 
     /// The units that were typed here and in the scene.
@@ -161,92 +161,93 @@ impl LimitArguments {
         let own = self.clone();
         crate::sweep::PointLimits::new(format!("{self:?}"), move |scene| {
             let mut limits = own.clone();
-            if scene.restraints.is_empty() {
-                for given in [&mut limits.limit_force, &mut limits.limit_movement] {
-                    given.retain(|limit| limit.of != Named::Clamps);
-                }
+            for given in [&mut limits.limit_force, &mut limits.limit_movement] {
+                given.retain(|limit| limit.of != Named::Clamps || !scene.restraints.is_empty());
             }
-            limits
-                .limits_beside(scene, &[])
-                .map_err(|failure| failure.to_string())
+            let limits = limits.limits_beside(scene, &[]);
+            limits.map_err(|failure| failure.to_string())
         })
     }
 
     /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.
     pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
-        let of = |given: &[Limit], wanted: Named| {
-            let limit = given.iter().rfind(|limit| limit.of == wanted);
-            limit.map(|limit| limit.value)
-        };
+        let clamps: Vec<Place> = scene
+            .restraints
+            .iter()
+            .map(|clamp| Place::Clamp(clamp.position))
+            .collect();
+        let others = elsewhere.iter().filter(|place| place.end().is_none());
+        let there: Vec<Place> = clamps.iter().chain(others).copied().collect();
+        for (argument, given, _) in self.options() {
+            for limit in given {
+                limit.of.check(argument, &clamps, &there)?;
+            }
+        }
         let mut limits = Limits::default();
         for end in CableEnd::ALL {
-            let of = |given: &[Limit]| of(given, Named::One(end.into())).or_else(|| of(given, Named::Ends));
-            *limits.of_mut(end) = EndLimits {
-                force_n: of(&self.limit_force),
-                movement_m: of(&self.limit_movement),
-            };
+            *limits.of_mut(end) = self.at(end.into());
         }
-        limits.clamps = self.of_clamps(scene);
-        self.check_clamps(scene, elsewhere)?;
+        for clamp in scene.restraints.iter().map(|clamp| clamp.position) {
+            let own = self.at(Place::Clamp(clamp));
+            let mut known = limits.clamps.iter();
+            let is_known = known.any(|known| Place::Clamp(known.position_m).is_clamp_at(clamp));
+            if own != EndLimits::default() && !is_known {
+                limits.clamps.push(ClampLimits {
+                    position_m: clamp,
+                    limits: own,
+                });
+            }
+        }
         Ok(limits)
     }
 
-    fn of_clamps(&self, scene: &Scene) -> Vec<ClampLimits> {
-        let mut clamps: Vec<ClampLimits> = Vec::new();
-        for position_m in scene.restraints.iter().map(|clamp| clamp.position) {
-            let own = |limit: &&Limit| matches!(limit.of, Named::One(place) if place.is_clamp_at(position_m));
-            let of = |given: &[Limit]| {
-                let all = |limit: &&Limit| limit.of == Named::Clamps;
-                let limit = given.iter().rfind(own).or_else(|| given.iter().rfind(all));
-                limit.map(|limit| limit.value)
+    /// The limits at one place.
+    fn at(&self, place: Place) -> EndLimits {
+        let of = |given: &[Limit]| {
+            let all = if place.end().is_some() {
+                Named::Ends
+            } else {
+                Named::Clamps
             };
-            let limits = EndLimits {
-                force_n: of(&self.limit_force),
-                movement_m: of(&self.limit_movement),
-            };
-            let known = clamps.iter();
-            let is_known = known
-                .map(|clamp| Place::Clamp(clamp.position_m))
-                .any(|clamp| clamp.is_clamp_at(position_m));
-            if limits != EndLimits::default() && !is_known {
-                clamps.push(ClampLimits { position_m, limits });
-            }
+            let own = given.iter().rfind(|limit| limit.of.is(place));
+            let limit = own.or_else(|| given.iter().rfind(|limit| limit.of == all));
+            limit.map(|limit| limit.value)
+        };
+        EndLimits {
+            force_n: of(&self.limit_force),
+            movement_m: of(&self.limit_movement),
         }
-        clamps
+    }
+}
+
+impl Named {
+    /// Whether it is this place.
+    fn is(self, place: Place) -> bool {
+        match self {
+            Self::One(Place::Clamp(position)) => place.is_clamp_at(position),
+            named => named == Self::One(place),
+        }
     }
 
-    /// Refuses limits of clamps that are not there.
-    fn check_clamps(&self, scene: &Scene, elsewhere: &[Place]) -> Result<(), Failure> {
-        let own = || scene.restraints.iter().map(|clamp| Place::Clamp(clamp.position));
-        let clamps = || own().chain(elsewhere.iter().copied().filter(|place| place.end().is_none()));
-        let is_there = |limit: &&Limit| match limit.of {
-            Named::Clamps => clamps().next().is_some(),
-            Named::One(Place::Clamp(position)) => clamps().any(|clamp| clamp.is_clamp_at(position)),
-            _ => true,
+    /// Refuses a clamp that is not `there`; the scene has `clamps`.
+    fn check(self, argument: &'static str, clamps: &[Place], there: &[Place]) -> Result<(), Failure> {
+        let found = match self {
+            Self::One(Place::Clamp(position)) if !there.iter().any(|place| self.is(*place)) => {
+                format!("a clamp at {} m", exact(position))
+            }
+            Self::Clamps if there.is_empty() => "clamp".to_owned(),
+            _ => return Ok(()),
         };
-        let options = [
-            ("--limit-force", &self.limit_force),
-            ("--limit-movement", &self.limit_movement),
-        ];
-        for (argument, given) in options {
-            let Some(limit) = given.iter().find(|limit| !is_there(limit)) else {
-                continue;
-            };
-            let found = match limit.of {
-                Named::One(Place::Clamp(position)) => format!("a clamp at {} m", exact(position)),
-                _ => "clamp".to_owned(),
-            };
-            let all: Vec<String> = own().map(|clamp| clamp.to_string()).collect();
-            let allowed = match all.join(", ") {
-                none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
-                all => format!("upstream, downstream, or the position of a clamp: {all}"),
-            };
-            return Err(Failure::Usage {
-                argument,
-                found: format!("{found}, where there is none"),
-                allowed,
-            });
-        }
-        Ok(())
+        let all: Vec<String> = clamps.iter().map(Place::to_string).collect();
+        let allowed = match all.join(", ") {
+            none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
+            all => format!("upstream, downstream, or the position of a clamp: {all}"),
+        };
+        let found = format!("{found}, where there is none");
+        Err(Failure::Usage {
+            argument,
+            found,
+            allowed,
+        })
     }
 }

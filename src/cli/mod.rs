@@ -3,13 +3,13 @@
 mod calibrate;
 mod check;
 mod completions;
-mod days;
 mod design;
 mod design_words;
 mod explain;
 mod failure;
 mod limits;
 mod new;
+mod outputs;
 mod plan;
 mod presets;
 mod profile;
@@ -23,8 +23,6 @@ mod signals;
 mod state;
 mod sweep;
 mod terminal;
-#[cfg(feature = "xlsx")]
-mod workbook;
 
 use std::io::Write;
 use std::process::ExitCode;

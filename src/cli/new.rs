@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::shared::Force;
+use super::outputs::Force;
 use super::terminal;
 use crate::{Scene, template};
 

@@ -3,13 +3,15 @@
 use std::io::Write;
 
 use super::failure::Failure;
+use super::outputs::Json;
 use super::progress::watched;
-use super::shared::{Input, Json, TrafficArguments};
+use super::shared::{Input, TrafficArguments};
 use super::terminal;
+use crate::PlanReport;
 use crate::occurrence::Occurrence;
 use crate::scene::four_digits;
 use crate::shown::{percent, spacing, time, words_if};
-use crate::{Candidate, Part, PlanReport};
+use crate::words::candidates;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -33,7 +35,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     arguments.json.print(&plan, || print(&plan))
 }
 
-/// Every candidate, the chosen ones marked.
+/// What is chosen, and every candidate.
 fn print(plan: &PlanReport) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&plan.title))?;
@@ -53,30 +55,9 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
     if let Some(occurrence) = &plan.occurrence {
         print_occurrence(&mut out, occurrence)?;
     }
-    for (name, part) in Part::WORDS {
-        let candidates: Vec<_> = plan
-            .candidates
-            .iter()
-            .filter(|candidate| candidate.part == *part)
-            .collect();
-        if candidates.is_empty() {
-            continue;
-        }
-        let names = [*name, "error", "time", "why, or why not"].map(str::to_owned);
-        let row = |candidate: &&Candidate| {
-            let chosen = if candidate.chosen { '→' } else { ' ' };
-            vec![
-                format!("{chosen} {}", candidate.name),
-                candidate.estimated_error.map_or_else(String::new, percent),
-                candidate.estimated_seconds.map_or_else(String::new, time),
-                terminal::sentence(&candidate.reason),
-            ]
-        };
-        let rows: Vec<Vec<String>> = candidates.iter().map(row).collect();
-        writeln!(out)?;
-        terminal::table(&mut out, &names, &rows)?;
-    }
-    Ok(())
+    writeln!(out)?;
+    let table = candidates(&plan.candidates);
+    Ok(terminal::table(&mut out, &table.head, &table.rows)?)
 }
 
 /// A go or no-go before anything is run.

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::failure::Failure;
-use super::shared::Json;
+use super::outputs::Json;
 use super::terminal;
 use crate::presets::{Preset, PresetKind, all};
 use crate::scene::{did_you_mean, nearest};

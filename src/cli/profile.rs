@@ -5,8 +5,9 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::failure::Failure;
+use super::outputs::OutputArguments;
 use super::progress::watched;
-use super::shared::{Input, OutputArguments, SceneArguments, Threads};
+use super::shared::{Input, SceneArguments, Threads};
 use super::terminal;
 use crate::Profile;
 

@@ -1,6 +1,5 @@
 //! How far a computation is. The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is.
 
-use std::cell::Cell;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
@@ -9,19 +8,20 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::{signals, terminal};
 use crate::Progress;
 use crate::shown::time;
 
 /// How often it is looked at.
 const TICK: Duration = Duration::from_millis(25);
-/// What takes no longer is not shown; where nobody watches, a line is written every few seconds.
+/// What takes no longer is not shown.
 const UNSEEN: Duration = Duration::from_secs(2);
-const BETWEEN_LINES: Duration = Duration::from_secs(5);
-/// Steps of a bar.
-const STEPS: u64 = 1000;
+/// Between two lines: at a terminal, where each takes the place of the one before, and elsewhere.
+const BETWEEN_LINES: [Duration; 2] = [Duration::from_millis(200), Duration::from_secs(5)];
+/// Letters of a line at a terminal.
+const LINE: usize = 78;
+/// What clears the line at a terminal.
+const CLEAR: &str = "\r\x1b[K";
 
 /// A time in whole seconds, minutes or hours.
 fn rounded(seconds: f64) -> String {
@@ -30,6 +30,16 @@ fn rounded(seconds: f64) -> String {
     } else {
         time(seconds.max(120.0))
     }
+}
+
+/// What is done with the share that it is, and the time \[s\] that is `left`, or gone by where that is not known: a computation may not say how
+/// far it is, or take longer than usual.
+fn line(words: &str, share: f64, seconds: f64, left: f64) -> String {
+    if left.is_finite() && left > 0.0 {
+        let (percent, left) = (100.0 * share, rounded(left.max(1.0)));
+        return format!("{percent:.0} %, {words}, about {left} left");
+    }
+    format!("{words}, {} so far", rounded(seconds))
 }
 
 /// Computes something and shows how far it is: the share that is done with the time that the rest takes at the same speed, and `words` of that share.
@@ -54,11 +64,16 @@ pub fn watched<A: Send>(
             // A scope runs in one of rayon's threads; the one that is left only waits.
             let _ = send.send(rayon::scope(|_| compute(progress)));
         });
-        let begun = Instant::now();
-        let screen = Screen::default();
-        let answer = loop {
+        let (begun, is_terminal) = (Instant::now(), io::stderr().is_terminal());
+        let mut due = UNSEEN;
+        loop {
             match receive.recv_timeout(TICK) {
-                Ok(answer) => break answer,
+                Ok(answer) => {
+                    if is_terminal && due > UNSEEN {
+                        let _ = write!(io::stderr(), "{CLEAR}");
+                    }
+                    return answer;
+                }
                 Err(RecvTimeoutError::Disconnected) => match worker.join() {
                     Err(panic) => std::panic::resume_unwind(panic),
                     Ok(()) => unreachable!("it sends before it ends"),
@@ -66,63 +81,22 @@ pub fn watched<A: Send>(
                 Err(RecvTimeoutError::Timeout) => {}
             }
             let elapsed = begun.elapsed();
-            if elapsed > UNSEEN {
-                let share = f64::from_bits(share.load(Ordering::Relaxed));
-                let seconds = elapsed.as_secs_f64();
-                let left = seconds * (usual - share) / (share - first.get().copied().unwrap_or_default());
-                // A computation may not say how far it is, or take longer than usual.
-                let known = left.is_finite() && left > 0.0;
-                let time = if known {
-                    format!("about {} left", rounded(left.max(1.0)))
-                } else {
-                    format!("{} so far", rounded(seconds))
-                };
-                screen.show(
-                    elapsed,
-                    known.then_some(share / usual),
-                    format!("{}, {time}", words(share)),
-                );
+            if elapsed < due {
+                continue;
             }
-        };
-        screen.clear();
-        answer
+            due = elapsed + BETWEEN_LINES[usize::from(!is_terminal)];
+            let share = f64::from_bits(share.load(Ordering::Relaxed));
+            let begin = first.get().copied().unwrap_or_default();
+            let seconds = elapsed.as_secs_f64();
+            let left = seconds * (usual - share) / (share - begin);
+            let line = terminal::line(&line(&words(share), share / usual, seconds, left));
+            // If nobody reads it, it is lost.
+            let _ = if is_terminal {
+                let line: String = line.chars().take(LINE).collect();
+                write!(io::stderr(), "{CLEAR}{line}")
+            } else {
+                writeln!(terminal::err(), "progress: {line}")
+            };
+        }
     })
-}
-
-/// Where it is shown: as a bar at a terminal, else line by line.
-#[derive(Default)]
-struct Screen {
-    bar: Cell<Option<ProgressBar>>,
-    /// When the next line is due.
-    due: Cell<Duration>,
-}
-
-impl Screen {
-    fn show(&self, elapsed: Duration, share: Option<f64>, words: String) {
-        if !io::stderr().is_terminal() {
-            if elapsed >= self.due.get() {
-                self.due.set(elapsed + BETWEEN_LINES);
-                let percent = share.map_or_else(String::new, |share| format!("{:.0} %, ", 100.0 * share));
-                let _ = writeln!(terminal::err(), "progress: {percent}{words}");
-            }
-            return;
-        }
-        let bar = self.bar.take().unwrap_or_else(|| ProgressBar::new(STEPS));
-        let template = match share {
-            Some(_) => "{bar:20} {percent} %, {wide_msg}",
-            None => "{spinner} {wide_msg}",
-        };
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        bar.set_message(words);
-        bar.set_position((share.unwrap_or(0.0) * STEPS as f64) as u64);
-        self.bar.set(Some(bar));
-    }
-
-    fn clear(&self) {
-        if let Some(bar) = self.bar.take() {
-            bar.finish_and_clear();
-        }
-    }
 }

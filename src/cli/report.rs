@@ -1,6 +1,5 @@
 //! `creepage report`: a scene's answer as one page of HTML.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -8,9 +7,10 @@ use chrono::{DateTime, Utc};
 
 use super::failure::Failure;
 use super::limits::{CheckArgument, LimitArguments};
+use super::outputs::{Force, output};
 use super::progress::watched;
 use super::readings::ReadArguments;
-use super::shared::{Force, Input, TrafficArguments};
+use super::shared::{Input, TrafficArguments};
 use super::state::StartArgument;
 use super::terminal;
 use crate::report::{Report, ReportOptions, Source};
@@ -50,27 +50,6 @@ pub struct Arguments {
     reading: ReadArguments,
 }
 
-/// Formats that somebody may expect by the name's ending, and none of which this is.
-const OTHER_FORMATS: [&str; 7] = ["csv", "docx", "json", "pdf", "png", "svg", "xlsx"];
-
-impl Arguments {
-    /// Refuses a page by the name of another format, which no program would open.
-    fn page_is_html(&self) -> Result<(), Failure> {
-        let ending = self.output.extension().map(OsStr::to_ascii_lowercase);
-        if OTHER_FORMATS
-            .iter()
-            .any(|other| ending.as_deref() == Some(other.as_ref()))
-        {
-            return Err(Failure::Usage {
-                argument: "--output",
-                found: self.output.display().to_string(),
-                allowed: "a page of HTML, such as my-duct.html, which a browser also prints to PDF".into(),
-            });
-        }
-        Ok(())
-    }
-}
-
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
@@ -94,8 +73,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let overrides = arguments.scene.overrides();
     let date = date()?;
     let mut files = arguments.force.files(read.into_iter().flatten());
-    let page = files.output(&arguments.output, "html")?;
-    arguments.page_is_html()?;
+    let allowed = "a page of HTML, such as my-duct.html, which a browser also prints to PDF";
+    let page = output(&mut files, "--output", &arguments.output, "html", allowed)?;
     let start = arguments.start.start()?;
     let words = |_| "the scene's run, then ways to hold the cable".to_owned();
     let report = watched(1.0, words, |progress| {

@@ -1,24 +1,19 @@
 //! `creepage run`: the force after every pass.
 
-use std::io::Write;
+use std::io::{self, Write};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::days;
 use super::failure::Failure;
 use super::limits::{CheckArgument, LimitArguments};
+use super::outputs::{OutputArguments, beside};
 use super::progress::watched;
-use super::shared::{Input, OutputArguments, TrafficArguments};
-use super::state::{self, SaveArgument, StartArgument};
+use super::shared::{Input, TrafficArguments};
+use super::state::StartArgument;
 use super::terminal;
-#[cfg(feature = "xlsx")]
-use super::workbook::WorkbookArguments;
-use crate::answer::{Place, after, in_rows, table_rows};
-use crate::scene::Traffic;
-use crate::shown::{exact, percent, spacing, words_if};
-use crate::{
-    CableEnd, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene, Units, Verdict,
-};
+use crate::words::{Answer, Fact, Reader, solved};
+use crate::{Limits, PassRecord, Reached, Run, RunOptions, Verdict};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -47,11 +42,13 @@ pub struct Arguments {
     check: CheckArgument,
     #[command(flatten)]
     start: StartArgument,
-    #[command(flatten)]
-    save: SaveArgument,
+    /// Write the cable as the last pass leaves it to this file, for --from-state
+    #[arg(long, value_name = "FILE.json")]
+    save_state: Option<PathBuf>,
+    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
     #[cfg(feature = "xlsx")]
-    #[command(flatten)]
-    workbook: WorkbookArguments,
+    #[arg(long, value_name = "FILE.xlsx")]
+    xlsx: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -95,12 +92,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ];
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(&mut files)?;
-    let (start, saved) = (arguments.start.start()?, arguments.save.destination(&mut files)?);
+    let start = arguments.start.start()?;
+    let (option, path) = ("--save-state", arguments.save_state.as_deref());
+    let saved = beside(&mut files, option, path, "json", "a file for --from-state")?;
     #[cfg(feature = "xlsx")]
-    let workbook = arguments.workbook.destination(&mut files)?;
-    let units = arguments.limits.units(input.file());
+    let workbook = {
+        let allowed = "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv";
+        beside(&mut files, "--xlsx", arguments.xlsx.as_deref(), "xlsx", allowed)?
+    };
+    let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     let words = |_| "passes on finer and finer meshes".to_owned();
-    let answer = watched(1.0, words, |progress| {
+    let run = watched(1.0, words, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
             start: start.as_ref(),
@@ -109,39 +111,33 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         };
         crate::run_with(&input.scene, &options)
     });
-    let mut answer = input.located(answer)?;
-    let scene = input.scene.clone();
-    #[cfg(feature = "xlsx")]
-    let file = input.file().clone();
-    input.warn(&mut answer.warnings);
+    let mut run = input.located(run)?;
+    input.warn(&mut run.warnings);
     if let Some(saved) = &saved {
-        state::write(saved, &answer)?;
+        let text = serde_json::to_vec(&run.state).map_err(io::Error::from)?;
+        saved.write(|out| out.write_all(&text))?;
     }
-    let judgement = arguments
-        .limits
-        .are_given()
-        .then(|| Judgement::new(&answer, &limits));
     let judged = Judged {
-        run: &answer,
-        judgement,
+        run: &run,
+        judgement: arguments
+            .limits
+            .are_given()
+            .then(|| Judgement::new(&run, &limits)),
     };
-    let verdicts = judged
-        .judgement
-        .as_ref()
-        .map_or(&[][..], |judgement| &judgement.limits);
+    let judgement = judged.judgement.as_ref();
+    let verdicts = judgement.map_or(&[][..], |judgement| &judgement.limits);
+    let answer = Answer {
+        scene: &input.scene,
+        run: &run,
+        reader,
+    };
     #[cfg(feature = "xlsx")]
-    workbook.write(&answer, verdicts, &file, &units)?;
-    destination.write(&judged, rows(&answer.passes), || {
-        print(&answer, &scene, &units)?;
-        let mut out = terminal::out();
-        for verdict in verdicts {
-            writeln!(out, "{}", verdict.shown(&units))?;
-        }
-        if verdicts.len() > 1 {
-            writeln!(out, "{}", Verdict::summary(verdicts))?;
-        }
-        Ok(())
-    })?;
+    if let Some(output) = &workbook {
+        let bytes = crate::workbook::of_run(&run, verdicts, input.file(), &reader.units);
+        let bytes = bytes.map_err(|source| output.failed(source))?;
+        output.write(|out| out.write_all(&bytes))?;
+    }
+    destination.write(&judged, rows(&run.passes), || print(&answer, verdicts))?;
     arguments.check.judge(verdicts)
 }
 
@@ -167,160 +163,44 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)>
     })
 }
 
-/// The time of a pass behind its number, where it is known.
-fn in_time(traffic: &Traffic, pass: u64) -> String {
-    let years = traffic.years_after(pass);
-    years.map_or_else(String::new, |years| format!(", {}", after(years)))
-}
-
-fn heading(out: &mut impl Write, title: &str, motion: &DuctMotionSummary) -> std::io::Result<()> {
-    writeln!(out, "{}", terminal::line(title))?;
-    writeln!(
-        out,
-        "duct motion: {:.2} µm along, {:.1} µm down",
-        1e6 * motion.peak_longitudinal_m,
-        1e6 * motion.peak_vertical_m
-    )
-}
-
-fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
+fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
     let mut out = terminal::out();
-    let (force, metres) = (|value| units.force(value), units.length.symbol());
-    let length = |value| units.length.of_si(value);
-    heading(&mut out, &run.title, &run.duct_motion)?;
+    let Answer { run, reader, .. } = answer;
+    writeln!(out, "{}", terminal::line(&run.title))?;
     if let Some(start) = &run.start {
         writeln!(out, "begins with the cable after {} passes", start.passes)?;
     }
-    let a_day = run.heat.as_ref().map(|heat| heat.passes_per_day);
-    table(&mut out, &run.passes, scene, (a_day, run.random.is_some()), units)?;
-    if let Some(heat) = &run.heat {
-        days::print(&mut out, &run.days, heat, scene.traffic.passes, units)?;
+    for table in [Some(answer.passes(true)), answer.days(), answer.clamps()]
+        .into_iter()
+        .flatten()
+    {
+        writeln!(out)?;
+        terminal::table(&mut out, &table.head, &table.rows)?;
     }
-    for end in CableEnd::ALL {
-        let largest = run.largest(end, Limited::Force);
-        if run.heat.is_none() && largest > 0.0 {
-            let unit = units.force.symbol();
-            writeln!(
-                out,
-                "largest on the {} end: {} {unit}, during a pass",
-                end.name(),
-                force(largest)
-            )?;
-        }
+    writeln!(out)?;
+    for Fact { name, value, note } in answer.facts() {
+        writeln!(out, "{name}: {value}, {note}")?;
     }
-    match &run.saturation {
-        _ if run.heat.is_some() => {}
-        Some(saturation) => writeln!(
-            out,
-            "saturation: {} {}{}, 95 % of {} after {} passes{}",
-            force(saturation.force_n),
-            units.force.symbol(),
-            words_if(saturation.is_beyond(&run.passes), " beyond these passes"),
-            if run.random.is_some() { "the mean" } else { "it" },
-            saturation.passes_to_95_percent,
-            in_time(&scene.traffic, saturation.passes_to_95_percent)
-        )?,
-        None if run.range.is_some() => writeln!(out, "saturation: none, the force was larger before")?,
-        None => writeln!(out, "saturation: not reached within these passes")?,
-    }
-    for (end, least, most) in run.by_turns() {
-        let how = if run.random.is_some() {
-            "in nine passes of ten"
-        } else {
-            "by turns"
-        };
-        writeln!(
-            out,
-            "in the end the {} end shows {} to {} {} {how}",
-            end.name(),
-            force(least),
-            force(most),
-            units.force.symbol()
-        )?;
-    }
-    for restraint in &run.restraints {
-        let largest = |quantity| run.largest(Place::Clamp(restraint.position_m), quantity);
-        writeln!(
-            out,
-            "clamp at {} {metres}: {} {} after the last pass; at most {} {}, moved {} {}",
-            exact(length(restraint.position_m)),
-            force(restraint.force_n),
-            units.force.symbol(),
-            force(largest(Limited::Force)),
-            units.force.symbol(),
-            units.movement(largest(Limited::Movement)),
-            units.movement.symbol()
-        )?;
-        if let Some(slipped) = restraint.slipped_m {
-            let (slipped, symbol) = (units.movement(slipped), units.movement.symbol());
-            writeln!(out, "    it has slipped by {slipped} {symbol}")?;
-        }
+    let more = [answer.by_turns(), answer.heat().unwrap_or_default()];
+    for sentence in more.iter().filter(|sentence| !sentence.is_empty()) {
+        writeln!(out, "{}", sentence.trim_start())?;
     }
     if let Some(slip) = &run.slip_lengths {
+        let [forward, backward] = [slip.forward_m, slip.backward_m].map(|length| reader.length(length));
         writeln!(
             out,
-            "length slipping with the vehicle at mid-duct: {:.2} {metres} forward, {:.2} {metres} backward",
-            length(slip.forward_m),
-            length(slip.backward_m)
+            "Length slipping with the vehicle at mid-duct: {forward} forward, {backward} backward"
         )?;
     }
-    writeln!(
-        out,
-        "estimated error: {} ({})",
-        percent(run.error_estimate.relative),
-        run.error_estimate.method
-    )?;
-    writeln!(
-        out,
-        "plan: ground {}, cable {}, node spacing {} {metres}, vehicle step {} {metres}",
-        run.plan.ground,
-        run.plan.cable,
-        spacing(length(run.plan.node_spacing_m)),
-        spacing(length(run.plan.vehicle_step_m))
-    )?;
-    for reason in &run.plan.reasons {
+    writeln!(out, "{}", solved(&run.plan, reader))?;
+    for reason in [&run.error_estimate.method].into_iter().chain(&run.plan.reasons) {
         writeln!(out, "  {}", terminal::sentence(reason))?;
     }
+    for verdict in verdicts {
+        writeln!(out, "{}", answer.verdict(verdict))?;
+    }
+    if verdicts.len() > 1 {
+        writeln!(out, "{}", Verdict::summary(verdicts))?;
+    }
     Ok(())
-}
-
-/// Forces and movements after some passes, of which there are so many `a_day` of heat, or which are means over many vehicles.
-fn table(
-    out: &mut impl Write,
-    passes: &[PassRecord],
-    scene: &Scene,
-    (a_day, are_means): (Option<u64>, bool),
-    units: &Units,
-) -> std::io::Result<()> {
-    let traffic = &scene.traffic;
-    let rows = table_rows(passes, traffic);
-    let (kind, kinds) = in_rows(&rows, scene, a_day, are_means).unwrap_or_default();
-    let mut kinds = kinds.iter();
-    let [force, movement] = [units.force, units.movement].map(|unit| unit.symbol());
-    let mut names = vec!["pass".to_owned()];
-    // Times, and what distinguishes rows, have columns where there are any.
-    names.extend(traffic.per_day.map(|_| "after".to_owned()));
-    names.extend(["upstream", "downstream"].map(|end| format!("{end} force, {force}")));
-    names.extend(["upstream", "downstream"].map(|end| format!("{end} moved, {movement}")));
-    names.push(format!("most in cable, {force}"));
-    names.extend(Some(kind.to_owned()).filter(|kind| !kind.is_empty()));
-    let row = |record: &PassRecord| {
-        let mut row = vec![record.pass.to_string()];
-        row.extend(
-            traffic
-                .per_day
-                .map(|_| record.years.map_or_else(String::new, after)),
-        );
-        row.extend([record.upstream_force_n, record.downstream_force_n].map(|force| units.force(force)));
-        let moved = [record.upstream_displacement_m, record.downstream_displacement_m];
-        row.extend(moved.map(|movement| units.movement(movement)));
-        row.push(units.force(record.max_compression_n));
-        let kind = kinds.next().map_or_else(String::new, |kind| terminal::line(kind));
-        row.extend((row.len() < names.len()).then_some(kind));
-        row
-    };
-    let rows: Vec<Vec<String>> = rows.into_iter().map(row).collect();
-    writeln!(out)?;
-    terminal::table(out, &names, &rows)?;
-    writeln!(out)
 }

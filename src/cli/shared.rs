@@ -1,18 +1,12 @@
-//! What several commands have in common: the scene they read, and where their answer goes.
+//! The scene that a command reads, and what is set on top of it.
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
-
-use serde::Serialize;
+use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::{signals, terminal};
-use crate::output::{Files, Output, OutputError};
+pub use super::outputs::{Force, Json, OutputArguments};
+use super::terminal;
 use crate::scene::{DAYS_PER_YEAR, PER_DAY, Quantity, YEARS};
 use crate::{Error, Scene, SceneFile};
-
-/// What stands for standard output in place of a file.
-pub const STDOUT: &str = "-";
 
 #[derive(Debug, clap::Args)]
 pub struct SceneArguments {
@@ -124,33 +118,6 @@ fn years(text: &str, unit: &str) -> Result<f64, String> {
     ))
 }
 
-#[derive(Debug, clap::Args)]
-pub struct OutputArguments {
-    #[command(flatten)]
-    json: Json,
-    /// Write a table to this file; with - only the table is printed
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    #[command(flatten)]
-    force: Force,
-}
-
-#[derive(Debug, Clone, Copy, clap::Args)]
-pub struct Json {
-    /// Print only JSON to standard output
-    #[arg(long)]
-    json: bool,
-}
-
-/// Whether files that are not this command's own are replaced.
-#[derive(Debug, clap::Args)]
-pub struct Force {
-    /// Overwrite any file. Without it, only a file whose name ends as the output's does is overwritten (by
-    /// `new`, none). Input files never are
-    #[arg(long)]
-    pub force: bool,
-}
-
 /// A scene and the file it came from.
 pub struct Input {
     file: SceneFile,
@@ -206,10 +173,10 @@ impl Input {
     }
 
     /// Warns of what the answer warns of, and adds to it the warnings of the scene.
-    pub fn warn(self, warnings: &mut Vec<String>) {
+    pub fn warn(&self, warnings: &mut Vec<String>) {
         self.warn_all(warnings);
         warnings.retain(|warning| !self.is_told(warning));
-        warnings.splice(0..0, self.warnings);
+        warnings.splice(0..0, self.warnings.iter().cloned());
     }
 
     /// Whether the warning is of a key that a slip was found at.
@@ -232,121 +199,4 @@ pub fn warn_of_slips(file: &SceneFile) -> Vec<String> {
         warning
     });
     warned.collect()
-}
-
-impl Force {
-    /// What a command reads and writes. When the process is stopped, nothing half written is left.
-    pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
-        signals::listen();
-        Files::reading(read, self.force)
-    }
-}
-
-impl Json {
-    /// Prints the answer as one JSON document or by `print`.
-    pub fn print<T: Serialize + ?Sized>(
-        self,
-        answer: &T,
-        print: impl FnOnce() -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        if !self.json {
-            return print();
-        }
-        // Through a string, so that a document is written whole or not at all.
-        let text = serde_json::to_string_pretty(answer).map_err(std::io::Error::from)?;
-        Ok(writeln!(std::io::stdout().lock(), "{text}")?)
-    }
-}
-
-pub struct Destination {
-    json: Json,
-    table: Table,
-}
-
-enum Table {
-    None,
-    StandardOutput,
-    File(Output),
-}
-
-/// Whether a file's name ends so, in capitals or not.
-pub fn has_ending(file: &Path, endings: &[&str]) -> bool {
-    let ending = file.extension().unwrap_or_default();
-    endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
-}
-
-/// Whether the command reads or writes that file already, which is told before what its name ends in.
-pub fn is_taken(output: &Result<Output, OutputError>) -> bool {
-    matches!(output, Err(OutputError::Taken(..)))
-}
-
-impl OutputArguments {
-    /// What a command reads and writes.
-    pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
-        self.force.files(read)
-    }
-
-    /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
-    pub fn destination(&self, files: &mut Files) -> Result<Destination, Failure> {
-        let table = match &self.csv {
-            None => Table::None,
-            Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
-            Some(file) => {
-                let output = files.output(file, "csv");
-                if has_ending(file, &["xlsx", "xls", "ods"]) && !is_taken(&output) {
-                    return Err(Failure::Usage {
-                        argument: "--csv",
-                        found: file.display().to_string(),
-                        allowed: "a table of text, such as forces.csv; `creepage run` writes a workbook with --xlsx".into(),
-                    });
-                }
-                Table::File(output?)
-            }
-        };
-        let on_stdout = match &table {
-            Table::None => false,
-            Table::StandardOutput => true,
-            Table::File(file) => file.is_standard_output(),
-        };
-        match &self.csv {
-            Some(file) if self.json.json && on_stdout => Err(Failure::Usage {
-                argument: "--csv",
-                found: format!("`{}`, standard output, where --json prints", file.display()),
-                allowed: "a file beside --json".into(),
-            }),
-            _ => Ok(Destination {
-                json: self.json,
-                table,
-            }),
-        }
-    }
-}
-
-impl Destination {
-    /// Writes the answer and its table, one row a record with the record's fields as columns.
-    pub fn write<T: Serialize, R: Serialize>(
-        &self,
-        answer: &T,
-        rows: impl IntoIterator<Item = R>,
-        print: impl FnOnce() -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        match &self.table {
-            Table::None => {}
-            // There it stands alone.
-            Table::StandardOutput => return Ok(std::io::stdout().lock().write_all(&csv(rows)?)?),
-            Table::File(file) => {
-                let text = csv(rows)?;
-                file.write(|out| out.write_all(&text))?;
-            }
-        }
-        self.json.print(answer, print)
-    }
-}
-
-fn csv<R: Serialize>(rows: impl IntoIterator<Item = R>) -> Result<Vec<u8>, Failure> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(row).map_err(std::io::Error::from)?;
-    }
-    Ok(writer.into_inner().map_err(csv::IntoInnerError::into_error)?)
 }

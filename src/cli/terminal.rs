@@ -50,43 +50,57 @@ pub fn line(text: &str) -> String {
     shortened(&line, LONGEST_TEXT)
 }
 
-/// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left. Where that
-/// is wider than a terminal, long names are broken at blanks.
+/// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left. Where that is
+/// wider than a terminal, long names are broken at blanks.
 pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io::Result<()> {
     let width = |text: &String| text.chars().count();
     let begins = |c: char| c.is_ascii_digit() || "-+<>–".contains(c);
-    let is_number = |cell: &String| cell.trim_start_matches(['→', ' ']).starts_with(begins);
+    let is_number = |cell: &String| cell.trim_start().starts_with(begins);
+    let plain = |cell: &String| sentence(&cell.replace('\u{ad}', ""));
+    let names: Vec<String> = names.iter().map(plain).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(plain).collect()).collect();
     let cells = |column: usize| rows.iter().map(move |row| &row[column]);
-    let widths = (0..names.len()).map(|column| cells(column).map(width).max().unwrap_or_default());
-    let widths: Vec<usize> = widths.collect();
-    let columns = || names.iter().zip(&widths);
-    let whole = columns().map(|(name, cells)| width(name).max(*cells) + 2);
-    let is_wide = whole.sum::<usize>() > TERMINAL_WIDTH + 2;
-    let longest = |cells: usize| {
-        if is_wide {
-            SHORT_NAME.max(cells)
+    let widest = |column: usize| cells(column).map(width).max().unwrap_or_default();
+    let whole: usize = (0..names.len())
+        .map(|column| widest(column).max(width(&names[column])) + 2)
+        .sum();
+    let is_wide = whole > TERMINAL_WIDTH + 2;
+    let heading = |(column, name): (usize, &String)| {
+        let longest = if is_wide {
+            SHORT_NAME.max(widest(column))
         } else {
             usize::MAX
-        }
-    };
-    let heading = |(name, cells): (&String, &usize)| broken(name, longest(*cells));
-    let mut headings: Vec<Vec<String>> = columns().map(heading).collect();
-    let height = headings.iter().map(Vec::len).max().unwrap_or_default();
-    let mut columns = Vec::new();
-    for (column, heading) in headings.iter_mut().enumerate() {
-        let widest = heading.iter().map(width).max().unwrap_or_default();
-        columns.push((widest.max(widths[column]), cells(column).any(is_number)));
-        // Names stand just above their columns.
-        heading.splice(..0, vec![String::new(); height - heading.len()]);
-    }
-    let line = |line: usize| headings.iter().map(|heading| heading[line].clone()).collect();
-    let names: Vec<Vec<String>> = (0..height).map(line).collect();
-    for row in names.iter().chain(rows) {
-        let cell = |(cell, (width, is_number)): (&String, &(usize, bool))| match is_number {
-            true => format!("{cell:>width$}"),
-            false => format!("{cell:<width$}"),
         };
-        let cells: Vec<String> = row.iter().zip(&columns).map(cell).collect();
+        broken(name, longest)
+    };
+    let headings: Vec<Vec<String>> = names.iter().enumerate().map(heading).collect();
+    let height = headings.iter().map(Vec::len).max().unwrap_or_default();
+    // Names stand just above their columns.
+    let line = |line: usize| {
+        let name = |name: &Vec<String>| {
+            (line + name.len())
+                .checked_sub(height)
+                .map_or("", |line| &name[line])
+                .to_owned()
+        };
+        headings.iter().map(name).collect()
+    };
+    let names: Vec<Vec<String>> = (0..height).map(line).collect();
+    for row in names.iter().chain(&rows) {
+        let cell = |(column, cell): (usize, &String)| {
+            let width = headings[column]
+                .iter()
+                .map(width)
+                .max()
+                .unwrap_or_default()
+                .max(widest(column));
+            if cells(column).any(is_number) {
+                format!("{cell:>width$}")
+            } else {
+                format!("{cell:<width$}")
+            }
+        };
+        let cells: Vec<String> = row.iter().enumerate().map(cell).collect();
         writeln!(out, "{}", cells.join("  ").trim_end())?;
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! A file under a name that nobody can guess, until it takes its place.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -46,11 +46,15 @@ impl Temporary {
         let mut living = living();
         let old = fs::metadata(target).ok();
         // The target's own name may be too long to be made longer.
-        let file = Builder::new()
-            .prefix(".creepage-")
-            .suffix(".partial")
-            .rand_bytes(12)
-            .make_in(folder(target), |path| create(path, old.is_some()))?;
+        let mut builder = Builder::new();
+        builder.prefix(".creepage-").suffix(".partial").rand_bytes(12);
+        // A new file has the permissions of the umask; one that gets those of an older file is its owner's alone until then.
+        #[cfg(unix)]
+        if old.is_none() {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let file = builder.tempfile_in(folder(target))?;
         if let Some(old) = old {
             keep_owner(file.as_file(), &old);
             file.as_file().set_permissions(old.permissions())?;
@@ -80,21 +84,6 @@ impl Temporary {
         }
         Ok(())
     }
-}
-
-/// Creates a file where there is nothing, not even a link. A new one has the permissions of the umask; one that gets those of an older file is
-/// its owner's alone until then.
-fn create(path: &Path, is_private: bool) -> io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::OpenOptionsExt;
-        options.mode(if is_private { 0o600 } else { 0o666 });
-    }
-    #[cfg(not(unix))]
-    let _ = is_private;
-    options.open(path)
 }
 
 fn folder(target: &Path) -> &Path {

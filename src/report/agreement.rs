@@ -49,22 +49,18 @@ impl Agreement {
         let mean = |of: fn(f64) -> f64| {
             differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
         };
-        let sizes = readings.iter().map(|reading| reading.value.abs());
-        let largest = sizes.fold(0.0, f64::max);
         Ok(Self {
             end,
             compared: differences.len(),
             rms_n: mean(|d| d * d).sqrt(),
             mean_n: mean(|d| d),
-            largest_n: largest,
+            largest_n: readings
+                .iter()
+                .map(|reading| reading.value.abs())
+                .fold(0.0, f64::max),
             mistakes,
             readings,
         })
-    }
-
-    /// The numbers that the page shows.
-    pub fn numbers(&self) -> [f64; 3] {
-        [self.rms_n, self.mean_n, self.largest_n]
     }
 }
 

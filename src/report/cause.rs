@@ -1,12 +1,12 @@
 //! Why the cable creeps: motion of the duct under the first vehicle, its velocity, and friction on the cable (Kashiro et al., Figures 2
 //! to 7).
 
+use super::chart::{ALONE, MICRO, MILLI, STACKED, figure};
 use super::content::{Report, reach};
-use super::figure::{MICRO, MILLI, figure};
-use super::friction::positive_area;
 use super::html::Html;
-use super::quantity::{Shown, count, round_below, significant};
 use crate::figure::{Axis, Chart, Reference, Series};
+use crate::shown::words_if;
+use crate::words::{count, round_below, significant};
 use crate::{FrictionProfile, Units};
 
 pub fn cause(html: &mut Html, report: &Report) {
@@ -16,58 +16,68 @@ pub fn cause(html: &mut Html, report: &Report) {
          than against it.",
     );
     html.raw("<div class=\"figures\">");
-    let vehicle = if report.scene.vehicles.len() == 1 {
-        "the vehicle"
-    } else {
-        "the first vehicle"
-    };
-    figure(
-        html,
-        motion(report),
-        &format!(
-            "Displacement of a point of the duct as {vehicle} drives by, by the ground model {}; along the axis positive toward \
-             growing x.",
-            report.motion.ground
-        ),
+    let caption = format!(
+        "Displacement of a point of the duct as the {}vehicle drives by, by the ground model {}; along the axis positive toward growing x.",
+        words_if(report.scene.vehicles.len() > 1, "first "),
+        report.motion.ground
     );
+    figure(html, STACKED, motion(report), &caption);
     let [forward, backward] = ways(report).map(|way| MICRO * way);
-    figure(
-        html,
-        [velocity(report)],
-        &format!(
-            "Velocity of that point. The areas are how far it moves: {forward:.1} µm with the vehicle and {backward:.1} µm against \
-             it within this figure; they are equal when the vehicle is far away.",
-        ),
+    let caption = format!(
+        "Velocity of that point. The areas are how far it moves: {forward:.1} µm with the vehicle and {backward:.1} µm against it within \
+         this figure; they are equal when the vehicle is far away.",
     );
-    let passes = &report.friction.passes;
+    figure(html, ALONE, [velocity(report)], &caption);
+    let passes = friction_of_passes(report);
     if !passes.is_empty() {
-        let which = match passes.len() {
-            1 => "",
-            _ => ", in the first pass and the last one above that was simulated",
-        };
-        let words: Vec<String> = passes
-            .iter()
-            .map(|(pass, seen)| areas(*pass, seen, &report.shown))
-            .collect();
-        figure(
-            html,
-            friction(report),
-            &format!(
-                "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x{which}. {}",
-                words.join(" ")
-            ),
+        let which = words_if(
+            passes.len() > 1,
+            ", in the first pass and the last one above that was simulated",
         );
+        let words = passes
+            .iter()
+            .map(|(pass, friction)| areas(report, *pass, friction));
+        let caption = format!(
+            "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x{which}. {}",
+            words.collect::<Vec<_>>().join(" ")
+        );
+        let height = if passes.len() > 1 { STACKED } else { ALONE };
+        let charts = passes
+            .iter()
+            .map(|(pass, friction)| friction_chart(report, *pass, friction));
+        figure(html, height, charts, &caption);
     }
     html.raw("</div>");
-    if let Some(remark) = &report.friction.remark {
-        html.paragraph(remark);
+    if report.scene.friction_limit() == 0.0 {
+        html.paragraph("There is no friction here, so nothing drags the cable along.");
     }
+}
+
+/// The first and the last pass of which the run shows friction; none without any, and none of a heated cable.
+fn friction_of_passes(report: &Report) -> Vec<(u64, &FrictionProfile)> {
+    let stages = report.run.stages.iter();
+    let mut passes: Vec<_> = stages
+        .filter_map(|stage| Some((stage.pass, stage.friction.as_ref()?)))
+        .filter(|_| report.scene.friction_limit() > 0.0)
+        .collect();
+    if passes.len() > 2 {
+        passes.drain(1..passes.len() - 1);
+    }
+    passes
+}
+
+/// ∫ of the positive part of `values` over `places`, by the trapezoidal rule.
+fn positive_area(places: &[f64], values: impl Iterator<Item = f64>) -> f64 {
+    let values: Vec<f64> = values.map(|value| value.max(0.0)).collect();
+    let widths = places.windows(2).map(|x| x[1] - x[0]);
+    let means = values.windows(2).map(|v| 0.5 * (v[0] + v[1]));
+    widths.zip(means).map(|(width, mean)| width * mean).sum()
 }
 
 /// Values of a point of the duct against the vehicle's position past it: at x_v the vehicle is x_v − x = −ξ past the point at x.
 fn past(report: &Report, values: &[f64], scale: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let pairs = report.motion.positions_m.iter().zip(values).rev();
-    let length = report.shown.units.length;
+    let length = report.reader.units.length;
     pairs
         .map(|(xi, value)| (length.of_si(-xi), scale(*value)))
         .collect()
@@ -75,11 +85,11 @@ fn past(report: &Report, values: &[f64], scale: impl Fn(f64) -> f64) -> Vec<(f64
 
 /// An axis of places to either side, with ticks on both sides.
 fn either_side(report: &Report, name: &str) -> Axis {
-    let half = reach(&report.scene, report.shown.units.length);
+    let half = reach(&report.scene, report.reader.units.length);
     let step = round_below(half);
     let most = (half / step).floor() as i32;
     let ticks = (-most..=most).map(|k| step * f64::from(k));
-    Axis::linear(report.shown.in_length(name))
+    Axis::linear(report.reader.in_length(name))
         .range(-half, half)
         .ticks(ticks.map(|place| (place, significant(place).replace('-', "−"))))
 }
@@ -93,9 +103,8 @@ fn position(report: &Report) -> Axis {
 fn motion(report: &Report) -> [Chart; 2] {
     let motion = &report.motion;
     let chart = |title, label, values: &[f64], look| {
-        let points = past(report, values, |value| MICRO * value);
-        let line = Series::line("", points).look(look).solid();
-        Chart::new(title, position(report), Axis::linear(label)).with(line)
+        let line = Series::line("", past(report, values, |value| MICRO * value));
+        Chart::new(title, position(report), Axis::linear(label)).with(line.look(look).solid())
     };
     let along = "Motion of the duct along its axis";
     [
@@ -128,35 +137,35 @@ fn ways(report: &Report) -> [f64; 2] {
     })
 }
 
-fn friction(report: &Report) -> impl Iterator<Item = Chart> {
-    let Units { length, weight, .. } = report.shown.units;
+fn friction_chart(report: &Report, pass: u64, friction: &FrictionProfile) -> Chart {
+    let Units { length, weight, .. } = report.reader.units;
     let limit = weight.of_si(report.scene.friction_limit());
     let half = reach(&report.scene, length);
-    report.friction.passes.iter().map(move |(pass, friction)| {
-        let from_vehicle = friction
-            .positions_m
+    let from_vehicle = |x: &f64| length.of_si(x - friction.vehicle_position_m);
+    let places = friction.positions_m.iter().map(from_vehicle);
+    let points = places.zip(
+        friction
+            .friction_n_per_m
             .iter()
-            .map(|x| length.of_si(x - friction.vehicle_position_m));
-        let friction = friction.friction_n_per_m.iter();
-        let points = from_vehicle.zip(friction.map(|friction| weight.of_si(*friction)));
-        Chart::new(
-            format!("Friction on the cable, pass {}", count(*pass)),
-            either_side(report, "place from the vehicle"),
-            Axis::linear(format!("friction, {}", weight.symbol())).range(-1.5 * limit, 1.5 * limit),
-        )
-        .refer(Reference::horizontal(limit, "+μ N′"))
-        .refer(Reference::horizontal(-limit, "−μ N′"))
-        .with(Series::area("", points.filter(|(place, _)| place.abs() <= half)))
-    })
+            .map(|friction| weight.of_si(*friction)),
+    );
+    Chart::new(
+        format!("Friction on the cable, pass {}", count(pass)),
+        either_side(report, "place from the vehicle"),
+        Axis::linear(format!("friction, {}", weight.symbol())).range(-1.5 * limit, 1.5 * limit),
+    )
+    .refer(Reference::horizontal(limit, "+μ N′"))
+    .refer(Reference::horizontal(-limit, "−μ N′"))
+    .with(Series::area("", points.filter(|(place, _)| place.abs() <= half)))
 }
 
 /// Lengths at the limit, and the two areas of friction.
-fn areas(pass: u64, friction: &FrictionProfile, shown: &Shown) -> String {
+fn areas(report: &Report, pass: u64, friction: &FrictionProfile) -> String {
     let [forward, backward] = [1.0, -1.0].map(|sign| {
         let values = friction.friction_n_per_m.iter().map(|f| sign * f);
-        shown.force(positive_area(&friction.positions_m, values))
+        report.reader.force(positive_area(&friction.positions_m, values))
     });
-    let (lengths, unit) = (&friction.slip_lengths, shown.units.length);
+    let (lengths, unit) = (&friction.slip_lengths, report.reader.units.length);
     format!(
         "Pass {}: at its limit over {:.1} {metres} forward and {:.1} {metres} backward; in total over the whole cable {forward} forward and \
          {backward} backward.",

@@ -1,16 +1,14 @@
 //! What a report contains: everything that is computed for it.
 
 use super::agreement::Agreement;
-use super::friction::Friction;
 use super::measures::Comparison;
-use super::quantity::{Shown, round_below};
 use super::source::Source;
-use crate::answer::largest_movement_in_duct;
 use crate::calibration::held_end;
 use crate::design::Spring;
 use crate::profile::profile_over;
 use crate::readings::Readings;
 use crate::scene::Unit;
+use crate::words::{Answer, Reader, SceneWords, round_below};
 use crate::{
     Error, Limits, PastPass, PlanReport, Profile, Progress, Run, RunOptions, SavedState, Scene, Units,
     Verdict,
@@ -52,12 +50,11 @@ pub struct ReportOptions<'a> {
 /// The content of the page; [`to_html`](Report::to_html) writes it.
 #[derive(Debug)]
 pub struct Report {
-    pub(super) shown: Shown,
+    pub(super) reader: Reader,
     pub(super) scene: Scene,
     pub(super) run: Run,
     pub(super) plan: PlanReport,
     pub(super) motion: Profile,
-    pub(super) friction: Friction,
     pub(super) agreement: Option<Agreement>,
     /// None if the run begins from a state.
     pub(super) measures: Option<Comparison>,
@@ -103,10 +100,9 @@ impl Report {
             .map_or(&[][..], |agreement| &agreement.mistakes);
         let ways = options.progress.part(RUN_SHARE, 1.0);
         Ok(Self {
-            shown: Shown::new(options.units, largest_movement_in_duct(scene)),
+            reader: Reader::new(options.units, scene),
             plan: plan.report(),
             motion: profile_over(scene, &plan.ground, &positions(scene, options.units.length))?,
-            friction: Friction::new(scene, &plan.ground, &run),
             measures: match options.start {
                 None => Some(Comparison::new(
                     scene,
@@ -131,6 +127,27 @@ impl Report {
             run,
             scene: scene.clone(),
         })
+    }
+
+    /// The run in words.
+    pub(super) fn answer(&self) -> Answer<'_> {
+        let Self {
+            scene, run, reader, ..
+        } = self;
+        Answer {
+            scene,
+            run,
+            reader: *reader,
+        }
+    }
+
+    /// The scene in words.
+    pub(super) fn scene_words(&self) -> SceneWords<'_> {
+        let Self { scene, reader, .. } = self;
+        SceneWords {
+            scene,
+            reader: *reader,
+        }
     }
 
     /// What looks mistaken in the readings.

@@ -1,5 +1,7 @@
 //! Elements of the page. Every text is escaped here and nowhere else.
 
+use crate::words::Table;
+
 /// A page in the making, with the elements that a report needs.
 #[derive(Default)]
 pub struct Html(String);
@@ -11,8 +13,10 @@ impl Html {
         self.0.push('\n');
     }
 
+    /// A text in an element, which may have a class: `p` or `dd class="value"`.
     pub fn element(&mut self, tag: &str, text: &str) {
-        self.raw(&format!("<{tag}>{}</{tag}>", escaped(text)));
+        let name = tag.split(' ').next().unwrap_or(tag);
+        self.raw(&format!("<{tag}>{}</{name}>", escaped(text)));
     }
 
     pub fn paragraph(&mut self, text: &str) {
@@ -21,57 +25,37 @@ impl Html {
 
     /// A list of points, nothing without any.
     pub fn list(&mut self, points: &[String]) {
-        if points.is_empty() {
-            return;
-        }
-        self.raw("<ul>");
-        for point in points {
-            self.element("li", point);
-        }
-        self.raw("</ul>");
-    }
-
-    /// A table as wide as its content, with `texts` columns of text before those of numbers.
-    pub fn table(&mut self, texts: usize, head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
-        let cell = |tag: &str, column: usize, text: &str| {
-            let class = if column >= texts { " class=\"number\"" } else { "" };
-            format!("<{tag}{class}>{}</{tag}>", escaped(text))
-        };
-        let head = head.iter().enumerate();
-        let head: String = head.map(|(k, text)| cell("th", k, text)).collect();
-        self.raw("<table>");
-        self.raw(&format!("<thead><tr>{head}</tr></thead>"));
-        self.raw("<tbody>");
-        for row in rows {
-            let row = row.iter().enumerate();
-            let cells: String = row.map(|(k, text)| cell("td", k, text)).collect();
-            self.raw(&format!("<tr>{cells}</tr>"));
-        }
-        self.raw("</tbody>");
-        self.raw("</table>");
-    }
-
-    /// A number at the top of the page: what it is, the number with its unit, and a remark.
-    pub fn headline(&mut self, name: &str, value: &str, note: &str) {
-        self.raw("<div>");
-        self.element("dt", name);
-        self.raw(&format!("<dd class=\"value\">{}</dd>", escaped(value)));
-        self.element("dd", note);
-        self.raw("</div>");
-    }
-
-    /// Whether each limit is kept, and in what words.
-    pub fn verdicts(&mut self, verdicts: impl IntoIterator<Item = (bool, String)>) {
-        let points: Vec<String> = verdicts
-            .into_iter()
-            .map(|(kept, words)| {
-                let class = if kept { "kept" } else { "exceeded" };
-                format!("<li class=\"{class}\">{}</li>", escaped(&words))
-            })
-            .collect();
         if !points.is_empty() {
-            self.raw(&format!("<ul class=\"verdicts\">{}</ul>", points.concat()));
+            self.raw("<ul>");
+            for point in points {
+                self.element("li", point);
+            }
+            self.raw("</ul>");
         }
+    }
+
+    /// A table as wide as its content.
+    pub fn table(&mut self, table: &Table) {
+        let row = |tag: &str, row: &Vec<String>| {
+            let cell = |(column, text): (usize, &String)| {
+                let class = if column < table.words {
+                    ""
+                } else {
+                    " class=\"number\""
+                };
+                format!("<{tag}{class}>{}</{tag}>", escaped(text))
+            };
+            format!(
+                "<tr>{}</tr>",
+                row.iter().enumerate().map(cell).collect::<String>()
+            )
+        };
+        self.raw(&format!(
+            "<table>\n<thead>{}</thead>\n<tbody>",
+            row("th", &table.head)
+        ));
+        table.rows.iter().for_each(|cells| self.raw(&row("td", cells)));
+        self.raw("</tbody>\n</table>");
     }
 
     /// What only some readers want: folded on a screen, open in print.
@@ -116,15 +100,18 @@ mod tests {
         let safe = "&lt;script&gt;alert(&apos;1&apos;)&lt;/script&gt; &amp; &quot;\u{fffd}";
         let text = nasty.to_owned();
         let mut html = Html::default();
-        html.paragraph(nasty);
+        html.element("dd class=\"value\"", nasty);
         html.list(std::slice::from_ref(&text));
-        html.table(0, &[nasty], [vec![text]]);
-        html.headline(nasty, nasty, nasty);
-        html.verdicts([(true, nasty.to_owned())]);
+        let table = Table {
+            head: vec![text.clone()],
+            rows: vec![vec![text]],
+            words: 0,
+        };
+        html.table(&table);
         html.details(nasty, |_| {});
         html.figure("<svg/>", nasty);
         let page = html.finish();
-        assert_eq!(page.matches(safe).count(), 10, "{page}");
+        assert_eq!(page.matches(safe).count(), 6, "{page}");
         assert!(!page.contains("<script"), "{page}");
     }
 }

@@ -21,25 +21,18 @@
 
 mod agreement;
 mod cause;
+mod chart;
 mod content;
-mod ends;
-mod figure;
 mod force;
-mod friction;
-mod headline;
 mod heat;
 mod holding;
 mod html;
-mod lanes;
 mod measures;
 mod page;
-mod plan;
-mod quantity;
-mod record;
+mod pass_axis;
 mod route;
 mod section;
 mod source;
-mod words;
 
 pub use content::{Report, ReportOptions};
 pub use source::Source;

@@ -3,10 +3,8 @@
 //! A sheet begins with the names of its columns; where they have units, these stand in a second row. Numbers are numbers, texts are texts,
 //! never formulas. A workbook holds no date: the same answer is the same file, byte for byte.
 
+mod book;
 mod run;
-mod scene;
-mod sheet;
 
+pub(crate) use book::{Book, Cell, scene};
 pub use run::of_run;
-pub(crate) use scene::scene;
-pub(crate) use sheet::{Book, Cell};

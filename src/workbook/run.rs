@@ -4,10 +4,9 @@
 use std::io;
 
 use rust_xlsxwriter::XlsxError;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use super::scene::scene;
-use super::sheet::{Book, Cell};
+use super::book::{Book, Cell, scene};
 use crate::{Limited, Place, Run, SceneFile, Units, Verdict};
 
 /// Parts of the document that stand on the first sheet, in their order. What is a table has a sheet of its own.
@@ -47,17 +46,17 @@ fn write(
     let mut book = Book::new(&run.title)?;
     answer(&mut book, run, document, verdicts, units)?;
     let heat = &document["heat"];
-    table(&mut book, "passes", &document["passes"], units)?;
-    table(&mut book, "days", &document["days"], units)?;
-    table(&mut book, "last day", &heat["cycle"], units)?;
-    for (name, profile) in [
-        ("force along", &document["force_profile"]),
-        ("hottest", &heat["hot_profile"]),
-        ("coldest", &heat["cold_profile"]),
+    for (name, records) in [
+        ("passes", &document["passes"]),
+        ("days", &document["days"]),
+        ("last day", &heat["cycle"]),
+        ("force along", &along(&document["force_profile"])),
+        ("hottest", &along(&heat["hot_profile"])),
+        ("coldest", &along(&heat["cold_profile"])),
+        ("clamps", &clamps(run, document)),
     ] {
-        along(&mut book, name, profile, units)?;
+        table(&mut book, name, records, units)?;
     }
-    table(&mut book, "clamps", &clamps(run, document), units)?;
     errors(&mut book, document)?;
     scene(&mut book, file)?;
     book.finish()
@@ -91,6 +90,43 @@ fn text(text: impl Into<String>) -> Cell {
     Cell::Text(text.into())
 }
 
+/// A value of a document: what it is, its field, and itself.
+type Entry<'d> = (String, &'d str, &'d Value);
+
+/// The values in `value` of a `field`, which is `name` to a reader, and in what it holds. Tables and lists of numbers are left out.
+fn entries<'d>(name: &str, field: &'d str, value: &'d Value, units: &Units) -> Vec<Entry<'d>> {
+    match value {
+        Value::Object(fields) => {
+            let fields = fields
+                .iter()
+                .filter(|(field, _)| !TABLES.contains(&field.as_str()));
+            let inside = fields.flat_map(|(field, value)| {
+                let before = if name.is_empty() {
+                    String::new()
+                } else {
+                    format!("{name}: ")
+                };
+                let name = format!("{before}{}", named(field, units).0);
+                entries(&name, field, value, units)
+            });
+            inside.collect()
+        }
+        Value::Array(items) => {
+            let items = (1..).zip(items).filter(|(_, item)| !item.is_number());
+            let inside = items.flat_map(|(number, item)| {
+                let number = if item.is_object() {
+                    format!(" {number}")
+                } else {
+                    String::new()
+                };
+                entries(&format!("{name}{number}"), field, item, units)
+            });
+            inside.collect()
+        }
+        value => vec![(name.to_owned(), field, value)],
+    }
+}
+
 fn answer(
     book: &mut Book,
     run: &Run,
@@ -99,77 +135,35 @@ fn answer(
     units: &Units,
 ) -> Result<(), XlsxError> {
     book.sheet("answer", &[("quantity", ""), ("value", ""), ("unit", "")])?;
-    book.widths(&[45.0, 25.0, 10.0])?;
     book.row([text("title"), text(&run.title)], false)?;
     let program = concat!("creepage ", env!("CARGO_PKG_VERSION"));
     book.row([text("computed by"), text(program)], false)?;
     for verdict in verdicts {
         book.row([text("limits"), text(verdict.shown(units))], false)?;
     }
-    if let Some(last) = document["passes"].as_array().and_then(|passes| passes.last()) {
-        leaves(book, "last pass", "", last, units)?;
-    }
-    for part in ANSWER {
-        leaves(book, part, part, &document[part], units)?;
+    let last = document["passes"].as_array().and_then(|passes| passes.last());
+    let last = last
+        .map(|last| entries("last pass", "", last, units))
+        .unwrap_or_default();
+    let parts = ANSWER
+        .iter()
+        .flat_map(|part| entries(part, part, &document[*part], units));
+    for (name, field, value) in last.into_iter().chain(parts) {
+        let row = match value {
+            // It has its place, and says so.
+            Value::Null if name == "saturation" => vec![text(name), text("none")],
+            Value::Null => continue,
+            value => vec![text(name), cell(field, value, units), text(named(field, units).1)],
+        };
+        book.row(row, false)?;
     }
     Ok(())
 }
 
-/// A row for each value that is no table; `path` says what it is, and `field` is its own name.
-fn leaves(book: &mut Book, path: &str, field: &str, value: &Value, units: &Units) -> Result<(), XlsxError> {
-    match value {
-        Value::Object(fields) => {
-            for (name, value) in fields.iter().filter(|(name, _)| !TABLES.contains(&name.as_str())) {
-                let shown = named(name, units).0;
-                leaves(book, &format!("{path}: {shown}"), name, value, units)?;
-            }
-            Ok(())
-        }
-        Value::Array(items) => items
-            .iter()
-            .try_for_each(|item| leaves(book, path, field, item, units)),
-        // It has its place, and says so.
-        Value::Null if path == "saturation" => book.row([text(path), text("none")], false),
-        Value::Null => Ok(()),
-        value => {
-            let (_, unit) = named(field, units);
-            book.row([text(path), cell(field, value, units), text(unit)], false)
-        }
-    }
-}
-
-/// A value of a record: the name of its column, its field, and itself.
-type Entry<'d> = (String, &'d str, &'d Value);
-
-/// The values of a record, those of records inside it too. Lists of numbers are no part of a row.
-fn entries<'d>(before: &str, record: &'d Value, units: &Units) -> Vec<Entry<'d>> {
-    let inside = |(field, value): (&'d String, &'d Value)| -> Vec<Entry<'d>> {
-        let name = format!("{before}{}", named(field, units).0);
-        match value {
-            Value::Array(items) => (1..)
-                .zip(items)
-                .flat_map(|(number, item)| entries(&format!("{name} {number}: "), item, units))
-                .collect(),
-            Value::Object(_) => entries(&format!("{name}: "), value, units),
-            value => vec![(name, field, value)],
-        }
-    };
-    record
-        .as_object()
-        .into_iter()
-        .flatten()
-        .flat_map(inside)
-        .collect()
-}
-
 /// A sheet with a row for each record; none where there are no records.
 fn table(book: &mut Book, name: &str, records: &Value, units: &Units) -> Result<(), XlsxError> {
-    let records: Vec<Vec<Entry>> = records
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(|record| entries("", record, units))
-        .collect();
+    let records = records.as_array().into_iter().flatten();
+    let records: Vec<Vec<Entry>> = records.map(|record| entries("", "", record, units)).collect();
     // What only some records have comes last.
     let mut columns: Vec<(&str, &str)> = Vec::new();
     for (name, field, _) in records.iter().flatten() {
@@ -186,10 +180,8 @@ fn table(book: &mut Book, name: &str, records: &Value, units: &Units) -> Result<
             let entry = record.iter().find(|(name, ..)| name == column);
             entry.map_or(Cell::Absent, |(_, field, value)| cell(field, value, units))
         };
-        let is_marked = record
-            .iter()
-            .any(|(_, field, value)| *field == "interpolated" && **value == Value::Bool(true));
-        book.row(columns.iter().map(of), is_marked)?;
+        let is_marked = |(_, field, value): &Entry| *field == "interpolated" && **value == Value::Bool(true);
+        book.row(columns.iter().map(of), record.iter().any(is_marked))?;
     }
     Ok(())
 }
@@ -206,29 +198,18 @@ fn clamps(run: &Run, document: &Value) -> Value {
     clamps
 }
 
-/// A sheet with the force along the cable; none where that is not known.
-fn along(book: &mut Book, name: &str, profile: &Value, units: &Units) -> Result<(), XlsxError> {
-    let numbers = |field: &str| -> Vec<Cell> {
-        let values = profile[field].as_array().into_iter().flatten();
-        values.map(|value| cell(field, value, units)).collect()
-    };
-    let (places, forces) = (numbers("positions_m"), numbers("force_n"));
-    if places.is_empty() {
-        return Ok(());
-    }
-    let columns = [
-        ("position", units.length.symbol()),
-        ("force", units.force.symbol()),
-    ];
-    book.sheet(name, &columns)?;
-    let mut rows = places.into_iter().zip(forces);
-    rows.try_for_each(|(place, force)| book.row([place, force], false))
+/// A record for each place of a profile of the force.
+fn along(profile: &Value) -> Value {
+    let list = |field: &str| profile[field].as_array().into_iter().flatten();
+    let places = list("positions_m").zip(list("force_n"));
+    places
+        .map(|(place, force)| json!({ "position_m": place, "force_n": force }))
+        .collect()
 }
 
 /// The parts of the error.
 fn errors(book: &mut Book, document: &Value) -> Result<(), XlsxError> {
     book.sheet("error", &[("part", ""), ("share", ""), ("of", "")])?;
-    book.widths(&[20.0, 12.0, 40.0])?;
     let estimate = &document["error_estimate"];
     let share = |value: &Value| value.as_f64().map_or(Cell::Absent, Cell::Share);
     let whole = [text("all"), share(&estimate["relative"]), text("a force")];

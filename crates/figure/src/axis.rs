@@ -76,12 +76,10 @@ impl Axis {
     pub(crate) fn check(&self, what: &str, values: impl IntoIterator<Item = f64>) -> Result<(), FigureError> {
         let is_wrong = |value: f64| !value.is_finite() || (self.logarithmic && value <= 0.0);
         let wrong = values.into_iter().enumerate().find(|(_, value)| is_wrong(*value));
-        let what = what.to_owned();
-        match wrong {
-            None => Ok(()),
-            Some((_, value)) if value.is_finite() => Err(FigureError::NotPositive { what, value }),
-            Some((index, value)) => Err(FigureError::NotFinite { what, index, value }),
-        }
+        wrong.map_or(Ok(()), |(index, value)| {
+            let what = what.to_owned();
+            Err(FigureError::NoPlace { what, index, value })
+        })
     }
 
     /// Whether the centres of the cells ascend and have places on this axis.

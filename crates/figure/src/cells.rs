@@ -4,8 +4,7 @@ use crate::axis::Axis;
 use crate::drawing::{Anchor, Drawing, Rect, Stroke, TEXT, check_room};
 use crate::error::FigureError;
 use crate::frame::{AXIS, Frame, TICK, widest_label};
-use crate::mark;
-use crate::palette::{INK, continuous};
+use crate::palette::{INK, class_colour, continuous};
 use crate::scale::Scale;
 
 /// Distance of the bar from the plot, and its width \[px\].
@@ -25,26 +24,20 @@ pub(crate) enum Cells {
 impl Cells {
     /// Whether they fill the `grid` of so many cells in the chart named `chart`, with classes and values that exist.
     pub fn check(&self, chart: &str, grid: usize) -> Result<(), FigureError> {
-        let chart = chart.to_owned();
-        let (found, has_data) = match self {
-            Self::Classes(_, cells) => (cells.len(), !cells.is_empty()),
-            Self::Values(_, cells) => (cells.len(), cells.iter().any(Option::is_some)),
+        let (found, has_data, has_classes) = match self {
+            Self::Classes(classes, cells) => {
+                let known = cells.iter().all(|class| *class < classes.len());
+                (cells.len(), !cells.is_empty(), known)
+            }
+            Self::Values(axis, cells) => {
+                axis.check(&axis.label, cells.iter().flatten().copied())?;
+                (cells.len(), cells.iter().any(Option::is_some), true)
+            }
         };
-        if !has_data {
-            return Err(FigureError::Empty(format!("chart \"{chart}\"")));
-        }
-        if found != grid {
-            return Err(FigureError::CellCount { chart, found, grid });
-        }
-        match self {
-            Self::Values(axis, cells) => axis.check(&axis.label, cells.iter().flatten().copied()),
-            Self::Classes(classes, cells) => match cells.iter().position(|class| *class >= classes.len()) {
-                None => Ok(()),
-                Some(index) => {
-                    let class = cells[index];
-                    Err(FigureError::UnknownClass { chart, index, class })
-                }
-            },
+        match (has_data, found == grid && has_classes) {
+            (false, _) => Err(FigureError::Empty(format!("chart \"{chart}\""))),
+            (_, false) => Err(FigureError::BadCells(chart.to_owned())),
+            _ => Ok(()),
         }
     }
 
@@ -57,7 +50,7 @@ impl Cells {
             let ((left, bottom), (right, top)) = (frame.at((x[0], y[0])), frame.at((x[1], y[1])));
             let cell = Rect::between((left, top), (right, bottom));
             match self {
-                Self::Classes(_, cells) => mark::class_cell(drawing, cells[index], cell),
+                Self::Classes(_, cells) => drawing.rectangle(cell, class_colour(cells[index]), 1.0),
                 Self::Values(_, cells) => {
                     if let (Some(value), Some(bar)) = (cells[index], bar) {
                         drawing.rectangle(cell, continuous(bar.scale.share(value)), 1.0);

@@ -56,8 +56,8 @@ impl Chart {
     }
 
     /// A map of cells coloured by class, over axes of [cells](Axis::cells) or [names](Axis::names). `cells` names the class of each
-    /// cell by its index in `classes`, row by row from the lowest, each row along x. Classes look, in turn: blue, vermilion with a
-    /// cross, yellow with a stroke, black, purple with a dot, green with a ring.
+    /// cell by its index in `classes`, row by row from the lowest, each row along x. Classes look, in turn: blue, vermilion, yellow,
+    /// black, purple, green, each of another lightness.
     pub fn of_classes<Name: Into<String>>(
         title: impl Into<String>,
         x: Axis,

@@ -1,7 +1,7 @@
 //! A drawing in px: lines, areas and texts, in the colours of the charts, as elements of an SVG.
 
 use crate::error::FigureError;
-use crate::palette::{Colour, DASHES, GREY, INK, PALETTE, WHITE};
+use crate::palette::{Colour, GREY, INK, PALETTE, WHITE};
 
 /// Size of letters, and of those of titles \[px\].
 pub(crate) const TEXT: f64 = 14.0;
@@ -150,12 +150,6 @@ impl Drawing {
     /// A line through the points, `width` px wide.
     pub fn line(&mut self, points: &[(f64, f64)], ink: Ink, width: f64) {
         self.stroke(points, Stroke::solid(ink.colour(), width));
-    }
-
-    /// A thin dashed line through the points.
-    pub fn dashed(&mut self, points: &[(f64, f64)], ink: Ink) {
-        let (colour, width, dash) = (ink.colour(), 1.0, DASHES[2]);
-        self.stroke(points, Stroke { colour, width, dash });
     }
 
     /// A filled polygon; `opacity` in \[0, 1\].

@@ -7,21 +7,13 @@ pub enum FigureError {
     /// There is nothing to draw in this chart, series or axis.
     #[error("{0} has no data")]
     Empty(String),
-    /// A number is NaN or infinite.
-    #[error("{what}: {value} at index {index} is not a finite number")]
-    NotFinite {
+    /// A number has no place on its axis: it is NaN or infinite, or, where the axis is logarithmic, not above 0.
+    #[error("{what}: {value} at index {index} is not finite, or not above 0 on a logarithmic axis")]
+    NoPlace {
         /// The series, axis or cells.
         what: String,
         /// Index in its data, from 0.
         index: usize,
-        /// The number.
-        value: f64,
-    },
-    /// A logarithmic axis got zero or less.
-    #[error("{what}: a logarithmic axis takes numbers above 0, not {value}")]
-    NotPositive {
-        /// The series, axis or cells.
-        what: String,
         /// The number.
         value: f64,
     },
@@ -35,26 +27,9 @@ pub enum FigureError {
         /// Its end, or the centre that follows.
         to: f64,
     },
-    /// The cells do not fill their grid.
-    #[error("chart {chart}: {found} cells do not fill a grid of {grid}")]
-    CellCount {
-        /// Title of the chart.
-        chart: String,
-        /// Cells given.
-        found: usize,
-        /// Cells of the grid.
-        grid: usize,
-    },
-    /// A cell names a class that does not exist.
-    #[error("chart {chart}: cell {index} is of class {class}, which does not exist")]
-    UnknownClass {
-        /// Title of the chart.
-        chart: String,
-        /// Index of the cell, row by row.
-        index: usize,
-        /// The class it names, from 0.
-        class: usize,
-    },
+    /// The cells of the chart of this title do not fill their grid, or are of a class that does not exist.
+    #[error("chart {0}: cells must fill their grid, each with the index of a class")]
+    BadCells(String),
     /// A text would be cut off or cover another.
     #[error("no room for \"{text}\": about {needed:.0} px needed, {room:.0} px there")]
     NoRoom {

@@ -2,7 +2,7 @@
 
 use crate::drawing::{Anchor, Drawing, Point, Rect, Stroke, TEXT, check_room};
 use crate::error::FigureError;
-use crate::palette::{FINE_GRID, GRID, INK};
+use crate::palette::{GRID, INK};
 use crate::scale::Scale;
 
 /// Length of ticks; labels stand twice as far from the axis \[px\].
@@ -85,20 +85,15 @@ impl Frame {
         Ok(frame)
     }
 
-    /// Lines at the ticks, and finer ones.
+    /// Lines at the ticks.
     fn draw_grid(&self, drawing: &mut Drawing) {
-        let plot = self.plot;
-        let mut lines = |xs: &[f64], ys: &[f64], stroke| {
-            for x in xs.iter().map(|x| self.x(*x)) {
-                drawing.stroke(&[(x, plot.bottom), (x, plot.top)], stroke);
-            }
-            for y in ys.iter().map(|y| self.y(*y)) {
-                drawing.stroke(&[(plot.left, y), (plot.right, y)], stroke);
-            }
-        };
-        let values = |scale: &Scale| -> Vec<f64> { scale.ticks.iter().map(|tick| tick.0).collect() };
-        lines(&self.x.fine, &self.y.fine, Stroke::solid(FINE_GRID, 0.8));
-        lines(&values(&self.x), &values(&self.y), Stroke::solid(GRID, 1.0));
+        let (plot, stroke) = (self.plot, Stroke::solid(GRID, 1.0));
+        for x in self.x.ticks.iter().map(|tick| self.x(tick.0)) {
+            drawing.stroke(&[(x, plot.bottom), (x, plot.top)], stroke);
+        }
+        for y in self.y.ticks.iter().map(|tick| self.y(tick.0)) {
+            drawing.stroke(&[(plot.left, y), (plot.right, y)], stroke);
+        }
     }
 
     /// Where an abscissa lies \[px\].

@@ -2,7 +2,7 @@
 
 use crate::drawing::{Anchor, Drawing, Point, Rect, TEXT, TITLE, check_room};
 use crate::error::FigureError;
-use crate::mark;
+use crate::palette::class_colour;
 use crate::series::Series;
 
 const ROW: f64 = 23.0;
@@ -62,7 +62,7 @@ impl<'a> Legend<'a> {
                 Sample::Series(series) => series.draw_sample(drawing, (x, y), SAMPLE),
                 Sample::Class(index) => {
                     let cell = Rect::around((x + 0.5 * SAMPLE, y), 11.0, 8.0);
-                    mark::class_cell(drawing, *index, cell);
+                    drawing.rectangle(cell, class_colour(*index), 1.0);
                 }
             }
             drawing.text(name, (x + SAMPLE + GAP, y), Anchor::Start);

@@ -1,12 +1,10 @@
-//! Markers of points and marks in cells.
+//! Markers of points.
 
-use crate::drawing::{Drawing, Point, Rect, Stroke};
-use crate::palette::{BLACK, CLASSES, Colour, WHITE};
+use crate::drawing::{Drawing, Point, Stroke};
+use crate::palette::{Colour, WHITE};
 
 /// Half the size of a marker \[px\].
 const RADIUS: f64 = 4.0;
-/// Marks are drawn in cells at least this large \[px\].
-const SMALLEST_CELL: f64 = 7.0;
 
 /// Outlines and strokes around (0, 0), of about the size 1: square, triangle, diamond, triangle on its tip.
 const OUTLINES: [&[Point]; 4] = [
@@ -38,24 +36,5 @@ pub fn marker(drawing: &mut Drawing, index: usize, at: Point, colour: Colour) {
         k @ 1..=4 => drawing.outlined(&placed(OUTLINES[k - 1], at, RADIUS), WHITE, stroke),
         5 => strokes(drawing, at, RADIUS, &[CROSS, PLUS].concat(), stroke),
         _ => strokes(drawing, at, RADIUS, &CROSS, stroke),
-    }
-}
-
-/// Fills a cell with the colour and the mark of the `index`-th class.
-pub fn class_cell(drawing: &mut Drawing, index: usize, cell: Rect) {
-    let look = index % CLASSES.len();
-    drawing.rectangle(cell, CLASSES[look], 1.0);
-    let size = cell.width().min(cell.height());
-    if size < SMALLEST_CELL {
-        return;
-    }
-    let centre = cell.centre();
-    let radius = (0.22 * size).min(6.0);
-    match look {
-        1 => strokes(drawing, centre, radius, &CROSS, Stroke::solid(WHITE, 1.6)),
-        2 => strokes(drawing, centre, radius, &CROSS[1..], Stroke::solid(BLACK, 1.2)),
-        4 => drawing.circle(centre, 0.5 * radius, BLACK, Stroke::solid(BLACK, 0.0)),
-        5 => drawing.circle(centre, 0.8 * radius, CLASSES[look], Stroke::solid(WHITE, 1.4)),
-        _ => {}
     }
 }

@@ -20,23 +20,22 @@ pub(crate) const DASHES: [&str; 7] = [
 ];
 
 /// Fill colours of classes, each of another lightness.
-pub(crate) const CLASSES: [Colour; 6] = [0x56B4E9, 0xD55E00, 0xF0E442, 0x282828, 0xCC79A7, 0x009E73];
+const CLASSES: [Colour; 6] = [0x56B4E9, 0xD55E00, 0xF0E442, 0x282828, 0xCC79A7, 0x009E73];
 
 pub(crate) const WHITE: Colour = 0xFFFFFF;
-pub(crate) const BLACK: Colour = 0x000000;
+const BLACK: Colour = 0x000000;
 /// Axes and their labels.
 pub(crate) const INK: Colour = 0x262626;
 /// References without a colour of their own.
 pub(crate) const GREY: Colour = 0x646464;
 pub(crate) const GRID: Colour = 0xD9D9D9;
-pub(crate) const FINE_GRID: Colour = 0xEEEEEE;
 
 /// On a dark page: the same hues, light enough to stand out from the ground and from each other.
 const DARK_PALETTE: [Colour; 7] = [
     0x4DABE6, 0xFF9141, 0x3CC8A0, 0xE6A0C8, 0xF0BE50, 0x96D2F5, 0xEBEBEB,
 ];
-const OTHERS: [Colour; 5] = [WHITE, INK, GREY, GRID, FINE_GRID];
-const DARK_OTHERS: [Colour; 5] = [0x16191D, 0xE1E4E8, 0xA5AAB0, 0x3E434A, 0x282C32];
+const OTHERS: [Colour; 4] = [WHITE, INK, GREY, GRID];
+const DARK_OTHERS: [Colour; 4] = [0x16191D, 0xE1E4E8, 0xA5AAB0, 0x3E434A];
 
 /// Viridis at every eighth of its length.
 const VIRIDIS: [Colour; 9] = [
@@ -60,6 +59,11 @@ pub fn dark_style() -> String {
     let palette = PALETTE.into_iter().zip(DARK_PALETTE);
     let others = OTHERS.into_iter().zip(DARK_OTHERS);
     palette.chain(others).flat_map(rule).collect()
+}
+
+/// Fill colour of the `index`-th class.
+pub(crate) fn class_colour(index: usize) -> Colour {
+    CLASSES[index % CLASSES.len()]
 }
 
 /// Colour of a share in \[0, 1\].

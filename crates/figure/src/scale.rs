@@ -9,8 +9,6 @@ pub(crate) struct Scale {
     range: (f64, f64),
     logarithmic: bool,
     pub ticks: Vec<Tick>,
-    /// Values of fine grid lines.
-    pub fine: Vec<f64>,
 }
 
 /// Tolerance for ticks on the ends of a range, as a share of the step between ticks.
@@ -19,16 +17,15 @@ const END: f64 = 1e-6;
 impl Scale {
     /// Exactly `range`, with about `count` ticks inside. The range is finite, ascending, and positive if logarithmic.
     pub fn new(range: (f64, f64), logarithmic: bool, count: usize) -> Self {
-        let (values, fine) = if logarithmic {
+        let values = if logarithmic {
             logarithmic_ticks(range, count)
         } else {
-            (linear_ticks(range, count), Vec::new())
+            linear_ticks(range, count)
         };
         Self {
             range,
             logarithmic,
             ticks: labelled(&values, logarithmic),
-            fine,
         }
     }
 
@@ -36,7 +33,6 @@ impl Scale {
     pub fn with_ticks(mut self, ticks: &[Tick]) -> Self {
         let is_inside = |tick: &&Tick| (0.0..=1.0).contains(&self.share(tick.0));
         self.ticks = ticks.iter().filter(is_inside).cloned().collect();
-        self.fine.clear();
         self
     }
 
@@ -109,15 +105,10 @@ fn ten_to(power: f64) -> f64 {
     format!("1e{power}").parse().unwrap_or(f64::NAN)
 }
 
-/// Digits that may lead a number.
-const LEADING: [f64; 9] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
-
-/// Ticks and fine grid lines of a logarithmic axis: ticks at 1, 2 and 5 times powers of ten where that makes few, or decades.
-fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
+/// Ticks of a logarithmic axis: at 1, 2 and 5 times powers of ten where that makes few, or every so many decades.
+fn logarithmic_ticks(range: (f64, f64), count: usize) -> Vec<f64> {
     let (from, to) = range;
-    let decades = (to / from).log10();
-    let first = from.log10().floor() as i32;
-    let last = to.log10().ceil() as i32;
+    let (first, last) = (from.log10().floor() as i32, to.log10().ceil() as i32);
     let inside = |value: &f64| *value >= from * (1.0 - END) && *value <= to * (1.0 + END);
     let at = |factors: &[f64], every: i32| -> Vec<f64> {
         let powers = (first..=last).filter(|power| power.rem_euclid(every) == 0);
@@ -126,15 +117,14 @@ fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
         numbers.filter(inside).collect()
     };
     let few = at(&[1.0, 2.0, 5.0], 1);
-    if few.len() < 2 {
-        return (linear_ticks(range, count), Vec::new());
+    match few.len() {
+        0..2 => linear_ticks(range, count),
+        found if found <= count + 1 => few,
+        _ => {
+            let decades = (to / from).log10() / count.max(1) as f64;
+            at(&[1.0], decades.ceil().max(1.0) as i32)
+        }
     }
-    if few.len() <= count + 1 {
-        return (few, at(&LEADING, 1));
-    }
-    let every = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
-    let fine = if every == 1 { &LEADING[..] } else { &[1.0] };
-    (at(&[1.0], every), at(fine, 1))
 }
 
 /// Ticks with labels, all in one form.
