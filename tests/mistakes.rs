@@ -49,6 +49,7 @@ passes = 20
 /// message | parts of it. What is only hardly meant is a warning.
 const IN_THE_SCENE: &str = r#"
 weight = "110 N/m" → weight = 11 | 0 | 17 | `cable.weight`: 11 without a unit is 11 N/m: did you mean kg/m?
+weight = "110 N/m" → weight = "11 kg/m" | 0 | 17 | `cable.weight`: "11 kg/m" is a mass per length: times g it weighs 107.9 N/m
 axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 0 | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 1000 MN
 axial_stiffness = "60 MN" → axial_stiffness = 8e9 | 0 | 18 | `cable.axial_stiffness` is 8000 MN
 weight = "110 N/m" → weight = "1088 N/m" | 0 | 17 | `cable.weight` is 1088 N/m, but that of power cables is from 5 to 600 N/m
@@ -123,6 +124,7 @@ shape_factor = "7e6 1/m" → shape_factor = "7 x 10^6 1/m" | 2 | 22 | found "7 x
 shape_factor = "7e6 1/m" → # none | 2 | 20 | key `friction.shape_factor` is missing | law = "coulomb" needs none
 passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/°C"¶daily_swing = "20 K" | 2 | 36 | `1/°C` is not a known unit | did you mean `1/K`?
 [traffic] → [vehicles]¶name = "second"¶[traffic] | 2 | 33 | not valid TOML: duplicate key
+weight = "110 N/m" → weight = "11.2 kg/km" | 0 | 17 | `cable.weight`: "11.2 kg/km" is a mass per length: times g it weighs 0.1098 N/m
 axial_stiffness = "60 MN" → young_modulus = "75 GPa" | 2 | 16 | key `cable.conductor_area` is missing | an area | mm2
 axial_stiffness = "60 MN" → conductor_area = "800 mm2" | 2 | 16 | key `cable.young_modulus` is missing
 axial_stiffness = "60 MN" → axial_stiffness = "60 MN"¶young_modulus = "75 GPa" | 2 | 19 | both `axial_stiffness` and `young_modulus` | only one of the two
@@ -220,6 +222,7 @@ order = "random"¶seed = 7 → sequence = "truck" | 2 | 54 | `traffic.sequence`:
 seed = 7 → seed = 7¶sequence = ["van"] | 2 | 56 | both `order` and `sequence`
 order = "random" → sequence = ["van"] | 2 | 55 | `traffic.seed`: found 7 with `sequence` = ["van"]
 name = "van" → name = "truck" | 2 | 43 | `vehicles.1.name` (vehicle 2): found "truck"; allowed: a name
+name = "van" → name = "" | 2 | 43 | `vehicles.1.name` (vehicle 2): found ""; allowed: a name
 name = "van" → name = " " | 2 | 43 | `vehicles.1.name` (vehicle 2): found " "; allowed: a name
 method = "explicit" → method = "quasi-static" | 2 | 61 | `solver.time_step` | with `method` = "quasi-static" | "explicit"
 method = "explicit" → method = "pass-law" | 2 | 61 | `solver.time_step` | with `method` = "pass-law"

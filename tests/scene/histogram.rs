@@ -234,6 +234,10 @@ fn a_bad_table_is_refused_with_its_line() {
             "load from [kN],load to [kN],count\n40,50,3\n",
             &["axles.csv:1: a second column load to"],
         ),
+        (
+            "load [kN];count\n50;75 %\n100;25\n",
+            &["axles.csv:3: count: found \"25\"", "beside others in %"],
+        ),
         ("load [m],count\n40,3\n", &["load [m]: found \"40\"", "a force"]),
         (
             "load,count,contact_radius\n5 kN,1,1 km\n",

@@ -158,11 +158,18 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
         let label = row.cells.iter().find(|cell| !cell.is_empty());
         label.is_some_and(|label| LAYOUT.name(label, &Options::default()).has(TOTAL))
     };
+    let rows: Vec<&Row> = table.rows.iter().filter(|row| !is_sum(row)).collect();
+    let is_percent = |row: &&&Row| row.cell(count).contains('%');
+    let bare = rows.iter().find(|row| !is_percent(row));
+    if let (Some(row), true) = (bare, rows.iter().any(|row| is_percent(&row))) {
+        let found = format!("count: found \"{}\" beside others in %", row.cell(count));
+        return Err(table.wrong(row.line, found, "all in %, or none"));
+    }
     let is_grouped = table.names.iter().any(|name| name.has(GROUP));
     let axle = if is_grouped { AXLE_GROUP } else { AXLE };
     // The heaviest axle, and its line.
     let (mut axles, mut heaviest) = (Vec::new(), (0.0, table.line));
-    for row in table.rows.iter().filter(|row| !is_sum(row)) {
+    for row in rows {
         let value = |column| table.value(row, column, column);
         let (share, load) = (value(count)?, value(load)?);
         let contact_radius = radius.map_or(Ok(0.0), value)?;

@@ -155,8 +155,10 @@ impl Stored for u64 {
 
 impl Stored for String {
     fn read(given: &Given) -> Result<Self> {
-        let text = given.node.content.as_text().map(str::to_owned);
-        text.ok_or_else(|| given.of_other_kind())
+        let is_name = matches!(given.form, Form::Text(allowed) if allowed.starts_with("a name"));
+        let text = given.node.content.as_text();
+        let text = text.filter(|text| !(is_name && text.trim().is_empty()));
+        text.map(str::to_owned).ok_or_else(|| given.of_other_kind())
     }
 
     fn write(&self, _: Form) -> Content {

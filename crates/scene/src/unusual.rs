@@ -13,6 +13,7 @@ use crate::location::counted;
 use crate::names::si_unit;
 use crate::scene::Scene;
 use crate::shown::four_digits;
+use crate::units::Dimension;
 use crate::vehicle::TrafficVehicle;
 
 /// A key, the usual range of its values \[SI\], the unit in which they are shown with its size, and what is to be said beyond.
@@ -94,10 +95,12 @@ fn of(key: &str, words: &str) -> String {
 }
 
 /// Values that are unusual together: whether they are, and what is to be said.
-fn together(scene: &Scene) -> [(bool, String); 8] {
+fn together(scene: &Scene) -> [(bool, String); 9] {
     // Depths between the vehicle's axis and the duct's beyond which a duct hardly moves; years that no road is old.
     const FARTHEST: f64 = 10.0;
     const OLDEST: f64 = 200.0;
+    // Weight of a vehicle on many wheels [N] that is more than any road bears.
+    const HEAVIEST: f64 = 5e6;
     let (duct, ground, vehicles) = (&scene.duct, &scene.ground, &scene.vehicles);
     let [depth, length] = [duct.depth, duct.length].map(four_digits);
     let rock = ground.rigid_base_depth.unwrap_or(INFINITY);
@@ -107,6 +110,9 @@ fn together(scene: &Scene) -> [(bool, String); 8] {
     let name = |found: Option<&TrafficVehicle>| found.map_or("", |vehicle| &vehicle.name).to_owned();
     let is_far = |vehicle: &&TrafficVehicle| scene.offset_from(vehicle).abs() > FARTHEST * duct.depth;
     let far = vehicles.iter().find(is_far);
+    let heavy = vehicles
+        .iter()
+        .find(|vehicle| vehicle.weight() > HEAVIEST && !vehicle.wheels.is_empty());
     let between = vehicles.iter().find(|vehicle| is_between_wheels(scene, vehicle));
     let mut pairs = vehicles.windows(2);
     let other_lane = pairs.any(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
@@ -118,6 +124,8 @@ fn together(scene: &Scene) -> [(bool, String); 8] {
             format!("`duct.depth` is {depth} m, more than the duct is long, {length} m: were they exchanged?")),
         (far.is_some(), format!("`duct.lateral_offset`: the lane of \"{}\" is {} m from the duct, more than {FARTHEST} times the depth: the \
             duct hardly moves there", name(far), far.map_or(0.0, |vehicle| scene.offset_from(vehicle).abs()))),
+        (heavy.is_some(), format!("`vehicles`: \"{}\" weighs {:.0} t on all its wheels, more than any vehicle on a road", name(heavy),
+            heavy.map_or(0.0, TrafficVehicle::weight) / 9806.65)),
         (between.is_some(), format!("`duct.depth` is {depth} m between the wheels of \"{}\", which are farther to either side: so shallow, \
             the ground moves toward a wheel and not away from it, and the cable may creep backward", name(between))),
         (ground.longitudinal_peak.is_some() && other_lane,
@@ -176,10 +184,16 @@ fn contrast(scene: &Scene) -> Option<String> {
 }
 
 /// The warning for a number without a unit that was meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h, and for
-/// decimals that may be thousands, `passes = 292.000`.
+/// decimals that may be thousands, `passes = 292.000`, and for a mass that stands for a weight.
 pub fn slip(key: &str, node: &Node) -> Option<String> {
-    let (value, found) = (node.content.as_number()?, &node.written);
-    let name = key.rsplit('.').next()?;
+    let (name, found) = (key.rsplit('.').next()?, &node.written);
+    if let (Some(text), "weight") = (node.content.as_text(), name) {
+        let is_mass = text.to_lowercase().replace("kgf", "").contains("kg");
+        let weight = four_digits(Dimension::Weight.parse(text).ok()?);
+        let words = format!(": {found} is a mass per length: times g it weighs {weight} N/m");
+        return is_mass.then(|| of(key, &words));
+    }
+    let value = node.content.as_number()?;
     let is_meant = |bare: &&Bare| bare.0 == name && (bare.1..=bare.2).contains(&value);
     let meant = found.replace('.', "");
     let words = match BARE.iter().find(is_meant) {
