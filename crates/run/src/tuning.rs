@@ -90,8 +90,10 @@ pub mod periods {
     /// It has at least so many vehicles: in shorter ones too few of those follow each other that do
     /// in the traffic, and its largest forces are missed.
     pub const LEAST: usize = 100;
-    /// A mix that has the shares exactly is taken where it is at most so long: a near one is
-    /// compared with another, and hardly shows which vehicles follow each other in the traffic.
+    /// A mix that has the shares exactly is taken where it is at most so many times as long as a
+    /// near one, or so short: a near one is compared with another, and hardly shows which vehicles
+    /// follow each other in the traffic.
+    pub const EXACT: usize = 2;
     pub const SHORT: usize = 600;
 }
 

@@ -3,7 +3,7 @@
 use cable_dem::{Order, Traffic};
 
 use crate::Error;
-use crate::tuning::periods::{LEAST, NEAR, SHORT};
+use crate::tuning::periods::{EXACT, LEAST, NEAR, SHORT};
 
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
@@ -34,18 +34,16 @@ impl Mix {
     }
 
     /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has
-    /// them exactly, or the first that is near, or the nearest.
+    /// them exactly, if that is not too long; or the first that is near, or the nearest.
     pub fn best(shares: &[f64], most: usize) -> Self {
         let all = (1..=most).map(|length| Self::nearest(shares, length));
         let all = all.filter(|mix| mix.len() <= most);
-        let exact = all.clone().take(SHORT).find(|mix| mix.is_exact);
         let is_near = |mix: &Self| mix.distance() <= NEAR && mix.len() >= LEAST;
-        let near = || all.clone().find(is_near);
-        let nearest = || nearest_of(all.clone());
-        exact
-            .or_else(near)
-            .or_else(nearest)
-            .unwrap_or_else(|| Self::nearest(shares, most))
+        let near = all.clone().find(is_near).or_else(|| nearest_of(all.clone()));
+        let near = near.unwrap_or_else(|| Self::nearest(shares, most));
+        let longest = SHORT.max(EXACT * near.len());
+        let exact = all.take(longest).find(|mix| mix.is_exact);
+        exact.unwrap_or(near)
     }
 
     /// A mix of at most `most` vehicles on the other side of the wanted shares, or at least another
