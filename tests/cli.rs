@@ -1818,10 +1818,10 @@ fn the_output_in_the_readme_is_the_output() {
     let shown = blocks(&readme, "text");
     let shown = shown.first().expect("the output of the main job");
     let printed = printed(&["run", UPPER]);
-    assert!(shown.contains("Saturated force: "));
+    assert!(shown.contains("saturation: "));
     assert_eq!(shown.lines().count(), printed.trim_end().lines().count());
     for (shown, printed) in shown.lines().zip(printed.lines()) {
-        if ["Estimated error", "Ground", "  ground", "  from runs"]
+        if ["estimated error", "Ground", "  ground", "  from runs"]
             .iter()
             .any(|start| printed.starts_with(start))
         {

@@ -179,7 +179,8 @@ fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
     }
     writeln!(out)?;
     for Fact { name, value, note } in answer.facts() {
-        writeln!(out, "{name}: {value}, {note}")?;
+        let (initial, rest) = name.split_at(1);
+        writeln!(out, "{}{rest}: {value}, {note}", initial.to_lowercase())?;
     }
     let more = [answer.by_turns(), answer.heat().unwrap_or_default()];
     for sentence in more.iter().filter(|sentence| !sentence.is_empty()) {

@@ -115,7 +115,7 @@ impl Answer<'_> {
         let time = time(reached).map_or_else(String::new, |time| format!("{time}; "));
         let time = format!("{time}{} computed", count(last.pass));
         let reached = fact("Passes to 95 % of it", count(reached), time);
-        [level.fact("Saturated force", reader), reached, largest]
+        [level.fact("Saturation", reader), reached, largest]
     }
 
     /// The clamp that is pressed hardest.
