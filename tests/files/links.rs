@@ -96,7 +96,7 @@ fn devices_and_pipes_are_written_as_they_are() {
     );
     let both = String::from_utf8(folder.read("both")).expect("UTF-8");
     assert!(
-        both.starts_with("pass,") && both.contains("\nSmall\n") && both.contains("Estimated error"),
+        both.starts_with("pass,") && both.contains("\nSmall\n") && both.contains("estimated error"),
         "{both}"
     );
 

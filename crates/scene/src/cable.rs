@@ -5,11 +5,11 @@ use cable_dem::FrictionLaw;
 use crate::arrangement::Arrangement;
 use crate::error::{Result, SceneError};
 use crate::key::Form::Number;
-use crate::key::keys;
 use crate::range::{
     AXIAL_STIFFNESS, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, Quantity,
     SHAPE_FACTOR, WEIGHT,
 };
+use crate::section::keys;
 use crate::shown::shown;
 use crate::words::file_words;
 

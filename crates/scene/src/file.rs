@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
-use crate::content::{Content, Node, Place};
+use crate::content::{Content, Node};
+use crate::document::Document;
 use crate::error::{Result, SceneError};
 use crate::key::{Form, Section};
 use crate::location::Location;
@@ -34,17 +35,7 @@ const SCENE: Form = Form::Table(Scene::KEYS);
 /// ```
 #[derive(Debug, Clone)]
 pub struct SceneFile {
-    /// The file, and behind it presets and overrides as they are named.
-    sources: Vec<Source>,
-    pub(crate) root: Node,
-}
-
-/// The text of the file, of an override or of a preset.
-#[derive(Debug, Clone)]
-pub(crate) struct Source {
-    pub name: String,
-    pub text: String,
-    pub is_preset: bool,
+    document: Document,
 }
 
 impl SceneFile {
@@ -75,11 +66,10 @@ impl SceneFile {
     ///
     /// As for [`SceneFile::read`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self> {
-        let (sources, root) = (Vec::new(), Content::Table(entries_of(name, text, 0)?).into());
-        let mut file = Self { sources, root };
-        file.add(name.to_owned(), text, false);
-        preset::expand(&mut file)?;
-        Ok(file)
+        let mut document = Document::new(Content::Table(entries_of(name, text, 0)?).into());
+        document.add(name.to_owned(), text, false);
+        preset::expand(&mut document)?;
+        Ok(Self { document })
     }
 
     /// The file with each `KEY=VALUE` of `overrides` set in turn.
@@ -90,15 +80,15 @@ impl SceneFile {
     pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self> {
         let mut file = self.clone();
         for text in overrides {
-            overrides::apply(&mut file, text.as_ref())?;
-            preset::expand(&mut file)?;
+            overrides::apply(&mut file.document, text.as_ref())?;
+            preset::expand(&mut file.document)?;
         }
         Ok(file)
     }
 
     /// The text of the file, without what was set on top of it.
     pub fn text(&self) -> &str {
-        &self.sources[0].text
+        &self.document.sources[0].text
     }
 
     /// The scene.
@@ -108,54 +98,54 @@ impl SceneFile {
     /// [`SceneError`] with the first thing that is wrong, and where.
     pub fn scene(&self) -> Result<Scene> {
         let read = || {
-            let mut scene = Scene::read(&given(&self.root))?;
-            scene.resolve(&self.sources[0].name)?;
+            let mut scene = Scene::read(&given(&self.document.root))?;
+            scene.resolve(&self.document.sources[0].name)?;
             rules::check(&scene)?;
             Ok(scene)
         };
-        read().map_err(|error| self.located(error))
+        read().map_err(|error| self.document.located(error))
     }
 
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
-        let (node, _) = self.find(key);
-        (node.place != self.root.place).then(|| self.location(&node.place))
+        let (node, _) = self.document.find(key);
+        (node.place != self.document.root.place).then(|| self.document.location(&node.place))
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
         let mut found = Vec::new();
-        self.root.each_value("", &mut |key, node| {
+        self.document.root.each_value("", &mut |key, node| {
             let words = unusual::slip(key, node);
-            found.extend(words.map(|words| (self.location(&node.place), words)));
+            found.extend(words.map(|words| (self.document.location(&node.place), words)));
         });
         found
     }
 
     /// Whether the file, an override or a preset gives `key` a value.
     pub fn names(&self, key: &str) -> bool {
-        self.find(key).1
+        self.document.find(key).1
     }
 
     /// The table of axle loads that the scene reads too, if it names one.
     pub fn histogram(&self) -> Option<PathBuf> {
-        let (node, true) = self.find("traffic.histogram") else {
+        let (node, true) = self.document.find("traffic.histogram") else {
             return None;
         };
         let text = node.content.get("file").unwrap_or(node).content.as_text();
-        text.map(|text| histogram::beside(&self.sources[0].name, text))
+        text.map(|text| histogram::beside(&self.document.sources[0].name, text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
     pub fn typed(&self) -> Vec<Typed> {
         let mut found = Vec::new();
-        self.root.each_value("", &mut |key, node| {
+        self.document.root.each_value("", &mut |key, node| {
             let number = || node.content.as_number().map(|number| number.to_string());
             let text = node.content.as_text().map(str::to_owned).or_else(number);
             found.push(Typed {
                 key: key.to_owned(),
                 text: text.unwrap_or_else(|| node.written.clone()),
-                source: self.source(node).name.clone(),
+                source: self.document.source(node).name.clone(),
             });
         });
         found
@@ -163,65 +153,9 @@ impl SceneFile {
 
     /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
     pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
-        let (node, is_value) = self.find(key);
-        let is_typed = is_value && !self.source(node).is_preset;
+        let (node, is_value) = self.document.find(key);
+        let is_typed = is_value && !self.document.source(node).is_preset;
         dimension.unit_of(node.content.as_text().filter(|_| is_typed)?)
-    }
-
-    /// Adds a text: its number.
-    pub(crate) fn add(&mut self, name: String, text: &str, is_preset: bool) -> usize {
-        let text = text.to_owned();
-        self.sources.push(Source {
-            name,
-            text,
-            is_preset,
-        });
-        self.sources.len() - 1
-    }
-
-    /// The text in which a value stands.
-    pub(crate) fn source(&self, node: &Node) -> &Source {
-        &self.sources[node.place.source]
-    }
-
-    /// The value of `key`, or else the section that would hold it; and whether it is the value.
-    fn find(&self, key: &str) -> (&Node, bool) {
-        let mut node = &self.root;
-        for segment in key.split('.') {
-            match node.content.get(segment) {
-                Some(inner) => node = inner,
-                None => return (node, false),
-            }
-        }
-        (node, true)
-    }
-
-    /// A place as a message shows it.
-    pub(crate) fn location(&self, place: &Place) -> Location {
-        let Source { name, text, .. } = &self.sources[place.source];
-        if *place != self.root.place {
-            return Location::new(name, text, place.bytes.clone(), place.source == 0);
-        }
-        // What the top level lacks would be added at the end, but is not on its last line.
-        let end = text.trim_end().len();
-        Location {
-            text: String::new(),
-            marked: 0..0,
-            ..Location::new(name, &text[..end], end..end, true)
-        }
-    }
-
-    /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
-    pub(crate) fn located(&self, error: SceneError) -> SceneError {
-        let SceneError::Wrong(mut wrong) = error else {
-            return error;
-        };
-        let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
-        let entry = self.find(section).0.content.entry(key);
-        let unknown = entry.filter(|_| wrong.is_unknown);
-        let place = unknown.map_or(&self.find(&wrong.key).0.place, |entry| &entry.place);
-        wrong.location = Some(self.location(place));
-        SceneError::Wrong(wrong)
     }
 }
 

@@ -5,10 +5,11 @@ use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 use crate::content::Content;
 use crate::error::Result;
 use crate::key::Form::{Either, List, Number, Table};
-use crate::key::{Form, Key, keys};
+use crate::key::{Form, Key};
 use crate::range::{
     LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, VERTICAL_PEAK,
 };
+use crate::section::keys;
 use crate::stored::{Given, Stored};
 use crate::words::file_words;
 

@@ -1,8 +1,8 @@
 //! `[heat]`: how warm the cable gets every day.
 
 use crate::key::Form::{List, Number};
-use crate::key::keys;
 use crate::range::{EXPANSION, OFFSET, SWING, TEMPERATURE, TIME_OF_DAY};
+use crate::section::keys;
 
 keys! {
     /// Heat of the cable: how much it expands, and how warm it is over a day that repeats; in SI. It has a swing or a profile.

@@ -8,17 +8,6 @@ use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::scene::Scene;
 
-/// Words and symbols of the field for what a scene calls otherwise.
-#[rustfmt::skip]
-const SYNONYMS: &[(&str, &str)] = &[
-    ("alpha", "expansion"), ("anchors", "restraints"), ("clamp", "restraints"), ("clamps", "restraints"),
-    ("area", "conductor_area"), ("coefficient", "dynamic_coefficient"), ("conduit", "duct"), ("days", "years"),
-    ("e", "young_modulus"), ("ea", "axial_stiffness"), ("end", "downstream"), ("friction_coefficient", "dynamic_coefficient"),
-    ("gradient", "slope"), ("left", "upstream"), ("mass", "weight"), ("mu", "dynamic_coefficient"), ("nu", "poisson_ratio"),
-    ("bend", "bend_radius"), ("pavement", "ground"), ("pipe", "duct"), ("radius", "bend_radius"), ("right", "downstream"), ("road", "ground"), ("sections", "route"), ("soil", "ground"),
-    ("soils", "ground"), ("start", "upstream"), ("trucks", "vehicles"), ("velocity", "speed"),
-];
-
 /// What a key of a scene means.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 #[non_exhaustive]
@@ -92,17 +81,14 @@ pub fn si_unit(key: &str) -> Option<&'static str> {
     MEANINGS.iter().find(|meaning| keys.contains(&meaning.key))?.unit
 }
 
-/// What was probably meant by an unknown key beside the `allowed` ones: another word for one of them, a near miss, or a key of another
-/// section; and words if it belongs above them all.
-pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> (Option<&'k str>, &'static str) {
-    let word = key.to_lowercase();
-    let is_synonym = |(other, name): &&(&str, &str)| *other == word && allowed.contains(name);
-    let synonym = SYNONYMS.iter().find(is_synonym).map(|(_, name)| *name);
-    let meant = synonym.or_else(|| nearest(key, allowed.iter().copied()));
-    let meant = meant.or_else(|| known().find(|other| last(other) == key));
-    let is_outermost = Scene::KEYS.iter().any(|other| other.name == key);
-    let elsewhere = is_outermost.then_some("; it stands above the first section, or for itself");
-    (meant, elsewhere.unwrap_or_default())
+/// A key of another section that is called like an unknown one; and words if it belongs above all sections.
+pub fn elsewhere(name: &str) -> (Option<&'static str>, &'static str) {
+    let is_outermost = Scene::KEYS.iter().any(|other| other.name == name);
+    let words = is_outermost.then_some("; it stands above the first section, or for itself");
+    (
+        known().find(|other| last(other) == name),
+        words.unwrap_or_default(),
+    )
 }
 
 #[cfg(test)]

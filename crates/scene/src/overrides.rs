@@ -3,8 +3,8 @@
 use toml::de::DeTable;
 
 use crate::content::{Content, Entry, Node, Place, joined};
+use crate::document::Document;
 use crate::error::{Result, SceneError};
-use crate::file::SceneFile;
 use crate::parsed::node;
 use crate::rivals::gives_way;
 
@@ -15,7 +15,7 @@ const DEEPEST: usize = 8;
 type Refused = (String, String);
 
 /// Sets one key of the file, or removes it if the value is empty.
-pub fn apply(file: &mut SceneFile, text: &str) -> Result<()> {
+pub fn apply(file: &mut Document, text: &str) -> Result<()> {
     let source = file.add(format!("--set {text}"), text, false);
     let key = text.split('=').next().unwrap_or_default();
     let bytes = 0..key.len();

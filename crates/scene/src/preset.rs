@@ -3,8 +3,8 @@
 //! Keys given next to a preset override it, whichever stands first. A preset that an override names later wins over what was written before it.
 
 use crate::content::{Content, Entry, Node, joined};
+use crate::document::Document;
 use crate::error::Result;
-use crate::file::SceneFile;
 use crate::key::Form;
 use crate::parsed::entries_of;
 use crate::presets::{Preset, of_section};
@@ -13,7 +13,7 @@ use crate::shown::listed;
 use crate::stored::Given;
 
 /// Puts the values of presets into the sections that name one.
-pub fn expand(file: &mut SceneFile) -> Result<()> {
+pub fn expand(file: &mut Document) -> Result<()> {
     let mut root = file.root.clone();
     if let Content::Table(sections) = &mut root.content {
         for Entry { key, value, .. } in sections {
@@ -33,7 +33,7 @@ pub fn expand(file: &mut SceneFile) -> Result<()> {
     Ok(())
 }
 
-fn fill(file: &mut SceneFile, path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
+fn fill(file: &mut Document, path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
     let Content::Table(entries) = &mut section.content else {
         return Ok(());
     };

@@ -1,8 +1,8 @@
 //! `[[route]]`: a duct that slopes, bends or rubs otherwise on some of its length.
 
 use crate::key::Form::Number;
-use crate::key::keys;
 use crate::range::{BEND_RADIUS, COEFFICIENT, SECTION_LENGTH, SLOPE};
+use crate::section::keys;
 
 keys! {
     /// A section of the duct, in SI; the first begins at x = 0.

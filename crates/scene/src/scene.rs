@@ -10,11 +10,12 @@ use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
 use crate::key::Form::{Either, List, Number, Table, Text, Words};
-use crate::key::{Form, Key, keys};
+use crate::key::{Form, Key};
 use crate::range::{
     CLAMP, DEPTH, DUCT_LENGTH, HOLDS, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING,
 };
 use crate::route::RouteSection;
+use crate::section::keys;
 use crate::solver::Solver;
 use crate::stored::{Given, Stored, entry};
 use crate::traffic::{Following, Traffic};

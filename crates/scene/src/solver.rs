@@ -1,8 +1,8 @@
 //! `[solver]`: how to compute.
 
 use crate::key::Form::Number;
-use crate::key::keys;
 use crate::range::{APPROACH, STEP, TIME_STEP, TOLERANCE};
+use crate::section::keys;
 use crate::words::file_words;
 
 keys! {

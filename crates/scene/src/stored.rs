@@ -3,10 +3,10 @@
 use crate::content::{Content, Entry, Node, joined, other_name};
 use crate::error::{Result, SceneError, did_you_mean};
 use crate::key::{Form, Key};
-use crate::names::meant_by;
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::rivals::contradiction;
+use crate::synonym::meant_by;
 use crate::units::Dimension;
 
 /// A type whose values stand in a file.
@@ -90,8 +90,11 @@ fn form_of(keys: &[Key], name: &str) -> Form {
 
 fn unknown_key(entry: &Entry, keys: &[Key], path: &str) -> SceneError {
     let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
-    let (meant, elsewhere) = meant_by(&entry.key, &names);
-    SceneError::unknown(&joined(path, &entry.key), meant, names.join(", ") + elsewhere)
+    SceneError::unknown(
+        &joined(path, &entry.key),
+        meant_by(&entry.key, &names),
+        names.join(", "),
+    )
 }
 
 /// The entry of a table for a value, unless it counts without one.

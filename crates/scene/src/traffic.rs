@@ -3,8 +3,8 @@
 use crate::error::{Result, SceneError};
 use crate::histogram::{HISTOGRAM, Histogram};
 use crate::key::Form::{List, Number, Text};
-use crate::key::keys;
 use crate::range::{ANY_WHOLE, PASSES, PER_DAY, SPEED, YEARS};
+use crate::section::keys;
 use crate::shown::shown;
 use crate::words::file_words;
 
