@@ -10,9 +10,9 @@ mod record;
 mod request;
 mod rounds;
 mod scale;
+mod simulation;
 mod slope;
 mod tuning;
-mod walk;
 mod within_jump;
 
 pub use error::JumpError;

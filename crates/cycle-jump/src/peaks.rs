@@ -51,10 +51,19 @@ pub fn peaks(records: &[Record], mut others: Vec<Record>) -> Vec<Record> {
 
 /// The places of a `period` whose passes show the largest of some force or movement.
 pub fn largest_places(period: &Period) -> BTreeSet<usize> {
-    let all: Vec<Vec<f64>> = period.outcomes().iter().map(values).collect();
-    let kinds = all.first().map_or(0, Vec::len);
-    let largest = |kind: usize| (0..all.len()).max_by(|a, b| all[*a][kind].total_cmp(&all[*b][kind]));
-    (0..kinds).filter_map(largest).collect()
+    let mut largest: Vec<(f64, usize)> = Vec::new();
+    for (place, outcome) in period.outcomes().iter().enumerate() {
+        let values = values(outcome);
+        largest.resize(values.len(), (f64::NEG_INFINITY, place));
+        for (largest, value) in largest.iter_mut().zip(values) {
+            *largest = if value >= largest.0 {
+                (value, place)
+            } else {
+                *largest
+            };
+        }
+    }
+    largest.into_iter().map(|(_, place)| place).collect()
 }
 
 /// Raises each of `most` to the one of `values`; what is missing begins with zero.
@@ -68,18 +77,27 @@ fn raise(most: &mut Vec<f64>, values: &[f64]) {
 /// Movements and forces of which the largest counts, each with both signs.
 fn values(outcome: &PassOutcome) -> Vec<f64> {
     let (force, peak, lowest) = (outcome.force, outcome.peak, outcome.lowest);
-    let single = |value: f64| [value, value];
-    let alone = [
-        single(outcome.upstream_displacement),
-        single(outcome.downstream_displacement),
-        single(force.upstream),
-        single(force.downstream),
-        [lowest.upstream, peak.upstream],
-        [lowest.downstream, peak.downstream],
-        [-outcome.max_tension, outcome.max_compression],
+    let ends = [outcome.upstream_displacement, outcome.downstream_displacement];
+    let rest = [force.upstream, force.downstream];
+    let signed = ends
+        .into_iter()
+        .chain(rest)
+        .chain(outcome.restraints.iter().copied());
+    let during = [
+        peak.upstream,
+        peak.downstream,
+        -lowest.upstream,
+        -lowest.downstream,
     ];
-    let on_clamps = outcome.restraints.iter().map(|force| single(*force));
-    let ranges = alone.into_iter().chain(on_clamps);
-    let ranges = ranges.chain(outcome.restraint_ranges.iter().copied());
-    ranges.flat_map(|[least, most]| [-least, most]).collect()
+    let on_clamps = outcome
+        .restraint_ranges
+        .iter()
+        .flat_map(|[least, most]| [-least, *most]);
+    let inside = [outcome.max_compression, outcome.max_tension];
+    signed
+        .flat_map(|value| [value, -value])
+        .chain(during)
+        .chain(on_clamps)
+        .chain(inside)
+        .collect()
 }

@@ -20,6 +20,8 @@ pub struct Evolution {
     /// other simulated ones, and within jumps some of the vehicles that make the largest forces and
     /// movements: candidates for [`peaks`](crate::peaks).
     pub records: Vec<Record>,
+    /// What each pass of the last whole period did; empty where nothing was jumped.
+    pub period: Vec<PassOutcome>,
     /// The cable after the last pass.
     pub state: CableState,
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
@@ -43,12 +45,4 @@ pub struct Beyond {
     pub records: Vec<Record>,
     /// What each pass of a period does once the forces no longer change from period to period.
     pub period: Vec<PassOutcome>,
-}
-
-/// The cable at rest after a pass alone, without peaks and heat during it.
-pub fn left_by(outcome: &PassOutcome) -> PassOutcome {
-    let mut left = outcome.clone();
-    (left.peak, left.lowest, left.dissipated) = (left.force, left.force, 0.0);
-    left.restraint_ranges = left.restraints.iter().map(|force| [*force; 2]).collect();
-    left
 }

@@ -1,8 +1,9 @@
 //! Rounds of a few vehicles that follow each other again and again within a long period.
 
-use crate::tuning::LONGEST_ROUND;
+use crate::scale::Scale;
+use crate::tuning::{LONGEST_ROUND, ROUND_TAIL};
 
-/// Fewest rounds in a row: some show that they settle, and the last is simulated in any case.
+/// Fewest rounds in a row: three show that they settle, and the last is simulated in any case.
 const MIN_ROUNDS: usize = 5;
 
 /// Some passes of a period, in their order: `times` rounds of `round` vehicles.
@@ -47,6 +48,29 @@ pub fn rounds(order: &[usize]) -> Vec<Rounds> {
 fn times(order: &[usize], round: usize) -> usize {
     let differs = (round..order.len()).find(|&place| order[place] != order[place - round]);
     differs.unwrap_or(order.len()) / round
+}
+
+/// How rounds change the cable less and less.
+#[derive(Debug, Default)]
+pub struct Settling {
+    last: Option<Scale>,
+    was_settled: bool,
+}
+
+impl Settling {
+    /// Whether, after a round with this `change`, the rounds `left` change forces and movements by
+    /// less than the share `allowed`; two rounds in a row have to show it.
+    pub fn is_settled(&mut self, change: Scale, left: usize, allowed: f64) -> bool {
+        let to_come = |now: f64, last: f64| {
+            let ratio = if last > 0.0 { now / last } else { 0.0 };
+            now * (left as f64).min(ROUND_TAIL / (1.0 - ratio).max(f64::MIN_POSITIVE))
+        };
+        let is_settled = self.last.is_some_and(|last| {
+            to_come(change.force, last.force) <= allowed && to_come(change.movement, last.movement) <= allowed
+        });
+        self.last = Some(change);
+        std::mem::replace(&mut self.was_settled, is_settled) && is_settled
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,6 @@ use cable_dem::{CableError, CableState, PassOutcome, RestingCable};
 
 use crate::flow::Flow;
 use crate::period::{Period, phase_of, remove_mean};
-use crate::record::left_by;
 
 /// Passes of a vehicle within a jump are computed so far apart, as a ratio of their numbers. Forces
 /// change on the scale of that number: between two such passes they differ from a straight line by
@@ -83,21 +82,26 @@ impl JumpInterval<'_> {
         Ok(outcomes)
     }
 
-    /// What `pass` did: the cable at rest after it, with what the same pass of both periods did
-    /// beside that.
+    /// What `pass` did: the cable at rest after it, with peaks and heat between those of the same
+    /// pass of both periods.
     fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
         let (state, whole) = self.state(cable, pass)?;
-        let rest = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
+        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
         let phase = phase_of(pass, self.before.len());
         let share = self.time(pass) / self.length as f64;
         let [before, after] = [self.before, self.after].map(|period| &period.phase(phase).outcome);
-        let left = [before, after].map(left_by);
-        Ok(PassOutcome::combined(&[
-            (1.0, &rest),
-            (1.0 - share, before),
-            (share - 1.0, &left[0]),
-            (share, after),
-            (-share, &left[1]),
-        ]))
+        let between = |of: fn(&PassOutcome) -> f64| (1.0 - share) * of(before) + share * of(after);
+        outcome.peak.upstream += between(|o| o.peak.upstream - o.force.upstream);
+        outcome.peak.downstream += between(|o| o.peak.downstream - o.force.downstream);
+        outcome.lowest.upstream += between(|o| o.lowest.upstream - o.force.upstream);
+        outcome.lowest.downstream += between(|o| o.lowest.downstream - o.force.downstream);
+        for (clamp, range) in outcome.restraint_ranges.iter_mut().enumerate() {
+            for (side, force) in range.iter_mut().enumerate() {
+                let beyond = |o: &PassOutcome| o.restraint_ranges[clamp][side] - o.restraints[clamp];
+                *force += (1.0 - share) * beyond(before) + share * beyond(after);
+            }
+        }
+        outcome.dissipated = between(|o| o.dissipated);
+        Ok(outcome)
     }
 }

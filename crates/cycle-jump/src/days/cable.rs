@@ -1,9 +1,8 @@
-//! The cable through the events of its days.
+//! The cable through the events of a day.
 
-use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable};
 
-use super::calendar::Calendar;
-use super::day::{Act, Event};
+use super::day::{Act, Day, Event};
 use super::law::LockedLaw;
 use super::step::{LongStep, STAGES};
 use crate::error::wrap;
@@ -13,19 +12,17 @@ use crate::{JumpError, Next};
 
 /// Does what happens; its pass is the caller's.
 pub struct DailyCable<'a, P> {
-    calendar: &'a Calendar<'a>,
+    day: &'a Day,
     cable: RestingCable,
     pub step: LongStep,
     pass: P,
     /// The cable before the last simulated period, if no step has used that period yet.
     before: Option<CableState>,
-    /// What the last two simulated periods before steps have shown on this day, the later one first.
+    /// What the last two simulated periods before steps have shown, the later one first.
     measured: [Option<Measured>; 2],
-    /// The cable when it was hottest and coldest on the day under way, and after the last pass, or
-    /// before there is any.
-    pub hot: CableState,
-    pub cold: CableState,
-    pub end: CableState,
+    /// The cable when it was hottest and coldest on the day under way.
+    pub hot: Option<CableState>,
+    pub cold: Option<CableState>,
     /// Passes simulated.
     pub simulated: u64,
 }
@@ -40,73 +37,55 @@ struct Measured {
     defect: Vec<f64>,
 }
 
-impl Measured {
-    /// What the law misses at a later `time`, as the `earlier` period lets expect it \[N/m\].
-    fn defect_at(&self, time: f64, earlier: Option<&Self>) -> Vec<f64> {
-        let Some(earlier) = earlier else {
-            return self.defect.clone();
-        };
-        let ahead = ((time - self.time) / (self.time - earlier.time)).min(1.0);
-        let both = self.defect.iter().zip(&earlier.defect);
-        both.map(|(last, earlier)| last + DEFECT_GROWTH * ahead * (last - earlier))
-            .collect()
-    }
-}
-
 impl<'a, E, P> DailyCable<'a, P>
 where
     E: From<JumpError>,
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 {
-    /// The `cable` at the temperature of midnight, as laid or as in `start`.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
-        calendar: &'a Calendar<'a>,
+        day: &'a Day,
         law: LockedLaw,
-        start: Option<&CableState>,
         pass: P,
     ) -> Result<Self, CableError> {
-        let mut state = start.cloned().map_or_else(|| laid(cable, mesh), Ok)?;
-        let mut cable = RestingCable::new(cable, mesh)?;
-        cable.warm(&mut state, calendar.day.heat_at_midnight())?;
         Ok(Self {
-            calendar,
-            cable,
+            day,
+            cable: RestingCable::new(cable, mesh)?,
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
             measured: [None, None],
-            hot: state.clone(),
-            cold: state.clone(),
-            end: state,
+            hot: None,
+            cold: None,
             simulated: 0,
         })
     }
 
-    /// Lets the `next` event happen; one without a number only measures.
-    pub fn happen(&mut self, next: Next, state: &mut CableState) -> Result<PassOutcome, E> {
-        let event = self.calendar.events[next.phase];
-        let begins_day = next.phase == 0;
-        if begins_day {
-            self.measured = [None, None];
-        }
+    /// Begins another day.
+    pub fn begin_day(&mut self) {
+        self.measured = [None, None];
+        (self.hot, self.cold) = (None, None);
+    }
+
+    /// Lets the `event` happen; a pass has this `number`, if it counts.
+    pub fn happen(
+        &mut self,
+        event: &Event,
+        number: Option<u64>,
+        state: &mut CableState,
+    ) -> Result<PassOutcome, E> {
         if event.begins {
             self.before = Some(state.clone());
         }
         let outcome = match event.act {
             Act::Pass(phase) => {
                 self.simulated += 1;
-                let number = next.number.and_then(|number| self.calendar.pass(number));
-                let outcome = (self.pass)(Next { phase, number }, state)?;
-                if number == Some(self.calendar.passes) {
-                    self.end.clone_from(state);
-                }
-                outcome
+                (self.pass)(Next { phase, number }, state)?
             }
             act => {
                 let moved = match act {
-                    Act::Step(from, to) if !self.step.law.is_still() => self.step(&event, from, to, state),
+                    Act::Step(from, to) if !self.step.law.is_still() => self.step(event, from, to, state),
                     // Nothing but heat moves the cable.
                     _ => self.cable.warm(state, event.thermal_force),
                 };
@@ -115,11 +94,11 @@ where
             }
         };
         let force = state.thermal_force();
-        if begins_day || force > self.hot.thermal_force() {
-            self.hot.clone_from(state);
+        if self.hot.as_ref().is_none_or(|hot| force > hot.thermal_force()) {
+            self.hot = Some(state.clone());
         }
-        if begins_day || force < self.cold.thermal_force() {
-            self.cold.clone_from(state);
+        if self.cold.as_ref().is_none_or(|cold| force < cold.thermal_force()) {
+            self.cold = Some(state.clone());
         }
         Ok(outcome)
     }
@@ -135,13 +114,21 @@ where
         let [Some(last), earlier] = &self.measured else {
             return Ok(());
         };
-        let (periods, day) = ((to - from) as f64, self.calendar.day);
-        let stages = STAGES.map(|share| {
-            let time = from as f64 + share * periods;
-            (day.heat_before(time), last.defect_at(time, earlier.as_ref()))
+        let periods = (to - from) as f64;
+        let times = STAGES.map(|share| from as f64 + share * periods);
+        let defects = times.map(|time| match earlier {
+            Some(earlier) => {
+                let ahead = ((time - last.time) / (last.time - earlier.time)).min(1.0);
+                let both = last.defect.iter().zip(&earlier.defect);
+                both.map(|(last, earlier)| last + DEFECT_GROWTH * ahead * (last - earlier))
+                    .collect()
+            }
+            None => last.defect.clone(),
         });
+        let [first, second] = times.map(|time| self.day.heat_before(time));
+        let stages = [(first, &defects[0][..]), (second, &defects[1][..])];
         let (cable, u) = (&mut self.cable, state.displacement());
-        let u = self.step.take(cable, u, periods, &stages, &last.advance)?;
+        let u = self.step.take(cable, u, periods, stages, &last.advance)?;
         *state = cable.moved(state, u)?.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }

@@ -24,8 +24,7 @@ pub const STAGES: [f64; 2] = [GAMMA, 1.0];
 
 /// What a stage solves: the advance v with w (Φ(v) + r) + w p + θ = K (base + reach v).
 struct Stage<'a> {
-    law: &'a LockedLaw,
-    base: &'a [f64],
+    base: Vec<f64>,
     reach: f64,
     thermal_force: f64,
     defect: &'a [f64],
@@ -40,61 +39,59 @@ pub struct LongStep {
 }
 
 impl LongStep {
-    /// The displacements that `u` \[m\] become over `periods`, with Θ \[N\] and the defect r \[N/m\]
-    /// at both [`STAGES`]; the advance is sought from that of another period on.
+    /// The displacements that `u` \[m\] become over `periods`, with the thermal force \[N\] and the
+    /// defect r \[N/m\] at both [`STAGES`]; the advance is sought from that of another period on.
     pub fn take(
         &mut self,
         cable: &mut RestingCable,
         u: &[f64],
         periods: f64,
-        stages: &[(f64, Vec<f64>); 2],
+        stages: [(f64, &[f64]); 2],
         advance: &[f64],
     ) -> Result<Vec<f64>, CableError> {
         let after = |u: &[f64], share: f64, v: &[f64]| -> Vec<f64> {
             u.iter().zip(v).map(|(u, v)| u + share * periods * v).collect()
         };
-        let stage = |base, place: usize| Stage {
-            law: &self.law,
+        let stage = |base: Vec<f64>, (thermal_force, defect)| Stage {
             base,
             reach: GAMMA * periods,
-            thermal_force: stages[place].0,
-            defect: &stages[place].1,
+            thermal_force,
+            defect,
         };
-        let first = stage(u, 0).solve(cable, advance.to_vec(), &mut self.sweeps)?;
+        let first = self.solve(cable, &stage(u.to_vec(), stages[0]), advance.to_vec())?;
         let base = after(u, 1.0 - GAMMA, &first);
-        let second = stage(&base, 1).solve(cable, first, &mut self.sweeps)?;
+        let second = self.solve(cable, &stage(base.clone(), stages[1]), first)?;
         Ok(after(&base, GAMMA, &second))
     }
-}
 
-impl Stage<'_> {
-    /// The advance that solves it, sought from `v` on.
+    /// The advance that solves `stage`, sought from `v` on.
     fn solve(
-        &self,
+        &mut self,
         cable: &mut RestingCable,
+        stage: &Stage<'_>,
         mut v: Vec<f64>,
-        sweeps: &mut u64,
     ) -> Result<Vec<f64>, CableError> {
         let limit = cable.cable().friction().limit();
-        let (mut residual, mut slope) = self.balance(cable, &v);
+        let mut balance = self.balance(cable, stage, &v);
         for _ in 0..MAX_STEPS {
-            if largest(&residual) <= ACCURACY * limit {
+            if largest(&balance.0) <= ACCURACY * limit {
                 return Ok(v);
             }
-            let mut step: Vec<f64> = residual.iter().zip(&slope).map(|(r, slope)| r / slope).collect();
-            cable.diffuse(|i| self.reach / slope[i], &mut step);
-            *sweeps += 1;
+            let (residual, slope) = &balance;
+            let mut step: Vec<f64> = residual.iter().zip(slope).map(|(r, slope)| r / slope).collect();
+            cable.diffuse(|i| stage.reach / slope[i], &mut step);
+            self.sweeps += 1;
             // Minus the slope of the energy along the step.
             let fall = |cable: &RestingCable, residual: &[f64]| -> f64 {
                 let works = cable.free().map(|i| step[i] * residual[i] * cable.tributary(i));
                 works.sum()
             };
-            let start = fall(cable, &residual).abs();
+            let start = fall(cable, residual).abs();
             let mut share = 1.0;
             loop {
                 let trial: Vec<f64> = v.iter().zip(&step).map(|(v, step)| v + share * step).collect();
-                (residual, slope) = self.balance(cable, &trial);
-                if fall(cable, &residual) >= -MAX_RISE * start || share < MIN_SHARE {
+                balance = self.balance(cable, stage, &trial);
+                if fall(cable, &balance.0) >= -MAX_RISE * start || share < MIN_SHARE {
                     v = trial;
                     break;
                 }
@@ -103,19 +100,20 @@ impl Stage<'_> {
         }
         Err(CableError::NoConvergence {
             vehicle_position: f64::INFINITY,
-            violation: largest(&residual) / limit,
+            violation: largest(&balance.0) / limit,
         })
     }
 
     /// What is out of balance at the advance `v` \[N/m\], and minus the slope of the law \[N/m²\].
-    fn balance(&self, cable: &mut RestingCable, v: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let place = self.base.iter().zip(v).map(|(base, v)| base + self.reach * v);
+    fn balance(&self, cable: &mut RestingCable, stage: &Stage<'_>, v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let place = stage.base.iter().zip(v).map(|(base, v)| base + stage.reach * v);
         let mut needed = vec![0.0; v.len()];
-        cable.needed(&place.collect::<Vec<_>>(), self.thermal_force, &mut needed);
+        cable.needed(&place.collect::<Vec<_>>(), stage.thermal_force, &mut needed);
         let (mut residual, mut slope) = (vec![0.0; v.len()], vec![1.0; v.len()]);
         for i in cable.free() {
-            let (found, steepness) = self.law.with_defect(v[i], self.defect[i], cable.limit(i));
-            (residual[i], slope[i]) = (found - needed[i], steepness);
+            let (found, steepness) = self.law.with_defect(v[i], stage.defect[i], cable.limit(i));
+            residual[i] = found - needed[i];
+            slope[i] = steepness;
         }
         (residual, slope)
     }

@@ -10,17 +10,16 @@ use crate::error::wrap;
 use crate::peaks::largest_places;
 use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
-use crate::request::{Guide, Jumps, Next, Request};
-use crate::rounds::{Rounds, rounds};
+use crate::request::{Jumps, Next, Request};
+use crate::rounds::{Rounds, Settling, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
 use crate::within_jump::JumpInterval;
 
-/// A run under way: the cable and the vehicles that drive over it.
-pub struct Walk<'a, P> {
+/// The cable and the vehicles that drive over it.
+pub struct Simulation<'a, P> {
     pub request: &'a Request<'a>,
-    pub jumps: &'a Jumps,
-    pub guide: Guide<'a>,
+    pub mesh: &'a Mesh,
     pub cable: RestingCable,
     pass: P,
     wanted: BTreeSet<u64>,
@@ -30,31 +29,26 @@ pub struct Walk<'a, P> {
     scale: Scale,
     /// Error of a jump, as a share of what is large.
     pub tolerance: f64,
-    /// Periods done.
-    pub done: u64,
     /// Passes simulated.
     pub simulated: u64,
-    pub schedule: Vec<u64>,
-    pub repeats: Option<(u64, f64)>,
     records: Vec<Record>,
     /// Whether all passes of the traffic are done: the caller counts no later ones.
     pub is_over: bool,
 }
 
-impl<'a, P> Walk<'a, P> {
+impl<'a, P> Simulation<'a, P> {
     /// Of `cable` on `mesh`.
     pub fn new(
         cable: &DuctedCable,
-        mesh: &Mesh,
+        mesh: &'a Mesh,
         request: &'a Request<'a>,
-        jumps: &'a Jumps,
+        jumps: &Jumps,
         pass: P,
     ) -> Result<Self, CableError> {
         let start = request.start.cloned();
         Ok(Self {
             request,
-            jumps,
-            guide: request.guide,
+            mesh,
             cable: RestingCable::new(cable, mesh)?,
             pass,
             wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
@@ -62,10 +56,7 @@ impl<'a, P> Walk<'a, P> {
             offset: 0.0,
             scale: jumps.least,
             tolerance: jumps.tolerance,
-            done: 0,
             simulated: 0,
-            schedule: Vec::new(),
-            repeats: None,
             records: Vec::new(),
             is_over: false,
         })
@@ -96,57 +87,40 @@ impl<'a, P> Walk<'a, P> {
         });
     }
 
-    /// The one rule by which passes repeat those before them: whether their advance \[m\], gone on
-    /// unchanged so many times, would change no force and no movement noticeably, and its movement
-    /// as a whole \[m\].
-    fn will_repeat(&self, mut advance: Vec<f64>, times: u64) -> (bool, f64) {
-        let whole = remove_mean(&self.cable, &mut advance);
-        let change = times as f64 * self.shares(&advance).worse();
-        (change <= NEGLIGIBLE * self.tolerance, whole)
-    }
-
-    /// Takes all days left of `all` to repeat the last one, the `period`, if they do.
-    pub fn repeat(&mut self, period: &Period, all: u64) -> bool {
-        let left = all - self.done;
-        let (repeats, _) = self.will_repeat(period.rate.clone(), left);
-        let repeats = repeats && left > 0 && self.request.days.is_some();
-        if repeats {
-            let done = self.done;
-            self.repeats = Some((done, self.skip(period, all)));
-        }
-        repeats
-    }
-
-    /// Lets the periods up to `all` repeat the last one, the `period`, but for a movement as a
-    /// whole, which is returned \[m\].
-    pub fn skip(&mut self, period: &Period, all: u64) -> f64 {
-        let whole = remove_mean(&self.cable, &mut period.rate.clone());
-        for pass in self.recorded(self.done, all, &largest_places(period)) {
-            let moved = whole * (pass.div_ceil(self.request.period()) - self.done) as f64;
+    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement
+    /// as a `whole` in each \[m\].
+    pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
+        for pass in self.recorded(done, all, &largest_places(period)) {
+            let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
             let place = phase_of(pass, period.len());
             self.record(pass, period.outcome(place).moved(moved), true);
         }
-        self.offset += whole * (all - self.done) as f64;
-        self.done = all;
-        whole
+        self.offset += whole * (all - done) as f64;
     }
 
     /// The passes to be recorded after so many periods up to others without their simulation, where
     /// passes at these `places` show the largest of a period.
     fn recorded(&self, from: u64, to: u64, places: &BTreeSet<usize>) -> BTreeSet<u64> {
         let length = self.request.period();
-        let wanted = self.wanted.range((from * length + 1)..=(to * length));
-        let days = self.request.days.unwrap_or(&[]).iter();
-        let days = days.filter(|day| (from + 1..=to).contains(*day));
-        let of_day = |day: &u64| {
-            let begin = (day - 1) * length;
-            places.iter().map(move |&place| begin + place as u64 + 1)
-        };
-        wanted.copied().chain(days.flat_map(of_day)).collect()
+        let mut passes: BTreeSet<u64> = self
+            .wanted
+            .range((from * length + 1)..=(to * length))
+            .copied()
+            .collect();
+        for day in self
+            .request
+            .days
+            .unwrap_or(&[])
+            .iter()
+            .filter(|day| (from + 1..=to).contains(*day))
+        {
+            passes.extend(places.iter().map(|&place| (day - 1) * length + place as u64 + 1));
+        }
+        passes
     }
 }
 
-impl<E, P> Walk<'_, P>
+impl<E, P> Simulation<'_, P>
 where
     E: From<JumpError>,
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
@@ -161,32 +135,38 @@ where
         }
         period.end(self.state.displacement());
         self.cable.release(&before, &self.state);
-        for place in 0..length {
-            self.scale.see(&period.phase(place).outcome);
+        if self.request.days.is_some() {
+            // In a day forces come and go.
+            (0..length).for_each(|place| self.scale.see(&period.phase(place).outcome));
         }
+        let rest = PassOutcome::at_rest(self.cable.cable(), &self.state).map_err(wrap)?;
+        self.scale.see(&rest);
         let movement = largest(self.state.displacement()) + self.offset.abs();
         self.scale.movement = self.scale.movement.max(movement);
         Ok(period)
     }
 
-    /// Simulates rounds of a `period`. Once they repeat each other, all but the last count as done.
+    /// Simulates rounds of a `period`. Once they will change less than a small part of the
+    /// tolerance, all but the last count as done.
     fn rounds(&mut self, rounds: Rounds, after: Option<u64>, period: &mut Period) -> Result<(), E> {
+        let mut settling = Settling::default();
         let mut left = rounds.times;
         while left > 0 {
             let before = self.state.displacement().to_vec();
             for _ in 0..rounds.round {
                 let phase = period.len();
                 let number = after.map(|after| after + 1 + phase as u64);
-                let outcome = self.simulate_pass(phase, number)?;
+                let outcome = self.simulate(phase, number)?;
                 period.push(&self.state, outcome);
             }
             left -= 1;
+            let mut change = difference(self.state.displacement(), &before);
+            let whole = remove_mean(&self.cable, &mut change);
             let skipped = left.saturating_sub(1);
-            let advance = difference(self.state.displacement(), &before);
-            let (repeats, whole) = self.will_repeat(advance, skipped as u64);
+            let is_settled = settling.is_settled(self.shares(&change), skipped, NEGLIGIBLE * self.tolerance);
             let begin = period.len();
             let passes = begin..begin + skipped * rounds.round;
-            if !repeats || skipped == 0 || !self.may_skip(after, &passes) {
+            if !is_settled || skipped == 0 || !self.may_skip(after, &passes) {
                 continue;
             }
             for place in passes {
@@ -217,7 +197,7 @@ where
     }
 
     /// Simulates the pass at the place `phase` of a period and records it by its `number`.
-    fn simulate_pass(&mut self, phase: usize, number: Option<u64>) -> Result<PassOutcome, E> {
+    fn simulate(&mut self, phase: usize, number: Option<u64>) -> Result<PassOutcome, E> {
         let next = Next {
             phase,
             number: number.filter(|_| !self.is_over),
