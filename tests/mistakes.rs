@@ -222,7 +222,7 @@ order = "random"¶seed = 7 → sequence = "truck" | 2 | 54 | `traffic.sequence`:
 seed = 7 → seed = 7¶sequence = ["van"] | 2 | 56 | both `order` and `sequence`
 order = "random" → sequence = ["van"] | 2 | 55 | `traffic.seed`: found 7 with `sequence` = ["van"]
 name = "van" → name = "truck" | 2 | 43 | `vehicles.1.name` (vehicle 2): found "truck"; allowed: a name
-name = "van" → name = "" | 2 | 43 | `vehicles.1.name` (vehicle 2): found ""; allowed: a name
+name = "van" → name = "" | 2 | 43 | `vehicles.1.name` (vehicle 2): found the text ""; allowed: a name
 name = "van" → name = " " | 2 | 43 | `vehicles.1.name` (vehicle 2): found " "; allowed: a name
 method = "explicit" → method = "quasi-static" | 2 | 61 | `solver.time_step` | with `method` = "quasi-static" | "explicit"
 method = "explicit" → method = "pass-law" | 2 | 61 | `solver.time_step` | with `method` = "pass-law"
@@ -307,7 +307,7 @@ const ON_THE_COMMAND_LINE: &str = r#"
 run DATA | data.csv, line 1: not valid TOML: key with no value
 check SCENE --set friction.dynamic_coefficient=0 --set traffic.per_day=24 --set heat={expansion=17e-6,daily_swing=20} | [heat] without friction
 check SCENE --set depth=1.5m | --set depth=1.5m: found unknown key `depth` (did you mean `duct.depth`?)
-check SCENE --set ground.layers[1].young_modulus=60MPa | unknown key `ground.layers[1]` (did you mean `layers`?)
+check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers.1.young_modulus`: an item of a list by its number
 run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?
 run SCENE --set traffic.passes=1 --limit-force 2 | --limit-force is 2 N: did you mean 2kN?
 run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream, downstream, clamp

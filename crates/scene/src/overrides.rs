@@ -30,6 +30,13 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         let allowed = "KEY=VALUE, such as friction.dynamic_coefficient=0.3";
         return Err((format!("`{text}`, without `=`"), allowed.to_owned()));
     };
+    if key.contains('[') {
+        let plain = key.trim().replace('[', ".").replace(']', "");
+        return Err((
+            format!("`{}`", key.trim()),
+            format!("`{plain}`: an item of a list by its number"),
+        ));
+    }
     let keys: Vec<&str> = key.split('.').map(str::trim).collect();
     if keys.len() > DEEPEST || keys.contains(&"") {
         let allowed = "a key such as duct.length or vehicles.0.speed";
