@@ -223,7 +223,7 @@ seed = 7 → seed = 7¶sequence = ["van"] | 2 | 56 | both `order` and `sequence`
 order = "random" → sequence = ["van"] | 2 | 55 | `traffic.seed`: found 7 with `sequence` = ["van"]
 name = "van" → name = "truck" | 2 | 43 | `vehicles.1.name` (vehicle 2): found "truck"; allowed: a name
 name = "van" → name = "" | 2 | 43 | `vehicles.1.name` (vehicle 2): found the text ""; allowed: a name
-name = "van" → name = " " | 2 | 43 | `vehicles.1.name` (vehicle 2): found " "; allowed: a name
+name = "van" → name = " " | 2 | 43 | `vehicles.1.name` (vehicle 2): found the text " "; allowed: a name
 method = "explicit" → method = "quasi-static" | 2 | 61 | `solver.time_step` | with `method` = "quasi-static" | "explicit"
 method = "explicit" → method = "pass-law" | 2 | 61 | `solver.time_step` | with `method` = "pass-law"
 shape_factor = "2e7 1/m" → ∅ | 2 | 27 | key `friction.shape_factor` is missing
@@ -324,10 +324,10 @@ run SCENE --csv o.xls | --csv: found o.xls; allowed: a table of text
 sweep SCENE --out o.csv --rows DUCTS | the column `cable.wieght`, which is no key (did you mean `cable.weight`?)
 sweep SCENE --out o.csv --rows DATA | the column `pass`, which is no key
 sweep SCENE --out o.csv --rows RAGGED | ragged.csv | ragged.csv:3: 3 cells where the first row has 2
-design SCENE | --limit-force: found no limit; | such as --limit-force 2kN
+design SCENE | required arguments were not provided | --limit-force
 design SCENE --limit-force 2kN --at 500m | --at: found 500 m; allowed: a position in the duct, from 0 m to 180 m
-sweep SCENE --out o.csv --vary duct.depth=1m:2m:5 | found 1m:2m:5 | a unit at the STEP too: it is a distance
-sweep SCENE --out o.csv --vary traffic.passes=10:20:50 | found 10:20:50 | a STEP that is at most B - A
+sweep SCENE --out o.csv --vary duct.depth=1m:2m:5 | found 1m:2m:5 | a distance in their unit and no number of values
+sweep SCENE --out o.csv --vary traffic.passes=10:20:50 | found 10:20:50 | a STEP that leads from A to B
 sweep SCENE --out o.csv --vary duct.depth=2m:1m:0.1m | found 2m:1m:0.1m | a STEP that leads from A to B
 sweep SCENE --out o.csv --vary friction.dynamic_coefficient=normal(0.3) --samples 4 | found normal(0.3) | normal(MEAN, SD)
 sweep SCENE --out o.xls --vary duct.depth=1m,2m | o.xls | .csv

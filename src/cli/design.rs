@@ -10,6 +10,7 @@ use super::shared::{Input, Json, TrafficArguments};
 use crate::Limits;
 use crate::design::{Design, DesignError, DesignOptions, Place, Spring, best, design};
 use crate::scene::{did_you_mean, nearest};
+use crate::shown::exact;
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -75,6 +76,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     arguments.limits.warn_of_slips();
     let ways = &arguments.at;
     let everywhere: Vec<Place> = ways.iter().flat_map(|way| way.0.clone()).collect();
+    let length = input.scene.duct.length;
+    let outside = everywhere.iter().find_map(|place| match place {
+        Place::Clamp(position) if !(0.0..=length).contains(position) => Some(*position),
+        _ => None,
+    });
+    if let Some(position) = outside {
+        return Err(Failure::Usage {
+            argument: "--at",
+            found: format!("{} m", exact(position)),
+            allowed: format!("a position in the duct, from 0 m to {} m", exact(length)),
+        });
+    }
     let limits = |Places(places): &Places| -> Result<Limits, Failure> {
         // Held somehow: what is limited there counts.
         let springs: Vec<Spring> = places.iter().map(|place| Spring::new(*place, 1.0)).collect();
