@@ -87,3 +87,8 @@ impl Form {
         }
     }
 }
+
+/// Whether a text of which these words say what is allowed is a name, which is never empty.
+pub fn is_name(allowed: &str) -> bool {
+    allowed.starts_with("a name")
+}

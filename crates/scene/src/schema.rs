@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::content::{joined, other_name};
+use crate::key::is_name;
 use crate::key::{Form, Key, Section};
 use crate::presets::of_section;
 use crate::range::Quantity;
@@ -61,6 +62,7 @@ fn table(keys: &[Key], path: &str) -> Value {
 fn form(form: &Form, path: &str) -> Value {
     match form {
         Form::Number(quantity) => number(*quantity),
+        Form::Text(allowed) if is_name(allowed) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
         Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),

@@ -2,7 +2,7 @@
 
 use crate::content::{Content, Entry, Node, joined, other_name};
 use crate::error::{Result, SceneError, did_you_mean};
-use crate::key::{Form, Key};
+use crate::key::{Form, Key, is_name};
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::rivals::contradiction;
@@ -158,7 +158,7 @@ impl Stored for u64 {
 
 impl Stored for String {
     fn read(given: &Given) -> Result<Self> {
-        let is_name = matches!(given.form, Form::Text(allowed) if allowed.starts_with("a name"));
+        let is_name = matches!(given.form, Form::Text(allowed) if is_name(allowed));
         let text = given.node.content.as_text();
         let text = text.filter(|text| !(is_name && text.trim().is_empty()));
         text.map(str::to_owned).ok_or_else(|| given.of_other_kind())
