@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use creepage::calibration::{Deflection, Loss, Quantity, Unknown};
+use creepage::readings::{Measured, Place};
 use creepage::scene::{End, Law, SolverMethod};
 use creepage::{
     CalibrateOptions, Calibrated, Error, Progress, Reading, Readings, Scene, Series, calibrate,
@@ -162,6 +163,32 @@ fn an_overload_is_no_reading() {
         with.warnings[0].ends_with("left out: pass 8 (line 8)"),
         "{:?}",
         with.warnings
+    );
+}
+
+/// A cell whose forces are all beyond reach is no exception among those of another: something is wrong with it.
+#[test]
+fn a_cell_in_another_unit_is_no_overload() {
+    let mut list = readings(&noisy(series(), 3.0, 1)[..30]).readings().to_vec();
+    let inside = |pass: u64| Reading {
+        measured: Measured::Force(Place::At(20.0)),
+        ..Reading::force(pass, 2e5 + 1e3 * pass as f64)
+    };
+    list.extend((1..=6).map(inside));
+    let options = CalibrateOptions {
+        unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
+        ..CalibrateOptions::default()
+    };
+    let answer = calibrate(&upper(), &list.into_iter().collect(), &options).unwrap();
+    let all: Vec<&String> = answer
+        .warnings
+        .iter()
+        .filter(|text| text.contains("left out"))
+        .collect();
+    assert!(
+        all.is_empty() && answer.lack_of_fit.suspicious,
+        "{all:?} {:?}",
+        answer.lack_of_fit
     );
 }
 

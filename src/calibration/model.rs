@@ -76,7 +76,7 @@ impl SeriesModel {
         };
         let (stages, wanted) = (passes(&|one| one.1.is_inside()), passes(&|one| one.0 > 0));
         scene.traffic.passes = series.readings.last_pass();
-        scene.solver.tolerance = TOLERANCE;
+        scene.solver.tolerance = scene.solver.tolerance.min(TOLERANCE);
         let (method, levels, period, ground) = {
             let plan = plan(&scene)?;
             (plan.method, plan.levels, plan.period, plan.ground)

@@ -3,14 +3,15 @@
 //! Friction along the whole duct, with the largest coefficient that is considered, and the weight along its slope bound the force in a cable
 //! without heat: F ≤ (μ N′ + |p|) L.
 
+use super::cell::Observed;
 use super::options::Series;
 use super::unknown::Quantity;
 use crate::Reading;
-use crate::readings::{Measured, Readings};
+use crate::readings::Readings;
 use crate::scene::{Scene, four_digits};
 
-/// Share of the forces beyond which they are no exceptions, but unit, sign or scene not what they seem; and the fewest forces of which that can
-/// be said.
+/// Share of an instrument's forces beyond which they are no exceptions, but unit, sign or scene not what they seem; and the fewest forces of
+/// which that can be said.
 const FEW: f64 = 0.25;
 const FEWEST: usize = 6;
 
@@ -23,15 +24,29 @@ fn largest_force(scene: &Scene) -> f64 {
 
 /// The readings without those that are beyond reach, and words on these if there are any.
 pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
-    let most = largest_force(one.scene);
-    let is_force = |reading: &&Reading| matches!(reading.measured, Measured::Force(_));
-    let is_beyond = |reading: &Reading| is_force(&reading) && reading.value.abs() > most;
+    let (scene, most) = (one.scene, largest_force(one.scene));
+    let instrument = |reading: &Reading| match Observed::of(scene, reading.measured) {
+        Ok(cell @ (Observed::Force(_) | Observed::ForceAt(_))) => Some(cell),
+        _ => None,
+    };
     let list = one.readings.readings();
-    let forces = list.iter().filter(is_force).count();
-    let beyond: Vec<&Reading> = list.iter().filter(|reading| is_beyond(reading)).collect();
-    let are_few = forces >= FEWEST && beyond.len() as f64 <= FEW * forces as f64;
-    let kept = one.readings.keep(|reading| !is_beyond(reading));
-    if beyond.is_empty() || !are_few || one.scene.heat.is_some() || kept.last_pass() == 0 {
+    let is_large = |reading: &&Reading| reading.value.abs() > most;
+    // Among the forces of its instrument it is an exception.
+    let is_beyond = |reading: &Reading| {
+        let cell = instrument(reading);
+        let all: Vec<&Reading> = list.iter().filter(|other| instrument(other) == cell).collect();
+        let beyond = all.iter().filter(|other| is_large(other)).count();
+        cell.is_some() && all.len() >= FEWEST && beyond as f64 <= FEW * all.len() as f64
+    };
+    let beyond: Vec<&Reading> = list
+        .iter()
+        .filter(is_large)
+        .filter(|reading| is_beyond(reading))
+        .collect();
+    let kept = one
+        .readings
+        .keep(|reading| !(is_large(&reading) && is_beyond(reading)));
+    if beyond.is_empty() || scene.heat.is_some() || kept.last_pass() == 0 {
         return (one.readings.clone(), None);
     }
     let passes = beyond

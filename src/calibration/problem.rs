@@ -111,7 +111,7 @@ impl Problem<'_> {
         let errors = self
             .models
             .iter()
-            .map(|model| Levels::typical_error(way.mesh.level(model)));
+            .map(|model| Levels::typical_error(model.levels.fineness(way.mesh.level(model))));
         let mut options = Options::default();
         options.loss = self.options.loss;
         options.max_evaluations = way.runs.max(1);

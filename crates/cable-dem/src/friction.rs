@@ -147,7 +147,10 @@ impl Friction {
             FrictionLaw::Coulomb if slip == 0.0 => friction.clamp(-limit, limit),
             FrictionLaw::Coulomb => limit.copysign(slip),
             FrictionLaw::ElasticPlastic { shape_factor } => {
-                (friction + 0.5 * self.limit * shape_factor * slip).clamp(-limit, limit)
+                // Unlike `clamp` this does not panic where the limit is no number.
+                (friction + 0.5 * self.limit * shape_factor * slip)
+                    .max(-limit)
+                    .min(limit)
             }
             FrictionLaw::Sigmoid { shape_factor } => {
                 let steepness = if limit == self.limit {

@@ -337,8 +337,10 @@ impl RestingCable {
             self.step.solve(&load, self.step.chain.free)?;
             let StepSolver { chain, trial, .. } = &mut self.step;
             change = chain.press(|i| trial.r[i], thermal_force);
-            let corrected = chain.correct_grips(chain.free, |i| trial.r[i]);
-            if change <= PRESSED && !corrected {
+            if chain.correct_grips(chain.free, |i| trial.r[i]) {
+                change = f64::INFINITY;
+            }
+            if change <= PRESSED {
                 return Ok(());
             }
             self.heat(thermal_force);

@@ -8,7 +8,7 @@ use crate::descent::{Optimum, descend};
 use crate::deviance::Deviance;
 use crate::likelihood::{Likelihood, Point};
 use crate::problem::Problem;
-use crate::tuning::{BETTER, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
+use crate::tuning::{BETTER, FAR, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
 use crate::{CalibrationError, Loss, Warning, parameter};
 
 /// Repeats after which a loop is taken to go in a circle: those that end need half as many.
@@ -68,10 +68,10 @@ pub(crate) fn optimum(
 }
 
 /// Gain of the deviance from which on an optimum moves: of the ripple between runs, the parameters follow
-/// their share.
+/// their share, up to a small part of a standard error.
 pub(crate) fn settled(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
     let share = problem.asked as f64 / problem.observations.len() as f64;
-    (share * noise(problem, optimum)).max(SETTLED * SETTLED)
+    (share * noise(problem, optimum)).clamp(SETTLED * SETTLED, FAR * FAR)
 }
 
 /// Variance of the model's own noise, in squared standard errors of all readings together.

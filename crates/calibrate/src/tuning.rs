@@ -27,6 +27,8 @@ pub(crate) const BETTER: f64 = 0.05;
 /// Distance, in standard errors, by which an optimum may move once the model has run there. With 0.05
 /// estimates are off by as much (tests/terms.rs).
 pub(crate) const SETTLED: f64 = 0.02;
+/// The same with a ripple between runs that is larger.
+pub(crate) const FAR: f64 = 0.2;
 /// Values of a parameter at which its profile is computed, the estimate among them.
 pub(crate) const GRID: usize = 41;
 /// Distance of the other free variables at neighbouring values from which on they may have jumped to

@@ -46,7 +46,8 @@ impl StepLimits {
                 let neighbours = 2.0 * chain.neighbours(i) * chain.stiffness;
                 (neighbours + weight * chain.spring(i)) / chain.nodes[i].tributary
             };
-            let rows = (0..chain.nodes.len()).map(row);
+            // A node that is held does not swing.
+            let rows = chain.free.nodes().map(row);
             rows.fold(0.0, f64::max) / lumped.mass_per_metre
         };
 

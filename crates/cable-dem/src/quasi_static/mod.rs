@@ -152,11 +152,14 @@ impl QuasiStatic {
             after.mirror();
         }
         let (mesh, thermal_force) = (&self.mesh, state.thermal_force);
+        // Clamps that never slip keep what they had.
+        let slips = after.clamp_slips.clone();
         let mut recorder = solver.pass(passage, &mut after, |r, g, grips, snapshot| {
             let position = mesh.lattice_step() * snapshot.position as f64;
             let state = || {
                 let mut state = CableState::at_rest(mesh);
                 state.thermal_force = thermal_force;
+                state.clamp_slips.clone_from(&slips);
                 for node in 0..mesh.nodes() {
                     state.displacement[node] = r[node] + snapshot.adherent_at(node);
                     state.friction[node] = g[node] + snapshot.adhesion[node];

@@ -4,7 +4,7 @@ use crate::common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, rel
 use approx::assert_relative_eq;
 use cable_dem::{
     CableError, CableState, DuctedCable, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct,
-    QuasiStatic,
+    QuasiStatic, Restraint,
 };
 use ground_field::Direction;
 
@@ -115,6 +115,13 @@ fn step_limits_follow_their_formulas() -> Outcome {
         let scene = Scene::thirty_metres(law, 0.1, &motion)?;
         let solver = Explicit::new(scene.cable, scene.mesh, MASS, ExplicitOptions::default())?;
         let limits = solver.limits();
+        // A clamp on an end that is fixed anyway does not swing.
+        let clamped = solver
+            .cable()
+            .clone()
+            .with_restraints(vec![Restraint::new(30.0, 1e12)])?;
+        let clamped = Explicit::new(clamped, *solver.mesh(), MASS, ExplicitOptions::default())?;
+        assert_eq!(clamped.limits(), limits);
         // One element's travel time of an elastic wave.
         assert_relative_eq!(limits.elastic, 0.1 / (EA / MASS).sqrt(), max_relative = 1e-12);
         if expected.is_finite() {

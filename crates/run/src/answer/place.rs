@@ -173,8 +173,9 @@ impl Run {
             value(record.pass, [at_rest, if has_peaks { largest } else { at_rest }])
         });
         let extremes = self.extremes.iter().map(move |extreme| {
-            let forces = extreme.restraints_n.iter().zip(&extreme.restraint_peaks_n);
-            let forces = forces.map(|(&after, &peak)| [after, peak]);
+            let peak = |index: usize| extreme.restraint_peaks_n.get(index).copied();
+            let forces = extreme.restraints_n.iter().enumerate();
+            let forces = forces.map(|(index, &after)| [after, peak(index).unwrap_or(after)]);
             let pass = extreme.after.pass;
             let both = match place.end() {
                 Some(end) => self.on_end(&extreme.after, end, quantity, 0.0),
