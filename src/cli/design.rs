@@ -92,7 +92,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         // Held somehow: what is limited there counts.
         let springs: Vec<Spring> = places.iter().map(|place| Spring::new(*place, 1.0)).collect();
         let held = Spring::hold(&springs, &input.scene)?;
-        arguments.limits.limits_beside(&held, &everywhere)
+        let limits = arguments.limits.limits_beside(&held, &everywhere)?;
+        if limits.all().next().is_some() {
+            return Ok(limits);
+        }
+        Err(Failure::Usage {
+            argument: "--limit-force",
+            found: "no limit".into(),
+            allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
+                .into(),
+        })
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     let units = units.for_springs();

@@ -79,7 +79,10 @@ pub fn output(
     let output = files.output(path, ending)?;
     let own = path.extension().unwrap_or_default();
     let mut others = FORMATS.iter().filter(|other| **other != ending);
-    if others.any(|other| own.eq_ignore_ascii_case(other)) {
+    let is_other = others.any(|other| own.eq_ignore_ascii_case(other));
+    // Excel opens a workbook under its own ending alone.
+    let is_strange = ending == "xlsx" && !own.is_empty() && !own.eq_ignore_ascii_case(ending);
+    if is_other || is_strange {
         let (found, allowed) = (path.display().to_string(), allowed.to_owned());
         return Err(Failure::Usage {
             argument,

@@ -11,7 +11,7 @@ use super::limits::PointLimits;
 use super::samples::Samples;
 use creepage_run::hash::fnv1a;
 
-use crate::scene::{SceneError, did_you_mean, nearest_key};
+use crate::scene::{SceneError, did_you_mean, key_meanings, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -171,7 +171,8 @@ impl Sweep {
             }
             let inside = format!("{}.", wrong.key);
             let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
-            let column = self.axes.iter().find(is_meant).filter(|_| self.by_row);
+            let is_no_key = |axis: &&Axis| self.by_row && !is_key(&axis.key);
+            let column = self.axes.iter().find(is_meant).filter(is_no_key);
             return Err(
                 column.map_or(SceneError::Wrong(wrong).into(), |Axis { key, .. }| {
                     let meant = did_you_mean(nearest_key(key).as_deref());
@@ -330,4 +331,11 @@ fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
         let values = (0..rows).map(|row| value(row).to_owned()).collect();
         axes.push(Axis { key, values });
     }
+}
+
+/// Whether a scene may have such a key, whatever its lists hold.
+fn is_key(key: &str) -> bool {
+    let names = key.split('.').filter(|name| name.parse::<usize>().is_err());
+    let key = names.collect::<Vec<_>>().join(".");
+    key_meanings().iter().any(|known| known.key == key)
 }

@@ -303,7 +303,15 @@ impl Answer<'_> {
 
     /// Whether a limit is kept, and in what words.
     pub fn verdict(&self, verdict: &Verdict) -> String {
-        let shown = |value| self.reader.amount(verdict.quantity, value);
-        verdict.shown_with(&self.reader.units, shown)
+        let (quantity, units) = (verdict.quantity, &self.reader.units);
+        let shown = |value: f64| {
+            // Next to its limit a value of four digits may seem to lie on the other side.
+            if (value / verdict.limit - 1.0).abs() < 1e-3 {
+                quantity.shown_in(units, value)
+            } else {
+                self.reader.amount(quantity, value)
+            }
+        };
+        verdict.shown_with(units, shown)
     }
 }

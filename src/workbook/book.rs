@@ -98,7 +98,11 @@ impl Book {
 pub fn scene(book: &mut Book, file: &SceneFile) -> Result<(), XlsxError> {
     book.sheet("scene", &[("key", ""), ("value", ""), ("from", "")])?;
     file.typed().into_iter().try_for_each(|typed| {
-        let number = typed.text.parse().ok().filter(|number: &f64| number.is_finite());
+        let number = typed
+            .text
+            .parse()
+            .ok()
+            .filter(|number: &f64| typed.is_number && number.is_finite());
         let value = number.map_or(Cell::Text(typed.text), Cell::Number);
         book.row([Cell::Text(typed.key), value, Cell::Text(typed.source)], false)
     })

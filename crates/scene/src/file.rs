@@ -144,6 +144,7 @@ impl SceneFile {
             let text = node.content.as_text().map(str::to_owned).or_else(number);
             found.push(Typed {
                 key: key.to_owned(),
+                is_number: node.content.as_number().is_some(),
                 text: text.unwrap_or_else(|| node.written.clone()),
                 source: self.document.source(node).name.clone(),
             });
@@ -166,6 +167,8 @@ pub struct Typed {
     pub key: String,
     /// What stands there, a text without quotes.
     pub text: String,
+    /// Whether it is a number without quotes.
+    pub is_number: bool,
     /// The file, the override or the preset that gives it.
     pub source: String,
 }

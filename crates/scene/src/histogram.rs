@@ -168,43 +168,43 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
     }
     let is_grouped = table.names.iter().any(|name| name.has(GROUP));
     let axle = if is_grouped { AXLE_GROUP } else { AXLE };
-    // The heaviest axle, and its line.
-    let (mut axles, mut heaviest) = (Vec::new(), (0.0, table.line));
+    let (mut axles, mut heaviest) = (Vec::new(), None::<(f64, &Row)>);
     for row in rows {
         let value = |column| table.value(row, column, column);
-        let (share, load) = (value(count)?, value(load)?);
+        let (share, force) = (value(count)?, value(load)?);
         let contact_radius = radius.map_or(Ok(0.0), value)?;
         // Classes that nothing was counted in are common.
         if share > 0.0 {
             let wheel = Wheel {
-                load,
+                load: force,
                 contact_radius,
                 ..Wheel::default()
             };
-            let axle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), load, speed);
+            let axle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), force, speed);
             axles.push(TrafficVehicle {
                 share,
                 load: None,
                 wheels: vec![wheel],
                 ..axle
             });
-            if load > heaviest.0 {
-                heaviest = (load, row.line);
+            if heaviest.is_none_or(|(most, _)| force > most) {
+                heaviest = Some((force, row));
             }
         }
     }
-    if axles.is_empty() {
+    let Some((force, row)) = heaviest else {
         return Err(table.wrong(table.line, "no row with axles below the names", LAYOUT.allowed));
-    }
+    };
     if axles.len() > MOST {
         let allowed = format!("at most {MOST} classes of axles");
         return Err(table.wrong(table.line, format!("{} classes", axles.len()), allowed));
     }
-    if heaviest.0 < LIGHTEST {
-        let (load, line) = heaviest;
-        let allowed = format!("a load with its unit, such as \"{load} kN\", or a column \"load [kN]\"");
-        let found = format!("load: {load} N as the heaviest axle");
-        return Err(table.wrong(line, found, allowed));
+    match table.quantity(row, load, load)? {
+        Some((cell, "")) if force < LIGHTEST => {
+            let found = format!("load: {cell} N as the heaviest axle");
+            let allowed = format!("a load with its unit, such as \"{cell} kN\", or a column \"load [kN]\"");
+            Err(table.wrong(row.line, found, allowed))
+        }
+        _ => Ok(axles),
     }
-    Ok(axles)
 }

@@ -46,7 +46,7 @@ const USUAL: &[Usual] = &[
 type Bare = (&'static str, f64, f64, &'static str);
 
 const BARE: &[Bare] = &[
-    ("load", 0.1, 999.9, "tf or kN"),
+    ("load", f64::MIN_POSITIVE, 999.9, "tf or kN"),
     ("speed", 130.0 / 3.6, INFINITY, "km/h"),
     ("weight", 0.0, 20.0, "kg/m"),
     ("young_modulus", 0.0, 1e5, "MPa"),
@@ -195,6 +195,7 @@ pub fn slip(key: &str, node: &Node) -> Option<String> {
     }
     let value = node.content.as_number()?;
     let is_meant = |bare: &&Bare| bare.0 == name && (bare.1..=bare.2).contains(&value);
+    let is_thousands = |(_, digits): (&str, &str)| digits.len() == 3 && digits.parse::<u16>().is_ok();
     let meant = found.replace('.', "");
     let words = match BARE.iter().find(is_meant) {
         Some((.., units)) => format!(
@@ -202,7 +203,7 @@ pub fn slip(key: &str, node: &Node) -> Option<String> {
             si_unit(key)?
         ),
         // Three digits behind a point may be thousands.
-        None if name == "passes" && found.rfind('.').is_some_and(|at| at + 4 == found.len()) => {
+        None if name == "passes" && found.split_once('.').is_some_and(is_thousands) => {
             format!("is {value}, as decimals follow a point: did you mean {meant}?")
         }
         None => return None,
