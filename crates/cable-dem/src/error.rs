@@ -37,7 +37,9 @@ pub enum CableError {
     },
     /// Nothing holds a cable that its own weight draws down the duct.
     #[error(
-        "the cable slides out of its duct: {body_force:.4} N/m along it is no less than the friction of {limit:.4} N/m, and no end and no clamp holds it"
+        "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it",
+        body_force = short(*body_force),
+        limit = short(*limit)
     )]
     NothingHolds {
         /// Force along the duct \[N/m\].

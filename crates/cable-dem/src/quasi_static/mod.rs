@@ -25,7 +25,8 @@ use pass::ForwardSolver;
 ///
 /// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps, w a node's length of cable and p the body force: one implicit step of
 /// a rate-independent system, exact as long as no node reverses its slip within the step. Work is done only where something moves: in
-/// windows around zones that slip, which travel with the vehicle, and in small ones at ends and clamps. Outside the windows up to 1e-3 of the friction limit stays unbalanced while the vehicle passes.
+/// windows around zones that slip, which travel with the vehicle, and in small ones at ends and clamps.
+/// Outside the windows up to 1e-3 of the friction limit stays unbalanced while the vehicle passes.
 ///
 /// Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
 /// first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in

@@ -5,8 +5,9 @@
 //! the order in which they lead, which decides where a stiff cable goes. Where that happens far
 //! away it happens to the whole duct at once and is felt by the whole cable: a turn at the distance
 //! d is as wide as d, and a stride of d/100 misses 1e-5 of it. So the vehicle takes strides of a
-//! hundredth of the distance of its wheels, wherever that is more than a step. A wheel on a half-space (ν = 0.4) pushes the duct away within six depths and pulls it in beyond; the pull
-//! is largest at twelve, and changes fastest after that at eighteen.
+//! hundredth of the distance of its wheels, wherever that is more than a step. A wheel on a
+//! half-space (ν = 0.4) pushes the duct away within six depths and pulls it in beyond; the pull is
+//! largest at twelve, and changes fastest after that at eighteen.
 
 /// Strides in the distance of the vehicle.
 const STRIDES: i64 = 100;
