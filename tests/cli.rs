@@ -1,7 +1,5 @@
 //! The command line, from outside: what it prints where, its exit status, and what it says about bad input.
 
-#![cfg(feature = "cli")]
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -15,7 +15,6 @@ mod presets;
 mod profile;
 mod progress;
 mod readings;
-#[cfg(feature = "plot")]
 mod report;
 mod run;
 mod shared;
@@ -67,7 +66,6 @@ enum Command {
     /// Find the springs or the clamp that stay within limits of force and movement
     Design(Box<design::Arguments>),
     /// Write a self-contained HTML report with figures
-    #[cfg(feature = "plot")]
     Report(Box<report::Arguments>),
     /// Write a commented scene to start from
     New(Box<new::Arguments>),
@@ -134,7 +132,6 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
-        #[cfg(feature = "plot")]
         Command::Report(arguments) => report::execute(arguments),
         Command::New(arguments) => new::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
