@@ -30,7 +30,7 @@ pub enum CableError {
         vehicle(*.vehicle_position)
     )]
     NoConvergence {
-        /// Position of the vehicle's origin along the duct, from where it enters \[m\]; infinite where none is near.
+        /// Position of the vehicle's origin along the duct \[m\]; infinite where none is near.
         vehicle_position: f64,
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,

@@ -130,15 +130,6 @@ impl Recorder {
         }
     }
 
-    /// Seen in the mirror the ends change places; compression stays compression. Forces on clamps turn round.
-    pub fn mirror(&mut self) {
-        for range in &mut self.clamps {
-            *range = [-range[1], -range[0]];
-        }
-        std::mem::swap(&mut self.peak.upstream, &mut self.peak.downstream);
-        std::mem::swap(&mut self.lowest.upstream, &mut self.lowest.downstream);
-    }
-
     /// The outcome of a pass that left the cable in `state` with `force` on its ends.
     pub fn outcome(
         mut self,

@@ -316,19 +316,6 @@ impl CableState {
         let same = |v: f64| (v / wanted - 1.0).abs() < 1e-9;
         checked("node spacing of the state", spacing, "the mesh's", same).map(|_| ())
     }
-
-    /// The same state seen in a mirror across the duct's middle.
-    pub(crate) fn mirror(&mut self) {
-        for values in [&mut self.displacement, &mut self.friction] {
-            values.reverse();
-            for value in values.iter_mut() {
-                *value = -*value;
-            }
-        }
-        for slips in &mut self.clamp_slips {
-            *slips = [-slips[1], -slips[0]];
-        }
-    }
 }
 
 #[cfg(test)]

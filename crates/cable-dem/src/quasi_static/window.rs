@@ -73,60 +73,39 @@ pub(super) fn grow(
     (grown, 2 * growth)
 }
 
-/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside
-/// each edge. At least [`GAP`] quiet nodes lie between two parts; of fewer than four more the
-/// windows of the next step take so many that they join again.
+/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. At least [`GAP`] quiet
+/// nodes lie between two of them.
 pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
-    let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
-    let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {
-        return;
-    };
-    let with_edges = |lo: usize, hi: usize| Stretch {
-        lo: solved.lo.max(lo.saturating_sub(1)),
-        hi: solved.hi.min(hi + 1),
-    };
-    let mut lo = first;
-    // Of so many quiet nodes side by side one at least is looked at.
-    let mut probe = first + GAP;
-    while probe < last {
-        if !moves(probe) {
-            let before = (lo..probe).rev().find(|&node| moves(node)).unwrap_or(lo);
-            let after = (probe..last).find(|&node| moves(node)).unwrap_or(last);
-            if after > before + GAP {
-                parts.push(with_edges(lo, before));
-                lo = after;
-            }
-            probe = after;
+    let begun = parts.len();
+    for node in solved.nodes().filter(|&node| moves(node)) {
+        let hi = solved.hi.min(node + 1);
+        match parts[begun..].last_mut() {
+            Some(part) if node < part.hi + GAP => part.hi = hi,
+            _ => parts.push(Stretch {
+                lo: solved.lo.max(node.saturating_sub(1)),
+                hi,
+            }),
         }
-        probe += GAP;
     }
-    parts.push(with_edges(lo, last));
 }
 
-/// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond the `limit` of the node,
-/// and so beyond the `least` one \[N/m\].
+/// The stretches of `watched` whose nodes slip side by side, where a block of nodes `may_slip`.
 pub(super) fn slipping(
-    nodes: Range<usize>,
-    (friction, adhesion): (&[f64], &[f64]),
-    (least, limit): (f64, impl Fn(usize) -> f64),
-    mut found: impl FnMut(Stretch),
-) {
-    let slips = |node: &usize| (friction[*node] + adhesion[*node]).abs() > limit(*node);
-    let mut from = nodes.start;
-    while from < nodes.end {
-        let block = from..(from + BLOCK).min(nodes.end);
-        let pairs = friction[block.clone()].iter().zip(&adhesion[block.clone()]);
-        // Several nodes are looked at at once: a third of the time of a pass in which few slip.
-        let beyond = pairs.fold(false, |beyond, (friction, adhesion)| {
-            beyond | ((friction + adhesion).abs() > least)
-        });
-        let Some(lo) = beyond.then(|| block.clone().find(slips)).flatten() else {
-            from = block.end;
-            continue;
-        };
-        from = (lo..nodes.end).find(|node| !slips(node)).unwrap_or(nodes.end);
-        found(Stretch { lo, hi: from - 1 });
+    watched: Stretch,
+    may_slip: impl Fn(Range<usize>) -> bool,
+    slips: impl Fn(&usize) -> bool,
+) -> Vec<Stretch> {
+    let (mut found, mut from, end) = (Vec::new(), watched.lo, watched.hi + 1);
+    while from < end {
+        let mut block = from..(from + BLOCK).min(end);
+        from = block.end;
+        let first = may_slip(block.clone()).then(|| block.find(&slips)).flatten();
+        if let Some(lo) = first {
+            from = (lo..end).find(|node| !slips(node)).unwrap_or(end);
+            found.push(Stretch { lo, hi: from - 1 });
+        }
     }
+    found
 }
 
 /// Nodes over which the response of a stuck chain fades to a hundredth; `screening` is (λ/h)².

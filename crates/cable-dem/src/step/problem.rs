@@ -103,6 +103,13 @@ impl Stretch {
         self.lo <= other.hi && other.lo <= self.hi
     }
 
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.max(other.hi),
+        }
+    }
+
     pub fn len(self) -> usize {
         self.hi + 1 - self.lo
     }
