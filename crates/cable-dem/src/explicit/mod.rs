@@ -3,7 +3,6 @@
 mod energy;
 mod leak;
 mod limits;
-mod lumped;
 mod moving_duct;
 mod nodes;
 
@@ -19,7 +18,6 @@ use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::{Grip, check_precision};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
-use lumped::Lumped;
 use nodes::MovingNodes;
 
 /// Steps between two looks at the kinetic energy.
@@ -110,7 +108,7 @@ pub struct ExplicitOutcome {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Explicit {
-    lumped: Lumped,
+    nodes: MovingNodes,
     options: ExplicitOptions,
     limits: StepLimits,
     resting: RestingCable,
@@ -131,9 +129,9 @@ impl Explicit {
         mass_per_metre: f64,
         options: ExplicitOptions,
     ) -> Result<Self, CableError> {
-        let mut lumped = Lumped::new(cable, mesh, mass_per_metre)?;
-        let limits = StepLimits::new(&lumped);
-        lumped.grips = lumped.chain.take_grips();
+        let mut nodes = MovingNodes::new(cable, mesh, mass_per_metre)?;
+        let limits = StepLimits::new(&nodes);
+        nodes.grips = nodes.chain.take_grips();
         checked(
             "max_node_updates",
             options.max_node_updates,
@@ -154,9 +152,9 @@ impl Explicit {
             }
         }
         Ok(Self {
-            laid: laid(&lumped.cable, &mesh)?,
-            resting: RestingCable::with_memory(&lumped.cable, &mesh),
-            lumped,
+            laid: laid(&nodes.cable, &mesh)?,
+            resting: RestingCable::with_memory(&nodes.cable, &mesh),
+            nodes,
             options,
             limits,
         })
@@ -164,12 +162,12 @@ impl Explicit {
 
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
-        &self.lumped.mesh
+        &self.nodes.mesh
     }
 
     /// The cable.
     pub fn cable(&self) -> &DuctedCable {
-        &self.lumped.cable
+        &self.nodes.cable
     }
 
     /// Limits of the time step.
@@ -183,7 +181,7 @@ impl Explicit {
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
-        let advance = self.lumped.mesh.vehicle_step() / duct.speed();
+        let advance = self.nodes.mesh.vehicle_step() / duct.speed();
         let longest = self.limits.advised().min(advance);
         duct.steps(self.options.time_step.unwrap_or(longest))
     }
@@ -200,7 +198,7 @@ impl Explicit {
     ///
     /// As for [`MovingDuct::new`].
     pub fn passage(&self, motion: &DuctMotion, approach: f64) -> Result<MovingDuct, CableError> {
-        MovingDuct::new(&self.lumped.cable, &self.lumped.mesh, motion, approach)
+        MovingDuct::new(&self.nodes.cable, &self.nodes.mesh, motion, approach)
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
@@ -226,7 +224,7 @@ impl Explicit {
         &mut self,
         duct: &MovingDuct,
         state: &mut CableState,
-        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+        observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<ExplicitOutcome, CableError> {
         state.check(self.mesh())?;
         duct.check(self.mesh())?;
@@ -235,8 +233,6 @@ impl Explicit {
         }
         let (steps, time_step) = (self.steps(duct), self.time_step(duct));
         let mut recorder = Recorder::new(self.cable(), state)?;
-        recorder.peak = self.lumped.end_forces(&state.displacement, &state.friction);
-        recorder.lowest = recorder.peak;
         let mut moving = state.clone();
         let mut energy = EnergyBalance::default();
         let mut force_before_rest = recorder.peak;
@@ -245,32 +241,15 @@ impl Explicit {
             check_precision(self.cable(), self.mesh(), &state.displacement, duct.peak())?;
             self.check_work(steps, time_step)?;
             let arrival = self.rest(duct, 0.0, 1.0, &mut moving)?;
-            let mesh = self.lumped.mesh;
-            let look = |t: f64, nodes: &MovingNodes| {
-                let state = || {
-                    let mut state = CableState::at_rest(&mesh);
-                    nodes.store(&mut state);
-                    state
-                };
-                observe(duct.vehicle_position(t), &state);
-            };
-            energy = run(
-                &mut self.lumped,
-                duct,
-                steps as usize,
-                &mut moving,
-                &mut recorder,
-                look,
-            )?;
+            energy = self.run(duct, steps as usize, &mut moving, &mut recorder, observe)?;
             if self.options.check_energy {
                 energy.check()?;
             }
-            force_before_rest = self.lumped.end_forces(&moving.displacement, &moving.friction);
+            force_before_rest = self.nodes.end_forces();
             let departure = self.rest(duct, duct.duration(), -1.0, &mut moving)?;
             recorder.dissipated = arrival + energy.dissipated + departure;
         }
-        let force = self.lumped.end_forces(&moving.displacement, &moving.friction);
-        let pass = recorder.outcome(self.cable(), &moving, force)?;
+        let pass = recorder.outcome(self.cable(), &moving, moving.end_forces(self.cable())?)?;
         *state = moving;
         Ok(ExplicitOutcome {
             pass,
@@ -317,61 +296,53 @@ impl Explicit {
         state.friction.fill(0.0);
         let heat = self.resting.follow(state, Some(&increment), 0.0, duct.peak())?;
         let friction = &state.friction;
-        let forgotten = self.lumped.weighted(|i| friction[i].powi(2));
-        Ok(heat + self.lumped.chain.compliance * forgotten)
+        let forgotten = self.nodes.weighted(|i| friction[i].powi(2));
+        Ok(heat + self.nodes.chain.compliance * forgotten)
     }
-}
 
-/// All steps of time of one pass; `state` is carried on.
-fn run(
-    lumped: &mut Lumped,
-    duct: &MovingDuct,
-    steps: usize,
-    state: &mut CableState,
-    recorder: &mut Recorder,
-    mut look: impl FnMut(f64, &MovingNodes),
-) -> Result<EnergyBalance, CableError> {
-    let count = lumped.mesh.nodes();
-    let time_step = duct.duration() / steps as f64;
-    for grip in &mut lumped.grips {
-        grip.start(&state.clamp_slips);
-    }
-    let elastic = lumped.elastic_energy(&state.displacement);
-    let mut nodes = MovingNodes::new(state);
-    duct.displacement(0.0, &mut nodes.duct);
-    let mut peak_kinetic = 0.0_f64;
-    for step in 1..=steps {
-        let t = time_step * step as f64;
-        nodes.step(lumped, |d| duct.displacement(t, d), time_step);
-        recorder.record(nodes.end_forces(lumped));
-        if !lumped.grips.is_empty() {
-            let clamps = lumped.cable.restraints();
-            recorder.record_clamps(&Grip::forces(&lumped.grips, clamps, |i| nodes.displacement(i)));
-        }
-        look(t, &nodes);
-        if step % LOOK == 0 || step == steps {
-            let kinetic = nodes.kinetic_energy(lumped);
-            if !kinetic.is_finite() {
-                return Err(CableError::EnergyNotConserved {
-                    unbalanced: 1.0,
-                    returned: nodes
-                        .energy(lumped, (state, elastic), peak_kinetic)
-                        .returned_share(),
-                });
+    /// All steps of time of one pass; `state` is carried on.
+    fn run(
+        &mut self,
+        duct: &MovingDuct,
+        steps: usize,
+        state: &mut CableState,
+        recorder: &mut Recorder,
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+    ) -> Result<EnergyBalance, CableError> {
+        let (nodes, time_step) = (&mut self.nodes, duct.duration() / steps as f64);
+        nodes.begin(state);
+        duct.displacement(0.0, &mut nodes.duct);
+        let mut peak_kinetic = 0.0_f64;
+        for step in 1..=steps {
+            let t = time_step * step as f64;
+            nodes.step(|d| duct.displacement(t, d), time_step);
+            recorder.record(nodes.end_forces());
+            if !nodes.grips.is_empty() {
+                let u = |i: usize| nodes.displacement[i];
+                recorder.record_clamps(&Grip::forces(&nodes.grips, nodes.cable.restraints(), u));
             }
-            peak_kinetic = peak_kinetic.max(kinetic);
+            observe(duct.vehicle_position(t), &|| {
+                let mut shown = state.clone();
+                nodes.store(&mut shown);
+                shown
+            });
+            if step % LOOK == 0 || step == steps {
+                let kinetic = nodes.kinetic_energy();
+                if !kinetic.is_finite() {
+                    return Err(CableError::EnergyNotConserved {
+                        unbalanced: 1.0,
+                        returned: nodes.energy(state, peak_kinetic, duct.peak()).returned_share(),
+                    });
+                }
+                peak_kinetic = peak_kinetic.max(kinetic);
+            }
         }
+        let count = nodes.mesh.nodes();
+        recorder.statistics.steps = steps;
+        recorder.statistics.node_updates += steps * count;
+        recorder.statistics.widest_window = count;
+        let energy = nodes.energy(state, peak_kinetic, duct.peak());
+        nodes.store(state);
+        Ok(energy)
     }
-    let energy = EnergyBalance {
-        reference: lumped.cable.friction().limit() * lumped.cable.length() * duct.peak(),
-        ..nodes.energy(lumped, (state, elastic), peak_kinetic)
-    };
-    recorder.statistics.steps = steps;
-    recorder.statistics.node_updates += steps * count;
-    recorder.statistics.widest_window = count;
-    for grip in &lumped.grips {
-        grip.store(&mut state.clamp_slips);
-    }
-    nodes.store(state);
-    Ok(energy)
 }
