@@ -75,7 +75,7 @@ pub struct QuasiStatic {
     anchor: Vec<f64>,
     /// Of the cable in the current pass \[N\].
     thermal_force: f64,
-    /// What moved in the last step.
+    /// What moved in the last step, and the nodes beside it.
     moving: Vec<Stretch>,
     /// Of the current pass alone, so that a pass is a function of the state and the passage.
     prediction: Prediction,

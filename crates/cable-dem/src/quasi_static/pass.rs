@@ -1,5 +1,7 @@
 //! One pass: the cable in the vehicle's adherent frame, step by step.
 
+use std::ops::Range;
+
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window;
@@ -138,6 +140,11 @@ impl QuasiStatic {
         for window in &windows {
             self.anchor(*window);
         }
+        // The node beside one that moved is disturbed if the window travels on.
+        for part in &mut self.moving {
+            *part = self.bounds.widened(*part, 1);
+        }
+        window::join(&mut self.moving);
         self.record_ends(snapshot);
         self.record_clamps(snapshot);
         Ok(())
@@ -146,30 +153,23 @@ impl QuasiStatic {
     /// The windows of a step that do not belong to supports: what moved in the last one, and what of `watched` begins to slip.
     fn travelling(&self, snapshot: &Snapshot<'_>, watched: Stretch) -> Vec<Stretch> {
         let (bounds, chain) = (self.bounds, &self.step.chain);
-        // The node beside one that moved is disturbed if the window travels on.
-        let widened = self.moving.iter().map(|&part| bounds.widened(part, 1));
-        let mut windows: Vec<Stretch> = widened.collect();
-        window::join(&mut windows);
-        let total = |node: usize| (self.g[node] + snapshot.adhesion[node]).abs();
-        let begins = |node: &usize| {
-            total(*node) > (1.0 + SLIPPING_SHARE) * chain.nodes[*node].limit
-                && !windows.iter().any(|window| window.nodes().contains(node))
+        let above = |limit: f64| (1.0 + SLIPPING_SHARE) * limit;
+        let slips =
+            |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes[node].limit);
+        // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
+        let may_slip = |block: Range<usize>| {
+            let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
+            let least = above(chain.least_limit);
+            pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
         };
-        let begun = window::slipping(
-            watched,
-            // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
-            |block| {
-                let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
-                let least = (1.0 + SLIPPING_SHARE) * chain.least_limit;
-                pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
-            },
-            begins,
-        );
-        windows.extend(
-            begun
-                .into_iter()
-                .map(|slips| bounds.widened(slips, bounds.margin)),
-        );
+        let mut windows = self.moving.clone();
+        let (mut from, end) = (watched.lo, watched.hi + 1);
+        for known in self.moving.iter().chain([&Stretch { lo: end, hi: end }]) {
+            window::slipping(from..known.lo.min(end), may_slip, slips, |begun| {
+                windows.push(bounds.widened(begun, bounds.margin));
+            });
+            from = from.max(known.hi + 1);
+        }
         windows
     }
 
@@ -228,7 +228,7 @@ impl QuasiStatic {
             let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
             self.recorder.dissipated += grip.settle(u);
         }
-        let moves = |node: usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
+        let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();
         self.r[nodes.clone()].copy_from_slice(&trial.r[nodes.clone()]);

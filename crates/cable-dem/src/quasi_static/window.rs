@@ -75,37 +75,40 @@ pub(super) fn grow(
 
 /// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. At least [`GAP`] quiet
 /// nodes lie between two of them.
-pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
-    let begun = parts.len();
-    for node in solved.nodes().filter(|&node| moves(node)) {
-        let hi = solved.hi.min(node + 1);
-        match parts[begun..].last_mut() {
-            Some(part) if node < part.hi + GAP => part.hi = hi,
-            _ => parts.push(Stretch {
-                lo: solved.lo.max(node.saturating_sub(1)),
-                hi,
-            }),
+pub(super) fn moving(solved: Stretch, moves: impl Fn(&usize) -> bool, parts: &mut Vec<Stretch>) {
+    let mut from = solved.lo;
+    while let Some(lo) = (from..=solved.hi).find(&moves) {
+        let mut hi = lo;
+        // From the far end: of so many nodes side by side one at least is looked at.
+        while let Some(next) = (hi + 1..=solved.hi.min(hi + GAP)).rev().find(&moves) {
+            hi = next;
         }
+        from = hi + 1;
+        parts.push(Stretch {
+            lo: solved.lo.max(lo.saturating_sub(1)),
+            hi: solved.hi.min(hi + 1),
+        });
     }
 }
 
-/// The stretches of `watched` whose nodes slip side by side, where a block of nodes `may_slip`.
+/// Finds the stretches of `nodes` that slip side by side, where a block of nodes `may_slip`.
 pub(super) fn slipping(
-    watched: Stretch,
+    nodes: Range<usize>,
     may_slip: impl Fn(Range<usize>) -> bool,
     slips: impl Fn(&usize) -> bool,
-) -> Vec<Stretch> {
-    let (mut found, mut from, end) = (Vec::new(), watched.lo, watched.hi + 1);
+    mut found: impl FnMut(Stretch),
+) {
+    let (mut from, end) = (nodes.start, nodes.end);
     while from < end {
         let mut block = from..(from + BLOCK).min(end);
         from = block.end;
-        let first = may_slip(block.clone()).then(|| block.find(&slips)).flatten();
-        if let Some(lo) = first {
-            from = (lo..end).find(|node| !slips(node)).unwrap_or(end);
-            found.push(Stretch { lo, hi: from - 1 });
+        if may_slip(block.clone()) {
+            if let Some(lo) = block.find(&slips) {
+                from = (lo..end).find(|node| !slips(node)).unwrap_or(end);
+                found(Stretch { lo, hi: from - 1 });
+            }
         }
     }
-    found
 }
 
 /// Nodes over which the response of a stuck chain fades to a hundredth; `screening` is (λ/h)².
@@ -128,7 +131,7 @@ mod tests {
     /// The parts of [`SOLVED`] that move where `stretches` do.
     fn parts(stretches: &[(usize, usize)]) -> Vec<(usize, usize)> {
         let mut parts = Vec::new();
-        let moves = |node| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(&node));
+        let moves = |node: &usize| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(node));
         moving(SOLVED, moves, &mut parts);
         parts.into_iter().map(|part| (part.lo, part.hi)).collect()
     }
