@@ -15,7 +15,6 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::laid::laid;
-use crate::outcome::Recorder;
 use crate::step::{Grip, check_precision};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
 use nodes::MovingNodes;
@@ -143,12 +142,7 @@ impl Explicit {
             // Written so that NaN fails.
             let is_stable = time_step <= limits.together();
             if options.check_limits && !is_stable {
-                return Err(CableError::UnstableStep {
-                    time_step,
-                    elastic: limits.elastic,
-                    friction: limits.friction,
-                    limit: limits.together(),
-                });
+                return Err(CableError::UnstableStep { time_step, limits });
             }
         }
         Ok(Self {
@@ -232,24 +226,31 @@ impl Explicit {
             return Err(CableError::Heated);
         }
         let (steps, time_step) = (self.steps(duct), self.time_step(duct));
-        let mut recorder = Recorder::new(self.cable(), state)?;
+        let mut outcome = PassOutcome::at_rest(self.cable(), state)?;
         let mut moving = state.clone();
         let mut energy = EnergyBalance::default();
-        let mut force_before_rest = recorder.peak;
+        let mut force_before_rest = outcome.force;
         // Without friction nothing drags the cable.
         if self.cable().friction().limit() > 0.0 {
             check_precision(self.cable(), self.mesh(), &state.displacement, duct.peak())?;
-            self.check_work(steps, time_step)?;
+            let (node_updates, allowed) = (steps * self.mesh().nodes() as f64, self.options.max_node_updates);
+            if node_updates > allowed {
+                return Err(CableError::TooManySteps {
+                    time_step,
+                    node_updates,
+                    allowed,
+                });
+            }
             let arrival = self.rest(duct, 0.0, 1.0, &mut moving)?;
-            energy = self.run(duct, steps as usize, &mut moving, &mut recorder, observe)?;
+            energy = self.run(duct, steps as usize, &mut moving, &mut outcome, observe)?;
             if self.options.check_energy {
                 energy.check()?;
             }
             force_before_rest = self.nodes.end_forces();
             let departure = self.rest(duct, duct.duration(), -1.0, &mut moving)?;
-            recorder.dissipated = arrival + energy.dissipated + departure;
+            outcome.dissipated = arrival + energy.dissipated + departure;
         }
-        let pass = recorder.outcome(self.cable(), &moving, moving.end_forces(self.cable())?)?;
+        let pass = outcome.ended(self.cable(), &moving)?;
         *state = moving;
         Ok(ExplicitOutcome {
             pass,
@@ -258,21 +259,6 @@ impl Explicit {
             force_before_rest,
             leak: SigmoidLeak::new(self.cable(), time_step, duct),
         })
-    }
-
-    /// Refuses a pass of so many `steps` where that is more work than allowed.
-    fn check_work(&self, steps: f64, time_step: f64) -> Result<(), CableError> {
-        let node_updates = steps * self.mesh().nodes() as f64;
-        let allowed = self.options.max_node_updates;
-        if node_updates > allowed {
-            return Err(CableError::TooManySteps {
-                steps,
-                time_step,
-                node_updates,
-                allowed,
-            });
-        }
-        Ok(())
     }
 
     /// One step without inertia in which the duct moves between rest and where it stands at the
@@ -306,7 +292,7 @@ impl Explicit {
         duct: &MovingDuct,
         steps: usize,
         state: &mut CableState,
-        recorder: &mut Recorder,
+        outcome: &mut PassOutcome,
         mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<EnergyBalance, CableError> {
         let (nodes, time_step) = (&mut self.nodes, duct.duration() / steps as f64);
@@ -316,10 +302,10 @@ impl Explicit {
         for step in 1..=steps {
             let t = time_step * step as f64;
             nodes.step(|d| duct.displacement(t, d), time_step);
-            recorder.record(nodes.end_forces());
+            outcome.see(nodes.end_forces());
             if !nodes.grips.is_empty() {
                 let u = |i: usize| nodes.displacement[i];
-                recorder.record_clamps(&Grip::forces(&nodes.grips, nodes.cable.restraints(), u));
+                outcome.see_clamps(&Grip::forces(&nodes.grips, nodes.cable.restraints(), u));
             }
             observe(duct.vehicle_position(t), &|| {
                 let mut shown = state.clone();
@@ -338,9 +324,9 @@ impl Explicit {
             }
         }
         let count = nodes.mesh.nodes();
-        recorder.statistics.steps = steps;
-        recorder.statistics.node_updates += steps * count;
-        recorder.statistics.widest_window = count;
+        outcome.statistics.steps = steps;
+        outcome.statistics.node_updates += steps * count;
+        outcome.statistics.widest_window = count;
         let energy = nodes.energy(state, peak_kinetic, duct.peak());
         nodes.store(state);
         Ok(energy)

@@ -13,7 +13,6 @@ use ground_field::DuctMotion;
 use crate::ends::EndReader;
 use crate::error::checked;
 use crate::laid::laid;
-use crate::outcome::Recorder;
 use crate::step::{Chain, Prediction, StepSolver, Stretch, check_precision};
 use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
@@ -79,8 +78,8 @@ pub struct QuasiStatic {
     moving: Vec<Stretch>,
     /// Of the current pass alone, so that a pass is a function of the state and the passage.
     prediction: Prediction,
-    /// What the current pass gathers.
-    recorder: Recorder,
+    /// What the current pass has shown so far.
+    outcome: PassOutcome,
 }
 
 impl QuasiStatic {
@@ -111,7 +110,7 @@ impl QuasiStatic {
             thermal_force: 0.0,
             moving: Vec::new(),
             prediction: Prediction::default(),
-            recorder: Recorder::default(),
+            outcome: PassOutcome::default(),
             cable,
             mesh,
         })
@@ -188,7 +187,6 @@ impl QuasiStatic {
         if !self.step.chain.is_held {
             state.displacement.fill(mean);
         }
-        let force = state.end_forces(&self.cable)?;
-        Recorder::new(&self.cable, state)?.outcome(&self.cable, state, force)
+        PassOutcome::at_rest(&self.cable, state)
     }
 }

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window;
-use crate::outcome::Recorder;
 use crate::step::{Grip, Load, Prediction, StepSolver, Stretch, largest};
 use crate::tuning::UNBALANCED_SHARE;
 use crate::{CableError, CableState, PassOutcome};
@@ -50,9 +49,8 @@ impl QuasiStatic {
         self.move_duct(&last, &still);
         self.step_whole(&still)?;
         *state = self.shown(&still, state);
-        self.recorder.statistics += self.step.statistics;
-        let force = state.end_forces(&self.cable)?;
-        std::mem::take(&mut self.recorder).outcome(&self.cable, state, force)
+        self.outcome.statistics += self.step.statistics;
+        std::mem::take(&mut self.outcome).ended(&self.cable, state)
     }
 
     /// Begins a pass over the cable in `state`.
@@ -70,7 +68,7 @@ impl QuasiStatic {
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction = Prediction::new(points, phases);
-        self.recorder = Recorder::new(&self.cable, state)?;
+        self.outcome = PassOutcome::at_rest(&self.cable, state)?;
         Ok(())
     }
 
@@ -90,13 +88,13 @@ impl QuasiStatic {
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
     /// force that it had.
     fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) {
-        self.recorder.statistics.steps += 1;
+        self.outcome.statistics.steps += 1;
         let StepSolver { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         chain.press(|node| r[node] + last.adherent_at(node), self.thermal_force);
         self.supports.load(snapshot, chain);
         let state = (&mut *self.r, &mut *self.g);
-        self.recorder.dissipated += self.supports.hold([last, snapshot], chain, state, trial);
+        self.outcome.dissipated += self.supports.hold([last, snapshot], chain, state, trial);
     }
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
@@ -134,7 +132,7 @@ impl QuasiStatic {
                 // Around a support nothing travels.
                 self.moving.truncate(before);
             }
-            let widest = &mut self.recorder.statistics.widest_window;
+            let widest = &mut self.outcome.statistics.widest_window;
             *widest = window.len().max(*widest);
         }
         for window in &windows {
@@ -183,7 +181,7 @@ impl QuasiStatic {
             let slip = std::mem::replace(anchor, now) - now;
             node.tributary * node.limit * slip.abs()
         });
-        self.recorder.dissipated += slips.sum::<f64>();
+        self.outcome.dissipated += slips.sum::<f64>();
     }
 
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
@@ -191,7 +189,7 @@ impl QuasiStatic {
     fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
         let (mut growth, mut corrections) = (self.bounds.margin, 0);
         loop {
-            self.recorder.statistics.windows += 1;
+            self.outcome.statistics.windows += 1;
             let load = Load {
                 adhesion: snapshot.adhesion,
                 support: &self.supports.load,
@@ -226,7 +224,7 @@ impl QuasiStatic {
             .filter(|grip| stretch.nodes().contains(&grip.node))
         {
             let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
-            self.recorder.dissipated += grip.settle(u);
+            self.outcome.dissipated += grip.settle(u);
         }
         let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
@@ -248,14 +246,14 @@ impl QuasiStatic {
         let grips = &self.step.chain.grips;
         if !grips.is_empty() {
             let u = |node| self.r[node] + snapshot.adherent_at(node);
-            self.recorder
-                .record_clamps(&Grip::forces(grips, self.cable.restraints(), u));
+            self.outcome
+                .see_clamps(&Grip::forces(grips, self.cable.restraints(), u));
         }
     }
 
     /// Records the force on each end with the vehicle at the snapshot's position.
     fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
-        self.recorder.record(self.ends.read(
+        self.outcome.see(self.ends.read(
             self.thermal_force,
             |node| self.r[node] + snapshot.adherent_at(node),
             |node| self.g[node] + snapshot.adhesion[node],

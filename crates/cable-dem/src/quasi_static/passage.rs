@@ -115,8 +115,8 @@ impl Passage {
     ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
         let unseen = WATCHED_SHARE * UNBALANCED_SHARE * cable.least_limit();
-        let m = mesh.phases() as i64;
-        let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
+        let m = mesh.phases as i64;
+        let (end, stride) = (mesh.elements() as i64 * m, mesh.stride as i64);
         let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;
 
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
@@ -124,9 +124,9 @@ impl Passage {
         let shape = course.tabulate((-behind..behind).map(|j| step * j as f64))?;
         let mut positions = schedule(end, approach, (course.half_length / step).ceil() as i64, stride);
         if course.direction == Direction::Reverse {
-            positions
-                .iter_mut()
-                .for_each(|position| *position = end - *position);
+            for position in &mut positions {
+                *position = end - *position;
+            }
         }
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();

@@ -257,8 +257,7 @@ fn both_solvers_show_the_cable_at_every_vehicle_position() -> Outcome {
     }
     let middle = |shown: Shown| shown.middle.ok_or("nothing was shown");
     let (expected, found) = (middle(still)?, middle(moving)?);
-    let [expected_slip, slip] =
-        [&expected, &found].map(|state| state.slip_lengths(&vec![LIMIT; state.friction().len()]));
+    let (expected_slip, slip) = (expected.slip_lengths(cable)?, found.slip_lengths(cable)?);
     let force = |state: &CableState| state.end_forces(cable).map(|ends| ends.downstream);
     let (expected, found) = (force(&expected)?, force(&found)?);
     assert!(
