@@ -18,7 +18,7 @@ const FIGURES: [&str; 9] = [
     "Force against passes",
     "Force along the cable",
     "Movement of the ends",
-    "Motion of the duct along its axis; and down",
+    "Motion of the duct along its axis; Motion of the duct down",
     "Velocity of the duct along its axis",
     "Friction on the cable, pass 1; Friction on the cable, pass 6",
     "Force against movement",

@@ -107,8 +107,13 @@ fn motion(report: &Report) -> [Chart; 2] {
     };
     let along = "Motion of the duct along its axis";
     [
-        chart(along, "D_l, µm", &motion.longitudinal_m, 0),
-        chart("and down", "D_v, µm", &motion.vertical_m, 1),
+        chart(along, "displacement, µm", &motion.longitudinal_m, 0),
+        chart(
+            "Motion of the duct down",
+            "displacement, µm",
+            &motion.vertical_m,
+            1,
+        ),
     ]
 }
 

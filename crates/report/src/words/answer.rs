@@ -173,21 +173,24 @@ impl Answer<'_> {
         format!("The {place} levels off at {level}. 95 % of {that} is reached after {reached}.{moved}")
     }
 
-    /// What vehicles that differ leave by turns, once nothing changes any more.
+    /// Between what forces vehicles that differ let the ends vary, once nothing changes any more.
     pub fn by_turns(&self) -> String {
         let each = self.run.by_turns().into_iter().map(|(end, least, most)| {
             let (least, most) = (self.reader.number(Limited::Force, least), self.reader.force(most));
-            format!("the {} end shows {least} to {most}", end.name())
+            format!("that on the {} end between {least} and {most}", end.name())
         });
         let each: Vec<String> = each.collect();
         if each.is_empty() {
             return String::new();
         }
         let how = match self.run.random {
-            Some(_) => "in nine passes of ten",
-            None => "after passes by turns",
+            Some(_) => ", in nine passes of ten",
+            None => "",
         };
-        format!(" In the end {} {how}, as vehicles differ.", each.join(" and "))
+        format!(
+            " In the end the force varies from vehicle to vehicle, {}{how}.",
+            each.join(" and ")
+        )
     }
 
     /// How far both ends have moved.
@@ -257,7 +260,8 @@ impl Answer<'_> {
             end,
             when: match self.run.range {
                 None => "where it has not levelled off",
-                Some(_) => "where it was larger before",
+                Some(_) if end.is_none() && self.scene.restraints.is_empty() => "where nothing holds it",
+                Some(_) => "after a larger one before",
             },
         }
     }
