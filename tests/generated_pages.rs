@@ -1,6 +1,8 @@
-//! Pages of docs/ that the program writes itself: below a mark, docs/scene.md is what `creepage explain` says of every key,
-//! docs/commands.md what every command says of itself. `WRITE_PAGES=1 cargo test --test main generated_pages::` writes them.
+//! Pages of docs/ whose part below a mark is generated: docs/scene.md is what `creepage explain` says of every key,
+//! docs/commands.md what every command says of itself, docs/architecture.md which crate uses which.
+//! `WRITE_PAGES=1 cargo test --test main generated_pages::` writes them.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -73,4 +75,50 @@ fn the_page_on_commands_has_every_command_with_its_options() {
     }
     assert!(page.contains("## `run`"), "{page}");
     compare("commands.md", &page);
+}
+
+/// The packages of the workspace that are published, with those of them that each uses.
+fn packages() -> BTreeMap<String, BTreeSet<String>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let crates = fs::read_dir(root.join("crates")).expect("crates/");
+    let mut folders: Vec<_> = crates.map(|entry| entry.expect("an entry").path()).collect();
+    folders.push(root.to_owned());
+    let mut packages = BTreeMap::new();
+    for folder in folders {
+        let manifest = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+        let manifest: toml::Table = manifest.parse().expect("TOML");
+        let package = manifest["package"].as_table().expect("a package");
+        let uses = manifest.get("dependencies").and_then(toml::Value::as_table);
+        if !package.contains_key("publish") {
+            let name = package["name"].as_str().expect("a name").to_owned();
+            let uses = uses.into_iter().flat_map(toml::Table::keys).cloned();
+            packages.insert(name, uses.collect::<BTreeSet<_>>());
+        }
+    }
+    let names: BTreeSet<String> = packages.keys().cloned().collect();
+    for uses in packages.values_mut() {
+        uses.retain(|name| names.contains(name));
+    }
+    packages
+}
+
+/// Whether `package` uses `other` by way of a third one.
+fn uses_indirectly(packages: &BTreeMap<String, BTreeSet<String>>, package: &str, other: &str) -> bool {
+    let mut between = packages[package].iter();
+    between.any(|third| packages[third].contains(other) || uses_indirectly(packages, third, other))
+}
+
+#[test]
+fn the_page_on_architecture_draws_which_crate_uses_which() {
+    let packages = packages();
+    let mut page = "\n```mermaid\ngraph LR\n".to_owned();
+    for (package, uses) in &packages {
+        for used in uses {
+            if !uses_indirectly(&packages, package, used) {
+                writeln!(page, "    {used} --> {package}").unwrap();
+            }
+        }
+    }
+    page += "```\n";
+    compare("architecture.md", &page);
 }
