@@ -68,7 +68,7 @@ pub fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<CableEnd> {
 }
 
 impl Answer<'_> {
-    /// The most important numbers: six, and one of clamps where there are any.
+    /// The most important numbers: six, one of the cable where it bears more than its ends, and one of clamps where there are any.
     pub fn facts(&self) -> Vec<Fact> {
         let Some(last) = self.run.passes.last() else {
             return Vec::new();
@@ -89,6 +89,7 @@ impl Answer<'_> {
         let error = percent(self.run.error_estimate.relative);
         let note = "of the forces, from the computation alone";
         facts.push(fact("Estimated error", error, note));
+        facts.extend(self.inside());
         facts.extend(self.hardest_clamp());
         facts
     }
@@ -118,6 +119,16 @@ impl Answer<'_> {
         let time = format!("{time}{} computed", count(last.pass));
         let reached = fact("Passes to 95 % of it", count(reached), time);
         [level.fact("Saturation", reader), reached, largest]
+    }
+
+    /// The largest force along the cable after the last pass, where it is a twentieth larger than any on an end.
+    fn inside(&self) -> Option<Fact> {
+        let profile = &self.run.force_profile;
+        let along = profile.positions_m.iter().zip(&profile.force_n);
+        let (place, force) = along.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let is_more = self.run.heat.is_none() && force.abs() > 1.05 * self.hardest().newtons.abs();
+        let note = format!("at {}, after the last pass", self.reader.length(*place));
+        is_more.then(|| fact("Largest force in the cable", self.reader.force(*force), note))
     }
 
     /// The clamp that is pressed hardest.
