@@ -93,8 +93,9 @@ pub use scene::{CableEnd, Scene, SceneError, SceneFile};
 pub use template::template;
 #[cfg(feature = "cli")]
 use {
+    creepage_plan::{error, shown},
     creepage_report::words,
-    creepage_run::{answer, error, shown},
+    creepage_run::answer,
 };
 
 /// The examples of the README and of the page on the library are tests too.

@@ -13,7 +13,8 @@ use super::result::{
 };
 use super::row::Row;
 use crate::readings::Measured;
-use creepage_run::{Error, finite};
+use creepage_plan::finite;
+use creepage_run::Error;
 use creepage_scene::four_digits;
 
 /// Shift of a parameter by the mesh, in standard errors, which an interval does not hide.

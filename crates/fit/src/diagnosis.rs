@@ -12,7 +12,8 @@ use super::problem::Problem;
 use super::row::Row;
 use super::terms::cells;
 use super::unknown::Quantity;
-use creepage_run::{Error, shown::words_if};
+use creepage_plan::shown::words_if;
+use creepage_run::Error;
 use creepage_scene::FrictionLaw;
 
 /// Probability below which chance is no longer believed. Four tests then call about three clean series in a hundred suspicious.

@@ -15,11 +15,11 @@ use super::error::unfit;
 use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
-use creepage_run::ground::Ground;
+use creepage_plan::ground::Ground;
+use creepage_plan::{Levels, Period, plan};
 use creepage_run::{
     Error, Progress,
     passes::{JumpSize, Jumping, Task},
-    plan::{Levels, Period, plan},
 };
 use creepage_scene::{Scene, SolverMethod};
 

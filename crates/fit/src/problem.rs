@@ -11,7 +11,8 @@ use super::row::Row;
 use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
-use creepage_run::{Error, plan::Levels};
+use creepage_plan::Levels;
+use creepage_run::Error;
 use creepage_scene::{FrictionLaw, Scene};
 
 /// Ripple of the forces as parameters change on a fixed mesh, beside its typical error: as a node more slips, their slope jumps. Measured on the

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::diagnosis::{LackOfFit, misses_by};
-use creepage_run::finite;
+use creepage_plan::finite;
 
 /// A calibrated scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -10,7 +10,8 @@ use super::options::CalibrateOptions;
 use super::row::{Instrument, Row, instruments};
 use super::unknown::{Quantity, Unknown};
 use crate::readings::Reading;
-use creepage_run::{Error, shown::words_if};
+use creepage_plan::shown::words_if;
+use creepage_run::Error;
 
 /// Standard deviation of a cell's error before the readings, as a share of its largest force: any more would be seen at a glance.
 const ERROR: f64 = 0.25;

@@ -5,7 +5,8 @@ use super::chart::{ALONE, MICRO, MILLI, STACKED, figure};
 use super::content::{Report, reach};
 use super::html::Html;
 use crate::words::{count, round_below, significant};
-use creepage_run::{FrictionProfile, Units, shown::words_if};
+use creepage_plan::shown::words_if;
+use creepage_run::{FrictionProfile, Units};
 use plain_figure::{Axis, Chart, Reference, Series};
 
 pub fn cause(html: &mut Html, report: &Report) {

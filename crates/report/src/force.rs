@@ -6,7 +6,8 @@ use super::content::Report;
 use super::html::Html;
 use super::pass_axis::{PassAxis, left};
 use crate::words::{after_pass, count};
-use creepage_run::{Limited, PassRecord, shown::words_if};
+use creepage_plan::shown::words_if;
+use creepage_run::{Limited, PassRecord};
 use creepage_scene::CableEnd;
 use plain_figure::{Chart, Reference, Series};
 

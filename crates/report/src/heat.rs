@@ -5,10 +5,10 @@ use super::content::Report;
 use super::html::Html;
 use super::pass_axis::PassAxis;
 use crate::words::{count, over_day, significant};
+use creepage_plan::shown::words_if;
 use creepage_run::{
     Limited,
     answer::{DayExtremes, DayPoint, HeatRecord},
-    shown::words_if,
 };
 use creepage_scene::{CableEnd, Heat};
 use plain_figure::{Axis, Chart, Series};

@@ -5,10 +5,8 @@ use super::content::Report;
 use super::html::Html;
 use super::measures::{Comparison, Way};
 use crate::words::{Reader, Table, narrow_name};
-use creepage_run::{
-    Limited,
-    shown::{exact_percent, percent, words_if},
-};
+use creepage_plan::shown::{exact_percent, percent, words_if};
+use creepage_run::Limited;
 use creepage_scene::{CableEnd, End};
 use creepage_study::design::TradeOff;
 use plain_figure::{Axis, Chart, Reference, Series};

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use crate::words::{Reader, pressed_end};
-use creepage_run::{Error, Limits, PassRecord, Progress, Run, ground::Ground};
+use creepage_plan::ground::Ground;
+use creepage_run::{Error, Limits, PassRecord, Progress, Run};
 use creepage_scene::{CableEnd, Scene};
 use creepage_study::{
     design::compare::compare_over,

@@ -9,10 +9,8 @@ use super::html::{Html, escaped};
 use super::route::route;
 use super::section::section;
 use crate::words::{Table, candidates, error_parts, solved};
-use creepage_run::{
-    Verdict,
-    shown::{percent, words_if},
-};
+use creepage_plan::shown::{percent, words_if};
+use creepage_run::Verdict;
 use creepage_study::design::Place;
 use plain_figure::dark_style;
 

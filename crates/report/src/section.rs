@@ -5,7 +5,7 @@ use ground_field::{Base, Direction, Modulus, SoilLayer};
 use super::chart::WIDTH;
 use super::content::Report;
 use crate::words::middle;
-use creepage_run::shown::words_if;
+use creepage_plan::shown::words_if;
 use creepage_scene::{Scene, TrafficVehicle};
 use plain_figure::{Anchor, Drawing, Ink};
 

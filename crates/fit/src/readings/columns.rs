@@ -88,8 +88,13 @@ fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError
             return Err(table.wrong(table.line, found, LAYOUT.allowed));
         }
         if let Some(unit) = name.unit.as_ref().filter(|unit| si(kind, "1", unit).is_err()) {
-            let found = format!("{}: the unit `{unit}`", name.text);
-            return Err(table.wrong(table.line, found, UNITS));
+            // An option stands in no line.
+            let (line, place) = if is_told_unit(options, kind) {
+                (0, "--unit")
+            } else {
+                (table.line, &*name.text)
+            };
+            return Err(table.wrong(line, format!("{place}: found the unit `{unit}`"), UNITS));
         }
         values.push(Values {
             column,

@@ -12,7 +12,8 @@ impl Columns<'_> {
         for pair in self.table.rows.windows(2) {
             let is_one_run = self.run.is_none_or(|run| pair[0].cell(run) == pair[1].cell(run));
             if is_one_run && is_earlier(pair[1].cell(column), pair[0].cell(column)) {
-                let allowed = "rows in the order of their times";
+                let before = pair[0].cell(column);
+                let allowed = format!("rows in the order of their times: the row before has \"{before}\"");
                 return Err(self.table.wrong_cell(&pair[1], column, allowed));
             }
         }

@@ -2,10 +2,10 @@
 
 use super::number::{count, passes, significant};
 use super::reader::Reader;
+use creepage_plan::shown::{percent, words_if};
 use creepage_run::{
     Limited, Limits, PassRecord, Place, Run, Verdict,
     answer::{HeatRecord, after},
-    shown::{percent, words_if},
 };
 use creepage_scene::{CableEnd, DAYS_PER_YEAR, End, Scene};
 

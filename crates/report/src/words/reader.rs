@@ -3,7 +3,8 @@
 use ground_field::Modulus;
 
 use super::number::{quantity, significant};
-use creepage_run::{Limited, Units, answer::largest_movement_in_duct, shown::rounded};
+use creepage_plan::shown::rounded;
+use creepage_run::{Limited, Units, answer::largest_movement_in_duct};
 use creepage_scene::{Scene, Unit};
 
 /// Last digits of forces \[N\] and movements \[m\], if four are not fewer.

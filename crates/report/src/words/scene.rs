@@ -5,7 +5,8 @@ use ground_field::{Base, Direction, Modulus};
 use super::number::{passes, power_of_ten, quantity, significant};
 use super::reader::Reader;
 use super::table::Table;
-use creepage_run::{answer::after, ground::load_ratio, shown::words_if};
+use creepage_plan::{ground::load_ratio, shown::words_if};
+use creepage_run::answer::after;
 use creepage_scene::{
     Arrangement, End, FrictionLaw, Order, PeakScaling, RouteSection, Scene, TrafficVehicle,
 };

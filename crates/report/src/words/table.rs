@@ -3,10 +3,10 @@
 use super::answer::Answer;
 use super::number::count;
 use super::reader::Reader;
+use creepage_plan::shown::{percent, spacing, time};
 use creepage_run::{
     Candidate, ErrorSource, Limited, Part, PassRecord, Place, PlanSummary, Run,
     answer::{DayExtremes, after, in_rows, table_days, table_rows},
-    shown::{percent, spacing, time},
 };
 use creepage_scene::CableEnd;
 

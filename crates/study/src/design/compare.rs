@@ -7,10 +7,8 @@ use rayon::prelude::*;
 use super::error::DesignError;
 use super::runs::Runs;
 use super::trade_off::{Spring, TradeOff};
-use creepage_run::{
-    Error, Limits, Progress,
-    ground::{Ground, road},
-};
+use creepage_plan::ground::{Ground, road};
+use creepage_run::{Error, Limits, Progress};
 use creepage_scene::Scene;
 
 /// Runs `scene` once with each of `springs`, all on one mesh, on all cores. A run that fails is an

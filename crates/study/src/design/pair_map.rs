@@ -18,7 +18,8 @@ use super::error::DesignError;
 use super::options::DesignOptions;
 use super::runs::{Runs, springs};
 use super::trade_off::{Limit, Spring, TradeOff, with_duct};
-use creepage_run::{Limited, Place, ground::Ground};
+use creepage_plan::ground::Ground;
+use creepage_run::{Limited, Place};
 use creepage_scene::Scene;
 
 /// Points of the grid, and of the map, in a decade of stiffness.

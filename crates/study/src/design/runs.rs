@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::error::DesignError;
 use super::trade_off::{Spring, TradeOff};
+use creepage_plan::ground::Ground;
 use creepage_run::{
     FixedMesh, Limits, Place, Progress, RunOptions,
-    ground::Ground,
     run::{run_over, run_shown},
 };
 use creepage_scene::Scene;

@@ -8,10 +8,8 @@ use super::options::DesignOptions;
 use super::pair_map;
 use super::runs::{Runs, springs};
 use super::trade_off::{Binding, Limit, Side, Spring, TradeOff, with_duct};
-use creepage_run::{
-    Error, Place,
-    ground::{Ground, road},
-};
+use creepage_plan::ground::{Ground, road};
+use creepage_run::{Error, Place};
 use creepage_scene::Scene;
 
 /// The curve of one spring has points in half decades.

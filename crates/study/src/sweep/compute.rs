@@ -9,13 +9,12 @@ use super::columns::{Answer, AnswerColumn, Row};
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::run::SweepOptions;
-use creepage_run::{
-    Error, Progress, Run, RunOptions,
+use creepage_plan::{
     error::with_causes,
     finite,
     ground::{Ground, road},
-    run::run_over,
 };
+use creepage_run::{Error, Progress, Run, RunOptions, run::run_over};
 use creepage_scene::Scene;
 
 impl Sweep {

@@ -9,7 +9,7 @@ use super::distribution::{ID, drawn};
 use super::error::SweepError;
 use super::limits::PointLimits;
 use super::samples::Samples;
-use creepage_run::hash::fnv1a;
+use creepage_plan::hash::fnv1a;
 
 use creepage_scene::{Scene, SceneError, SceneFile, did_you_mean, key_meanings, nearest_key};
 

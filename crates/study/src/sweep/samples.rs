@@ -1,6 +1,6 @@
 //! Where the samples of a drawn key lie.
 
-use creepage_run::hash::fnv1a;
+use creepage_plan::hash::fnv1a;
 
 /// How drawn keys are sampled.
 ///

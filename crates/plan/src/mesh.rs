@@ -9,10 +9,10 @@
 use cable_dem::{CableError, Mesh};
 use ground_field::DuctMotion;
 
-use crate::Error;
+use crate::error::Error;
 use crate::ground::{length_scale, peak};
-use crate::scene::{Scene, SolverMethod};
 use crate::tuning::meshes::{MAX_NODE_UPDATES, MOVED, SLIPS, TYPICAL};
+use creepage_scene::{Scene, SolverMethod};
 
 /// Nodes per length scale on level 0.
 const COARSEST: f64 = 3.0;
@@ -41,8 +41,9 @@ pub struct Levels {
     step: f64,
     /// Whether the vehicle's step follows the spacing; a law without memory depends on it.
     steps_follow: bool,
-    /// The level to begin with, and the finest one to try.
+    /// The level to begin with.
     pub first: usize,
+    /// The finest one to try.
     pub finest: usize,
     /// Whether the scene says how fine to be.
     pub named: bool,
@@ -51,6 +52,7 @@ pub struct Levels {
 }
 
 impl Levels {
+    /// Of a scene whose vehicles begin and end `approach` \[m\] outside the duct.
     pub fn new(scene: &Scene, motions: &[DuctMotion], approach: f64) -> Self {
         let solver = &scene.solver;
         let length = scene.duct.length;
@@ -120,6 +122,10 @@ impl Levels {
 
     /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the
     /// scene asks for is out of range.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when the mesh would have too many nodes or none.
     pub fn mesh(&self, level: usize) -> Result<Mesh, Error> {
         let (spacing, step) = self.spacing(level);
         Mesh::new(self.length, spacing, step).map_err(|error| match error {

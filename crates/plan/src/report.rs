@@ -4,12 +4,12 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
-use super::Plan;
-use super::cost::Estimates;
-use super::method::NO_REST;
-use super::occurrence::Occurrence;
-use crate::scene::SolverMethod;
+use crate::cost::Estimates;
+use crate::method::NO_REST;
+use crate::occurrence::Occurrence;
+use crate::plan::Plan;
 use crate::shown::spacing;
+use creepage_scene::SolverMethod;
 
 /// Meshes that a plan shows.
 const LISTED: usize = 7;
@@ -27,7 +27,7 @@ pub enum Part {
     Mesh,
 }
 
-crate::scene::words!(Part: Ground "ground", Cable "cable", Mesh "mesh");
+creepage_scene::words!(Part: Ground "ground", Cable "cable", Mesh "mesh");
 
 /// A model or mesh that was considered, chosen or not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -10,8 +10,8 @@ use burmister::LayeredHalfSpace;
 use ground_field::{DuctMotion, GroundField, SoilProfile};
 
 use super::motion::{difference, motions};
-use crate::Error;
-use crate::scene::{GroundModel, Scene};
+use crate::error::Error;
+use creepage_scene::{GroundModel, Scene};
 
 /// Accuracy of the duct's motion as a share of its peak where the ground has a closed form. The
 /// cable feels the motion's second derivative, and the closed forms give it away for a few hundred

@@ -2,7 +2,7 @@
 
 use cable_dem::{CableError, DuctedCable, Friction, Order, Traffic};
 
-use crate::scene::Scene;
+use creepage_scene::Scene;
 
 /// Standard acceleration of gravity \[m/s²\], which makes a weight of a mass.
 const GRAVITY: f64 = 9.80665;

@@ -3,10 +3,10 @@
 use cable_dem::CableError;
 use ground_field::DuctMotion;
 
-use crate::scene::Scene;
 use crate::tuning::ground::{
     BEYOND_THE_TURN, FARTHEST, FARTHEST_DISTANCES, FARTHEST_THICKNESSES, LAW_LENGTH,
 };
+use creepage_scene::Scene;
 
 /// How far the road is looked at \[m\], measured from a vehicle's origin.
 pub fn farthest(scene: &Scene) -> f64 {

@@ -6,12 +6,12 @@
 //! `cycle-jump`). Explicit steps are taken where the scene names them, and for the sigmoid law,
 //! which has no state of rest.
 
-use super::cost::Estimates;
-use super::period::Period;
-use crate::Error;
-use crate::scene::{Scene, SolverMethod};
+use crate::cost::Estimates;
+use crate::error::Error;
+use crate::period::Period;
 use crate::shown;
 use crate::tuning::methods::DRAWN_ERROR;
+use creepage_scene::{Scene, SolverMethod};
 
 /// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
 const LONGEST_WITHOUT_REST: f64 = 600.0;

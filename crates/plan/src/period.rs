@@ -10,12 +10,12 @@
 use cable_dem::Order;
 use ground_field::DuctMotion;
 
-use super::mix::Mix;
-use super::representatives;
-use crate::Error;
 use crate::cable::{known_order, traffic};
-use crate::scene::Scene;
+use crate::error::Error;
+use crate::mix::Mix;
+use crate::representatives;
 use crate::tuning::periods::{FEW, STAND_INS};
+use creepage_scene::Scene;
 
 /// Most vehicles in a period that is chosen here.
 const LONGEST: usize = 2000;
@@ -42,6 +42,10 @@ pub struct Period {
 
 impl Period {
     /// The period of the scene's traffic, whose vehicles move the duct by `motions`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when shares are too uneven for a period.
     pub fn new(scene: &Scene, motions: &[DuctMotion]) -> Result<Self, Error> {
         if let Some(vehicles) = Self::own(scene)? {
             return Ok(Self {
@@ -79,6 +83,10 @@ impl Period {
 
     /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it
     /// does.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when the traffic is none.
     pub fn own(scene: &Scene) -> Result<Option<Vec<usize>>, Error> {
         let most = longest(scene);
         match scene.order() {

@@ -5,14 +5,14 @@
 //! advance is nearest to the mean over the share, with what is left over carried on to the next. So
 //! the stand-ins advance the cable as far in the mean as all kinds do, the rare heavy ones
 //! included. The advance is that of one of the first passes, from the table of
-//! [`occurrence`](super::occurrence): rough on other ground than its own, but only its course over
+//! [`occurrence`](crate::occurrence): rough on other ground than its own, but only its course over
 //! the load counts.
 
 use ground_field::DuctMotion;
 
-use super::occurrence;
 use crate::ground::load_ratio;
-use crate::scene::Scene;
+use crate::occurrence;
+use creepage_scene::Scene;
 
 /// How far a pass of each kind advances a cable that nothing holds \[m\], where the scene's
 /// vehicles differ by their load alone.

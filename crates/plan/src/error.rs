@@ -8,9 +8,9 @@ use cycle_jump::JumpError;
 use ground_field::GroundError;
 
 use crate::error_source::ErrorSource;
-use crate::scene::SceneError;
-use crate::scene::{Location, SceneFile};
 use crate::shown::{exact_percent, percent};
+use creepage_scene::SceneError;
+use creepage_scene::{Location, SceneFile};
 
 /// Error of an analysis.
 #[derive(Debug, thiserror::Error)]

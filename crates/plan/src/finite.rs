@@ -4,7 +4,7 @@
 //! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value;
 //! a table would hold the text `inf`.
 
-use crate::Error;
+use crate::error::Error;
 
 /// Makes sure that no number of the answer is infinite or NaN.
 ///

@@ -2,9 +2,9 @@
 
 use ground_field::{DuctLine, DuctMotion, GroundField};
 
-use crate::Error;
-use crate::scene::{PeakScaling, Scene, TrafficVehicle, Wheel};
+use crate::error::Error;
 use crate::tuning::ground::SMOOTHER;
+use creepage_scene::{PeakScaling, Scene, TrafficVehicle, Wheel};
 
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);

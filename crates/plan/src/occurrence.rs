@@ -20,7 +20,7 @@ use ground_field::DuctMotion;
 use serde::Serialize;
 
 use crate::ground::peak;
-use crate::scene::Scene;
+use creepage_scene::Scene;
 
 /// What runs gave for one value of Q.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,7 +107,7 @@ pub struct Occurrence {
 
 impl Occurrence {
     /// `None` where nothing moves the duct.
-    pub(super) fn new(scene: &Scene, motions: &[DuctMotion]) -> Option<Self> {
+    pub fn new(scene: &Scene, motions: &[DuctMotion]) -> Option<Self> {
         let displacement = peak(motions);
         let limit = scene.friction_limit();
         let (depth, length) = (scene.duct.depth, scene.duct.length);

@@ -2,23 +2,26 @@
 
 use cable_dem::{Explicit, ExplicitOptions, inertia_ratio};
 
-use super::mesh::Levels;
-use super::period::Period;
-use crate::scene::{Scene, SolverMethod};
+use crate::cable;
+use crate::error::Error;
+use crate::mesh::Levels;
+use crate::period::Period;
 use crate::tuning::methods::{
     DAYS, EVERY_PASS_MESHES, EXPLICIT_SECONDS, JUMP_MESHES, MOST_PERIODS, PERIODS_A_DAY,
     QUASI_STATIC_SECONDS, SPARED, TYPICAL_PERIODS,
 };
-use crate::{Error, cable};
+use creepage_scene::{Scene, SolverMethod};
 
 /// What the choice of a method rests on.
 #[derive(Debug)]
 pub struct Estimates {
     /// (v/c)² of the fastest vehicle.
     pub inertia: f64,
-    /// Passes that jumps leave to be simulated: as a rule, and at most.
+    /// Passes that jumps leave to be simulated, as a rule.
     pub typical: f64,
+    /// The same at most.
     pub most: f64,
+    /// Passes of the scene.
     pub passes: f64,
     /// Time of one pass, without inertia and explicit, on the level to begin with \[s\].
     quasi_static: f64,
@@ -26,6 +29,11 @@ pub struct Estimates {
 }
 
 impl Estimates {
+    /// Of a scene on these meshes.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when a mesh is impossible.
     pub fn new(scene: &Scene, levels: &Levels, period: &Period) -> Result<Self, Error> {
         let cable = cable::cable(scene)?;
         let (passes, length) = (scene.traffic.passes as f64, period.len() as f64);

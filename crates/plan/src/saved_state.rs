@@ -4,10 +4,10 @@
 use cable_dem::{CableError, CableState, DuctedCable, Mesh, RestingCable, Restraint, carried};
 use serde::{Deserialize, Serialize};
 
-use crate::Error;
 use crate::cable::cable;
+use crate::error::Error;
 use crate::hash::fnv1a;
-use crate::scene::{CableEnd, Scene};
+use creepage_scene::{CableEnd, Scene};
 
 /// Version of what is written.
 const VERSION: u32 = 1;
@@ -113,7 +113,7 @@ fn same(a: f64, b: f64) -> bool {
 impl SavedState {
     /// The cable of `scene` as `state`, with what its `passes` have left, after the runs `before`
     /// it.
-    pub(crate) fn new(
+    pub fn new(
         scene: &Scene,
         cable: &DuctedCable,
         state: &CableState,
@@ -165,7 +165,11 @@ impl SavedState {
     }
 
     /// Refuses a state of another duct, or one that was changed.
-    pub(crate) fn check(&self, scene: &Scene) -> Result<(), Error> {
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] with what does not agree.
+    pub fn check(&self, scene: &Scene) -> Result<(), Error> {
         let here = duct(scene);
         let mut values = self.duct.iter().zip(&here);
         let differs = values.find(|(one, other)| !same(one.value, other.value));
@@ -211,12 +215,16 @@ impl SavedState {
     }
 
     /// How far the cable had moved there when this clamp was put on, now or before \[m\].
-    pub(crate) fn put_on(&self, clamp: &Restraint) -> f64 {
+    pub fn put_on(&self, clamp: &Restraint) -> f64 {
         self.clamp(clamp).put_on_m
     }
 
     /// The cable of `scene`, held where this state has it.
-    pub(crate) fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
+    ///
+    /// # Errors
+    ///
+    /// [`CableError`] where the scene is none.
+    pub fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
         let positions = CableEnd::ALL.map(|end| {
             let saved = end.of(self.ends);
             let springs = [end.held_in(scene).stiffness(), saved.stiffness_n_per_m];
@@ -235,7 +243,11 @@ impl SavedState {
     }
 
     /// The cable of `scene` on `mesh` at rest in this state, with what it finds there.
-    pub(crate) fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
+    ///
+    /// # Errors
+    ///
+    /// [`CableError`] where the state is not one of this cable.
+    pub fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
         let cable = self.cable(scene)?;
         let mut state = carried(&self.cable, mesh)?;
         let mut clamps = self.clamps.iter().zip(&scene.restraints);

@@ -2,7 +2,7 @@
 
 use cable_dem::{Order, Traffic};
 
-use crate::Error;
+use crate::error::Error;
 use crate::tuning::periods::{EXACT, LEAST, NEAR, SHORT};
 
 /// Rounding of shares.

@@ -3,10 +3,11 @@
 use cable_dem::Order;
 use ground_field::Base;
 
-use super::period::coming;
-use crate::scene::{Scene, unusual};
+use crate::error::Error;
+use crate::error_source::ErrorSource;
+use crate::period::coming;
 use crate::shown::{exact_percent, percent};
-use crate::{Error, ErrorSource};
+use creepage_scene::{Scene, unusual};
 
 /// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to
 /// 2000.

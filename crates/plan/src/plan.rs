@@ -1,47 +1,43 @@
-//! How a scene is computed: the ground's motion, the method, the meshes. Data only; `run` carries
+//! How a scene is computed: the ground's motion, the method, the meshes. Data only; a run carries
 //! it out.
 //!
 //! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what
 //! the passes will cost. The run measures what the estimates promise, and refines where they
 //! promise too much.
 
-mod cost;
-mod mesh;
-mod method;
-mod mix;
-pub mod occurrence;
-mod period;
-mod report;
-mod representatives;
-mod warnings;
-
 use std::sync::Arc;
 
 use ground_field::GroundField;
 
-use crate::SavedState;
+use creepage_scene::{Scene, SolverMethod};
+
+use crate::cost::Estimates;
+use crate::error::Error;
 use crate::ground::{Ground, road};
-use crate::scene::SolverMethod;
-use crate::{Error, Scene};
-pub use cost::Estimates;
-pub use mesh::Levels;
-use method::LONGEST_EVERY_PASS;
-pub use method::MOST_PASSES;
-pub use period::Period;
-pub use report::{Candidate, Part, PlanReport};
+use crate::mesh::Levels;
+use crate::method::{self, LONGEST_EVERY_PASS, MOST_PASSES};
+use crate::period::Period;
+use crate::saved_state::SavedState;
+use crate::warnings;
 
 /// How a scene will be computed.
 #[derive(Debug)]
 pub struct Plan<'a> {
+    /// What is computed.
     pub scene: &'a Scene,
+    /// Its ground, and the motion of its duct under each vehicle.
     pub ground: Arc<Ground>,
+    /// The period of its traffic.
     pub period: Period,
-    /// How the passes are computed, and why.
+    /// How the passes are computed.
     pub method: SolverMethod,
+    /// Why.
     pub reason: String,
     /// What every method would cost.
     pub estimates: Estimates,
+    /// Its meshes, from coarse to fine.
     pub levels: Levels,
+    /// What the reader must know of it.
     pub warnings: Vec<String>,
     /// The state that the passes begin with, if not as laid.
     pub start: Option<&'a SavedState>,
@@ -68,6 +64,10 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
 }
 
 /// Plans how to compute a valid `scene` over a `ground` that is known to be its own.
+///
+/// # Errors
+///
+/// As for [`plan`].
 pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> {
     let approach = road::approach(scene, &ground.motions)?;
     let levels = Levels::new(scene, &ground.motions, approach);

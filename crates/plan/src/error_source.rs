@@ -30,7 +30,7 @@ impl ErrorSource {
     ];
 
     /// Whether it comes from what is not simulated.
-    pub(crate) fn is_skipping(self) -> bool {
+    pub fn is_skipping(self) -> bool {
         matches!(self, Self::Passes | Self::Days)
     }
 
