@@ -127,7 +127,9 @@ impl Answer<'_> {
         let along = profile.positions_m.iter().zip(&profile.force_n);
         let (place, force) = along.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         let is_more = self.run.heat.is_none() && force.abs() > 1.05 * self.hardest().newtons.abs();
-        let note = format!("at {}, after the last pass", self.reader.length(*place));
+        let tension = words_if(*force < 0.0, ", tension");
+        let place = self.reader.length(*place);
+        let note = format!("at {place}, after the last pass{tension}");
         is_more.then(|| fact("Largest force in the cable", self.reader.force(*force), note))
     }
 
