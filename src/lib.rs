@@ -98,7 +98,8 @@ use {
     creepage_run::answer,
 };
 
-/// The README's example is a test too.
+/// The examples of the README and of the page on the library are tests too.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct ReadmeExamples;
+#[doc = include_str!("../docs/library.md")]
+struct PageExamples;

@@ -225,7 +225,7 @@ fn bad_input_ends_with_two() {
     refused(
         &["calibrate", UPPER, "--data", few.to_str().unwrap()],
         2,
-        &["1 readings", "needed"],
+        &["too few readings: 1", "or more to fit this"],
     );
     refused(
         &["calibrate", UPPER, "--data", "no-such.csv"],

@@ -21,6 +21,8 @@ mod faulty_cells;
 mod files;
 #[path = "fuzz/main.rs"]
 mod fuzz;
+#[path = "generated_pages.rs"]
+mod generated_pages;
 #[path = "ground_models/main.rs"]
 mod ground_models;
 #[path = "ground_once.rs"]
@@ -51,8 +53,6 @@ mod report;
 mod route;
 #[path = "scene/main.rs"]
 mod scene;
-#[path = "scene_page.rs"]
-mod scene_page;
 #[path = "seldom/main.rs"]
 mod seldom;
 #[path = "several_kinds.rs"]

@@ -187,7 +187,7 @@ fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
         let [forward, backward] = [slip.forward_m, slip.backward_m].map(|length| reader.length(length));
         writeln!(
             out,
-            "Length slipping with the vehicle at mid-duct: {forward} forward, {backward} backward"
+            "length of cable that slides under a vehicle at mid-duct: {forward} forward, {backward} backward"
         )?;
     }
     writeln!(out, "{}", solved(&run.plan, reader))?;

@@ -159,7 +159,15 @@ fn print(
 fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure> {
     let at = band.at.iter().map(|(key, value)| format!("{key} = {value}"));
     writeln!(out, "\n{}", at.collect::<Vec<_>>().join(", "))?;
-    let names = ["mean", "deviation", "5 %", "25 %", "50 %", "75 %", "95 %"];
+    let names = [
+        "mean",
+        "standard deviation",
+        "5 %",
+        "25 %",
+        "50 %",
+        "75 %",
+        "95 %",
+    ];
     let mut names: Vec<String> = names.map(str::to_owned).into();
     names.insert(0, format!("force, {}", units.force.symbol()));
     let forces = [

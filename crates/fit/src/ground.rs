@@ -34,7 +34,8 @@ pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>
         if let Some(error) = estimate.standard_error {
             let name = &estimate.name;
             moved.push(format!(
-                "{name} by {shift:+.2} of its standard errors of {error:.2e}"
+                "{name} by {:+.2e}, {shift:+.1} of its standard errors",
+                shift * error
             ));
         }
     }

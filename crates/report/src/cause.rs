@@ -11,9 +11,9 @@ use plain_figure::{Axis, Chart, Reference, Series};
 
 pub fn cause(html: &mut Html, report: &Report) {
     html.paragraph(
-        "The ground bends under every vehicle, and the duct moves along its axis: with the vehicle over a long way and slowly, \
-         against it over a short way and fast. Friction does not depend on speed, so it drags the cable further with the vehicle \
-         than against it.",
+        "The ground bends under every vehicle and moves the duct along its axis: slowly with the vehicle over a long stretch, \
+         fast against it over a short one. Friction does not depend on speed, so it drags the cable a little further with the \
+         vehicle than against it.",
     );
     html.raw("<div class=\"figures\">");
     let caption = format!(
@@ -108,8 +108,13 @@ fn motion(report: &Report) -> [Chart; 2] {
     };
     let along = "Motion of the duct along its axis";
     [
-        chart(along, "D_l, µm", &motion.longitudinal_m, 0),
-        chart("and down", "D_v, µm", &motion.vertical_m, 1),
+        chart(along, "displacement, µm", &motion.longitudinal_m, 0),
+        chart(
+            "Motion of the duct down",
+            "displacement, µm",
+            &motion.vertical_m,
+            1,
+        ),
     ]
 }
 

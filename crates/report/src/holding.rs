@@ -62,7 +62,7 @@ fn table(report: &Report, comparison: &Comparison) -> Table {
         };
         reader.head(&format!("{what} {}", narrow_name(end)), quantity)
     };
-    let on_clamp = reader.head("most on a clamp", Limited::Force);
+    let on_clamp = reader.head("largest on a clamp", Limited::Force);
     let names = columns
         .map(name)
         .into_iter()
@@ -135,7 +135,7 @@ fn chart(report: &Report, comparison: &Comparison) -> Option<Chart> {
     let edge = positive.iter().copied().fold(most, f64::min) / ROOM;
     let moved = format!("movement of the {} end", end.name());
     let along = Axis::logarithmic(reader.head(&moved, Limited::Movement));
-    let force = Axis::linear(reader.head("force on it", Limited::Force));
+    let force = Axis::linear(reader.head("force on this end", Limited::Force));
     let mut chart = Chart::new("Force against movement", along.range(edge, ROOM * most), force);
     for (quantity, limit, label) in limits {
         chart = chart.refer(match quantity {
@@ -152,7 +152,7 @@ fn chart(report: &Report, comparison: &Comparison) -> Option<Chart> {
             .collect()
     };
     let series = [
-        (points(|is_clamp, _| !is_clamp), "springs … fixed end", 0),
+        (points(|is_clamp, _| !is_clamp), "springs, from soft to fixed", 0),
         (points(|is_clamp, _| is_clamp), "with a clamp", 3),
         (points(|_, is_scene| is_scene), "the scene’s end", OTHER),
     ];

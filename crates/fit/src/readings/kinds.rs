@@ -18,8 +18,9 @@ pub const PASS: Kind = Kind(
     "pass passes passage passages cycle cycles überfahrt überfahrten ueberfahrt ueberfahrten passaggio passaggi pasada pasadas \
      overgang 通過回数",
 );
-pub const VEHICLES: Kind =
-    Kind("vehicles vehicle trucks count counts fahrzeuge anzahl véhicules vehicules veicoli vehículos 台数");
+pub const VEHICLES: Kind = Kind(
+    "vehicles vehicle trucks lkw lorries hgv count counts fahrzeuge anzahl véhicules vehicules veicoli vehículos 台数",
+);
 pub const RUN: Kind = Kind("run runs series versuch lauf essai prova ensayo");
 pub const TIME: Kind =
     Kind("time timestamp date datetime zeit zeitstempel datum temps heure data ora fecha 日時");

@@ -33,11 +33,13 @@ impl Readings {
             return Ok(());
         }
         let line = self.list.last().map_or(0, |reading| reading.line);
-        let allowed = format!("{needed} or more, needed for {parameters} parameters");
+        let allowed = format!(
+            "{needed} or more to fit this ({parameters} parameters); the zero before the first pass counts, as pass 0"
+        );
         Err(DataError::line(
             &self.file,
             line,
-            format!("{} readings", self.list.len()),
+            format!("too few readings: {}", self.list.len()),
             allowed,
         ))
     }

@@ -68,7 +68,7 @@ pub fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<CableEnd> {
 }
 
 impl Answer<'_> {
-    /// The most important numbers: six, and one of clamps where there are any.
+    /// The most important numbers: six, one of the cable where it bears more than its ends, and one of clamps where there are any.
     pub fn facts(&self) -> Vec<Fact> {
         let Some(last) = self.run.passes.last() else {
             return Vec::new();
@@ -89,6 +89,7 @@ impl Answer<'_> {
         let error = percent(self.run.error_estimate.relative);
         let note = "of the forces, from the computation alone";
         facts.push(fact("Estimated error", error, note));
+        facts.extend(self.inside());
         facts.extend(self.hardest_clamp());
         facts
     }
@@ -118,6 +119,18 @@ impl Answer<'_> {
         let time = format!("{time}{} computed", count(last.pass));
         let reached = fact("Passes to 95 % of it", count(reached), time);
         [level.fact("Saturation", reader), reached, largest]
+    }
+
+    /// The largest force along the cable after the last pass, where it is a twentieth larger than any on an end.
+    fn inside(&self) -> Option<Fact> {
+        let profile = &self.run.force_profile;
+        let along = profile.positions_m.iter().zip(&profile.force_n);
+        let (place, force) = along.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let is_more = self.run.heat.is_none() && force.abs() > 1.05 * self.hardest().newtons.abs();
+        let tension = words_if(*force < 0.0, ", tension");
+        let place = self.reader.length(*place);
+        let note = format!("at {place}, after the last pass{tension}");
+        is_more.then(|| fact("Largest force in the cable", self.reader.force(*force), note))
     }
 
     /// The clamp that is pressed hardest.
@@ -173,21 +186,24 @@ impl Answer<'_> {
         format!("The {place} levels off at {level}. 95 % of {that} is reached after {reached}.{moved}")
     }
 
-    /// What vehicles that differ leave by turns, once nothing changes any more.
+    /// Between what forces vehicles that differ let the ends vary, once nothing changes any more.
     pub fn by_turns(&self) -> String {
         let each = self.run.by_turns().into_iter().map(|(end, least, most)| {
             let (least, most) = (self.reader.number(Limited::Force, least), self.reader.force(most));
-            format!("the {} end shows {least} to {most}", end.name())
+            format!("that on the {} end between {least} and {most}", end.name())
         });
         let each: Vec<String> = each.collect();
         if each.is_empty() {
             return String::new();
         }
         let how = match self.run.random {
-            Some(_) => "in nine passes of ten",
-            None => "after passes by turns",
+            Some(_) => ", in nine passes of ten",
+            None => "",
         };
-        format!(" In the end {} {how}, as vehicles differ.", each.join(" and "))
+        format!(
+            " In the end the force varies from vehicle to vehicle, {}{how}.",
+            each.join(" and ")
+        )
     }
 
     /// How far both ends have moved.
@@ -257,7 +273,8 @@ impl Answer<'_> {
             end,
             when: match self.run.range {
                 None => "where it has not levelled off",
-                Some(_) => "where it was larger before",
+                Some(_) if end.is_none() && self.scene.restraints.is_empty() => "where nothing holds it",
+                Some(_) => "after a larger one before",
             },
         }
     }

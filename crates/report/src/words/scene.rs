@@ -162,11 +162,12 @@ impl SceneWords<'_> {
         let together = match scene.cable.arrangement {
             Arrangement::Single => "",
             Arrangement::TrefoilUpper | Arrangement::TrefoilLower => {
-                " The cables are computed one by one. Computed together, the lower ones also carry the upper one’s friction, which lowers \
-                 their force (from 707 to 592 N in a computation of the full-scale experiment): wedging alone does not explain the 900 N \
-                 measured there."
+                " The cables are computed one by one, each with the share of the weight that it carries: compute the others too. Together \
+                 the lower ones would also carry the upper one’s friction, which is left out."
             }
-            _ => " The cables are computed one by one, without friction between them.",
+            _ => {
+                " The cables are computed one by one, without friction between them: compute the others too."
+            }
         };
         let coefficient = significant(scene.friction.dynamic_coefficient);
         let limit = reader.weight(scene.friction_limit());

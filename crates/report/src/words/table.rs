@@ -86,7 +86,7 @@ impl Answer<'_> {
             .into_iter()
             .chain(scene.traffic.per_day.map(|_| "time"));
         let names = first.chain(columns.iter().map(|(name, ..)| name.as_str()));
-        let inside = has_room.then(|| reader.head("most in cable", Limited::Force));
+        let inside = has_room.then(|| reader.head("largest in cable", Limited::Force));
         let head = names
             .chain(inside.as_deref())
             .chain(kind)

@@ -54,7 +54,7 @@ pub fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
     let why = if levels.named {
         "as the scene asks".to_owned()
     } else {
-        format!("for the requested {}", exact_percent(scene.solver.tolerance))
+        format!("for a tolerance of {}", exact_percent(scene.solver.tolerance))
     };
     let of = if scale > depth {
         format!("per {scale:.1} m, over which the duct's motion changes")

@@ -105,7 +105,7 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
             format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
         };
         reasons.push(format!(
-            "{of}; between them the answer follows jumps, from pass {} on",
+            "{of}; from pass {} on, passes between these are interpolated",
             first.pass
         ));
     }

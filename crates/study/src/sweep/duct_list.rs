@@ -18,7 +18,10 @@ const LAYOUT: Layout = Layout {
     measured: None,
     // Above its names a table may say of what it is.
     missing: |names| {
-        let is_key = |name: &Name| name.bare == ID || name.text.contains('.') && !name.bare.contains(' ');
+        let is_key = |name: &Name| {
+            let is_word = name.text.starts_with(char::is_alphabetic) && !name.bare.contains(' ');
+            name.bare == ID || is_word && name.text.contains('.')
+        };
         (!names.iter().any(is_key)).then_some("named as a key")
     },
     is_number: |name| !TEXTS.contains(&name.bare.rsplit('.').next().unwrap_or("")),
@@ -29,7 +32,7 @@ const LAYOUT: Layout = Layout {
     },
     si: |_, _, _| Err("text".into()),
     most: 256 << 20,
-    allowed: "columns named as keys of a scene",
+    allowed: "columns named as keys of a scene, such as `duct.length [m]`, and `id`",
 };
 
 impl Sweep {
