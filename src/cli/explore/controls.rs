@@ -1,0 +1,162 @@
+//! What of a scene can be changed by hand: a slider for each of its numbers that a designer turns.
+
+use serde::Serialize;
+
+use crate::SceneFile;
+use crate::scene::{Dimension as D, Typed, Unit};
+
+/// A number of the scene.
+#[derive(Serialize)]
+pub struct Slider {
+    /// The heading that it stands under.
+    group: &'static str,
+    key: String,
+    name: String,
+    unit: &'static str,
+    /// The number in its unit; none of an end that is free or fixed.
+    value: Option<f64>,
+    /// Of an end: free, spring or fixed.
+    held: Option<String>,
+    /// Where the slider begins and ends, in the unit.
+    least: f64,
+    most: f64,
+    is_logarithmic: bool,
+}
+
+/// Heading; key without the numbers of lists; name, with `#` for that number; dimension; where the slider begins and ends in this unit;
+/// whether it is logarithmic.
+type Row = (
+    &'static str,
+    &'static str,
+    &'static str,
+    Option<D>,
+    [f64; 2],
+    &'static str,
+    bool,
+);
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    ("Duct", "duct.length", "length", Some(D::Length), [5.0, 2000.0], "m", true),
+    ("Duct", "duct.depth", "depth", Some(D::Length), [0.4, 5.0], "m", true),
+    ("Duct", "duct.slope", "slope", Some(D::Slope), [-15.0, 15.0], "%", false),
+    ("Duct", "duct.lateral_offset", "offset from the lane", Some(D::Length), [-6.0, 6.0], "m", false),
+    ("Ground", "ground.layers.thickness", "layer #, thickness", Some(D::Length), [0.02, 10.0], "m", true),
+    ("Ground", "ground.layers.young_modulus", "layer #, Young’s modulus", Some(D::Pressure), [10.0, 20_000.0], "MPa", true),
+    ("Ground", "ground.layers.young_modulus.top", "layer #, modulus at its top", Some(D::Pressure), [10.0, 20_000.0], "MPa", true),
+    ("Ground", "ground.layers.young_modulus.bottom", "layer #, at its bottom", Some(D::Pressure), [10.0, 20_000.0], "MPa", true),
+    ("Ground", "ground.rigid_base_depth", "depth of rock", Some(D::Length), [1.0, 100.0], "m", true),
+    ("Ground", "ground.vertical_peak", "deflection measured", Some(D::Length), [10.0, 1000.0], "um", true),
+    ("Ground", "ground.longitudinal_peak", "peak motion along the axis", Some(D::Length), [1.0, 200.0], "um", true),
+    ("Cable", "cable.weight", "weight", Some(D::Weight), [10.0, 1000.0], "N/m", true),
+    ("Cable", "cable.axial_stiffness", "axial stiffness EA", Some(D::Force), [5e5, 5e8], "N", true),
+    ("Cable", "cable.young_modulus", "Young’s modulus", Some(D::Pressure), [1.0, 200.0], "GPa", true),
+    ("Cable", "cable.conductor_area", "conductor area", Some(D::Area), [50.0, 3000.0], "mm2", true),
+    ("Cable", "cable.normal_load_factor", "normal load factor", None, [0.5, 5.0], "", true),
+    ("Cable", "friction.dynamic_coefficient", "friction coefficient", None, [0.0, 0.8], "", false),
+    ("Cable", "friction.shape_factor", "shape factor", Some(D::InverseLength), [1e4, 1e9], "1/m", true),
+    ("Ends and clamps", "ends.upstream", "upstream end", Some(D::ForcePerLength), [10.0, 1e6], "kN/m", true),
+    ("Ends and clamps", "ends.downstream", "downstream end", Some(D::ForcePerLength), [10.0, 1e6], "kN/m", true),
+    ("Ends and clamps", "restraints.position", "clamp #, place", Some(D::Length), [0.0, 10.0], "m", false),
+    ("Ends and clamps", "restraints.stiffness", "clamp #, stiffness", Some(D::ForcePerLength), [10.0, 1e6], "kN/m", true),
+    ("Ends and clamps", "restraints.holds", "clamp #, slips above", Some(D::Force), [0.05, 50.0], "kN", true),
+    ("Traffic", "vehicles.load", "vehicle #, load", Some(D::Force), [10.0, 500.0], "kN", true),
+    ("Traffic", "vehicles.share", "vehicle #, share", None, [0.01, 100.0], "", true),
+    ("Traffic", "traffic.passes", "passes", None, [1.0, 1e7], "", true),
+    ("Traffic", "traffic.years", "years", None, [0.1, 100.0], "", true),
+    ("Traffic", "traffic.per_day", "vehicles a day", None, [1.0, 20_000.0], "", true),
+    ("Heat", "heat.expansion", "expansion", Some(D::InverseTemperature), [5e-6, 3e-5], "1/K", false),
+    ("Heat", "heat.daily_swing", "daily swing", Some(D::Temperature), [0.0, 60.0], "K", false),
+    ("Heat", "heat.offset", "coldest above laying", Some(D::Temperature), [-40.0, 60.0], "K", false),
+];
+
+/// The sliders of a scene, in the order of the table.
+pub fn sliders(file: &SceneFile) -> Vec<Slider> {
+    let typed = file.typed();
+    let rows = ROWS
+        .iter()
+        .flat_map(|row| typed.iter().map(move |typed| (row, typed)));
+    let mut sliders: Vec<Slider> = rows
+        .filter_map(|(row, typed)| Slider::new(row, typed, file))
+        .collect();
+    // A clamp is somewhere along the duct.
+    let length = sliders
+        .iter()
+        .find(|slider| slider.key == "duct.length")
+        .and_then(|slider| slider.value);
+    for place in sliders
+        .iter_mut()
+        .filter(|slider| slider.key.ends_with(".position"))
+    {
+        place.most = length.unwrap_or(place.most);
+    }
+    sliders
+}
+
+impl Slider {
+    /// The slider of a row, if that is the one of what was typed.
+    fn new(
+        (group, key, name, dimension, range, usual, is_logarithmic): &'static Row,
+        typed: &Typed,
+        file: &SceneFile,
+    ) -> Option<Self> {
+        let parts = || typed.key.split('.');
+        let names: Vec<&str> = parts().filter(|part| part.parse::<usize>().is_err()).collect();
+        let names = names
+            .join(".")
+            .replace("restraints.spring", "restraints.stiffness");
+        let is_end = *group == "Ends and clamps" && key.starts_with("ends");
+        let names = names
+            .split('.')
+            .take(if is_end { 2 } else { usize::MAX })
+            .collect::<Vec<_>>()
+            .join(".");
+        if names != *key {
+            return None;
+        }
+        let held = is_end.then(|| {
+            if ["free", "fixed"].contains(&&*typed.text) {
+                &typed.text
+            } else {
+                "spring"
+            }
+        });
+        let usual = dimension.and_then(|dimension| Unit::of(dimension, usual));
+        let unit = dimension
+            .and_then(|dimension| file.typed_unit(&typed.key, dimension))
+            .or(usual);
+        let in_unit = |si: f64| unit.map_or(si, |unit| unit.of_si(si));
+        let si = dimension.map_or_else(
+            || typed.text.parse().ok(),
+            |dimension| dimension.parse_argument(&typed.text).ok(),
+        );
+        let value = si.map(in_unit);
+        if value.is_none() && !is_end {
+            return None;
+        }
+        let [least, most] = range.map(|number| match (usual, dimension) {
+            (Some(usual), Some(dimension)) => dimension
+                .parse(&format!("{number} {}", usual.symbol()))
+                .map_or(number, in_unit),
+            _ => number,
+        });
+        let number = parts().find_map(|part| part.parse::<usize>().ok());
+        Some(Self {
+            group,
+            key: if is_end { names } else { typed.key.clone() },
+            name: name.replace(
+                '#',
+                &number.map_or(String::new(), |number| (number + 1).to_string()),
+            ),
+            unit: unit.map_or("", |unit| unit.symbol()),
+            value,
+            held: held.map(str::to_owned),
+            // What was typed has its place on it.
+            least: value
+                .filter(|value| !is_logarithmic || *value > 0.0)
+                .map_or(least, |value| least.min(value)),
+            most: value.map_or(most, |value| most.max(value)),
+            is_logarithmic: *is_logarithmic,
+        })
+    }
+}

@@ -1,0 +1,151 @@
+//! Requests of this machine's browser, each in a thread of its own: those that name this server and know its token are answered.
+
+use std::io::Read;
+use std::net::{Ipv4Addr, TcpListener};
+use std::sync::Arc;
+use std::thread;
+
+use tiny_http::{Header, Request, Response};
+
+use crate::cli::failure::Failure;
+
+/// Largest body of a request \[bytes\].
+const LARGEST: usize = 1 << 20;
+/// In every reply: it is for this page alone, and kept nowhere.
+const HEADERS: [(&str, &str); 5] = [
+    ("Cache-Control", "no-store"),
+    ("X-Content-Type-Options", "nosniff"),
+    ("X-Frame-Options", "DENY"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+];
+
+pub struct Reply {
+    pub status: u16,
+    /// As in `Content-Type`.
+    pub kind: &'static str,
+    /// What it may do, as in `Content-Security-Policy`.
+    pub policy: String,
+    pub body: Vec<u8>,
+    /// Whether the server ends once it is sent.
+    pub is_last: bool,
+}
+
+impl Reply {
+    pub fn new(status: u16, kind: &'static str, body: impl Into<Vec<u8>>) -> Self {
+        let (policy, body, is_last) = ("default-src 'none'".to_owned(), body.into(), false);
+        Self {
+            status,
+            kind,
+            policy,
+            body,
+            is_last,
+        }
+    }
+}
+
+/// A server on the loopback address, for whoever knows its token.
+pub struct Server {
+    http: tiny_http::Server,
+    port: u16,
+    token: String,
+}
+
+impl Server {
+    /// Listens on `port`, or on one that is free if it is 0.
+    pub fn new(port: u16, token: String) -> Result<Self, Failure> {
+        let failed = |error: &dyn std::fmt::Display| Failure::Usage {
+            argument: "--port",
+            found: format!("{port}, which cannot be used: {error}"),
+            allowed: "a port of this machine that is free; a free one is taken without it".into(),
+        };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| failed(&error))?;
+        let port = listener.local_addr()?.port();
+        let http = tiny_http::Server::from_listener(listener, None).map_err(|error| failed(&error))?;
+        Ok(Self { http, port, token })
+    }
+
+    /// Where the page is.
+    pub fn address(&self) -> String {
+        format!("http://127.0.0.1:{}/?token={}", self.port, self.token)
+    }
+
+    /// Answers requests by `answer`, from method, path and body, until a reply is the last.
+    pub fn serve(self, answer: impl Fn(&str, &str, &[u8]) -> Reply + Send + Sync + 'static) {
+        let shared = Arc::new((self, answer));
+        for mut request in shared.0.http.incoming_requests() {
+            let shared = Arc::clone(&shared);
+            // If there is no thread, this request has no answer.
+            let _ = thread::Builder::new().spawn(move || {
+                let (server, answer) = &*shared;
+                let reply = server
+                    .answered(&mut request, answer)
+                    .unwrap_or_else(|(status, words)| Reply::new(status, "text/plain; charset=utf-8", words));
+                let headers = [
+                    ("Content-Type", reply.kind),
+                    ("Content-Security-Policy", &reply.policy),
+                ];
+                let headers = headers.into_iter().chain(HEADERS);
+                let response = Response::from_data(reply.body).with_status_code(reply.status);
+                let response = headers
+                    .filter_map(|(name, value)| Header::from_bytes(name, value).ok())
+                    .fold(response, Response::with_header);
+                // A browser that has gone does not want it.
+                let _ = request.respond(response.with_chunked_threshold(usize::MAX));
+                if reply.is_last {
+                    server.http.unblock();
+                }
+            });
+        }
+    }
+
+    /// The reply to a request, or why it has none.
+    fn answered(
+        &self,
+        request: &mut Request,
+        answer: impl Fn(&str, &str, &[u8]) -> Reply,
+    ) -> Result<Reply, (u16, &'static str)> {
+        let all = |name: &'static str| {
+            let named = request
+                .headers()
+                .iter()
+                .filter(move |header| header.field.equiv(name));
+            named.map(|header| header.value.as_str())
+        };
+        let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{}", self.port));
+        let is_own = |host: &str| hosts.iter().any(|own| own == host);
+        let from_here = |origin: &str| origin.strip_prefix("http://").is_some_and(is_own);
+        if all("Host").count() != 1 || !all("Host").all(is_own) || !all("Origin").all(from_here) {
+            return Err((403, "this server answers its own page alone"));
+        }
+        let (path, query) = request.url().split_once('?').unwrap_or_default();
+        if !query
+            .strip_prefix("token=")
+            .is_some_and(|token| self.is_token(token))
+        {
+            return Err((
+                403,
+                "the token is missing or wrong: take the address that was printed",
+            ));
+        }
+        let (method, path, mut body) = (request.method().to_string(), path.to_owned(), Vec::new());
+        let is_large = request.body_length().is_some_and(|length| length > LARGEST);
+        if !is_large {
+            let read = request
+                .as_reader()
+                .take(LARGEST as u64 + 1)
+                .read_to_end(&mut body);
+            read.map_err(|_| (400, "the request ends too early"))?;
+        }
+        if is_large || body.len() > LARGEST {
+            return Err((413, "found a body of more than 1 MB"));
+        }
+        Ok(answer(&method, &path, &body))
+    }
+
+    /// Compares all letters, however many are right: the time tells nothing.
+    fn is_token(&self, found: &str) -> bool {
+        let pairs = found.bytes().zip(self.token.bytes());
+        found.len() == self.token.len() && pairs.fold(0, |wrong, (a, b)| wrong | (a ^ b)) == 0
+    }
+}
