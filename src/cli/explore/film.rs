@@ -20,6 +20,8 @@ const BEYOND: f64 = 8.0;
 const PLACES: i32 = 120;
 /// Finer than this many nodes a depth no eye sees.
 const FINEST: f64 = 12.0;
+/// Friction of this share of its limit is at it.
+const AT_LIMIT: f64 = 1.0 - 1e-6;
 /// One unit of what a picture holds is so much: a tenth of a newton, 10 nm.
 const FORCE: f64 = 0.1;
 const MOVEMENT: f64 = 1e-8;
@@ -105,16 +107,14 @@ pub fn film(
     let picture = |position: f64, now: &CableState| {
         let from = ((position - SEEN * depth) / mesh.spacing()).max(0.0) as usize / every * every;
         let nodes = (from..mesh.nodes()).step_by(every).take(seen / every + 1);
-        let share = |node: usize| now.friction()[node] / limits[node].max(f64::MIN_POSITIVE);
         let moved = |node: usize| now.displacement()[node] - begin.displacement()[node];
         let forces: Vec<f64> = now.element_forces(&cable)?.collect();
         Ok::<_, Error>(Picture {
             vehicle_m: position,
             first: from / every,
-            // What is rounded to 100 but does not slip is 99.
             friction: nodes
                 .clone()
-                .map(|node| (99.5 * share(node)).round().clamp(-100.0, 100.0) as i32)
+                .map(|node| percent(now.friction()[node], limits[node]))
                 .collect(),
             force: nodes.clone().map(|node| at_node(&forces, node)).collect(),
             moved: nodes
@@ -176,6 +176,14 @@ pub fn film(
 /// How far beyond the duct vehicles are followed \[m\].
 fn road_of(scene: &Scene, motions: &[ground_field::DuctMotion]) -> Result<f64, Error> {
     Ok(crate::ground::road::approach(scene, motions)?)
+}
+
+/// Friction as a share of its limit \[%\]: ±100 at the limit, and nowhere else.
+fn percent(friction: f64, limit: f64) -> i32 {
+    if friction.abs() >= AT_LIMIT * limit {
+        return 100 * friction.signum() as i32;
+    }
+    (100.0 * friction / limit).round().clamp(-99.0, 99.0) as i32
 }
 
 /// The force at a node \[0.1 N\], from those in the elements before it and after it.

@@ -1,0 +1,407 @@
+//! `creepage explore`: its answers are those of `run`, and no request that is not the page's stops it from answering.
+
+#![cfg(all(feature = "explore", unix))]
+
+mod server;
+
+use std::fs;
+use std::io::Write;
+use std::net::{Shutdown, TcpStream};
+use std::path::Path;
+use std::process::Command;
+use std::thread;
+use std::time::Duration;
+
+use creepage::SceneFile;
+use serde_json::{Value, json};
+
+use server::{Explored, UPPER, creepage, output, replied};
+
+#[test]
+fn an_answer_is_that_of_run_with_figures_and_words() {
+    let explored = Explored::new(&["--set", "traffic.passes=20"]);
+    let set = json!({ "friction.dynamic_coefficient": 0.3, "ends.upstream.spring": "2 MN/m", "duct.depth": "1.5 m" });
+    let limits = json!({ "force": ["downstream=100 N"], "movement": ["5 mm"] });
+    let answer = explored.answer(&json!({ "set": set, "tolerance": 0.05, "limits": limits }));
+    let run = output(&[
+        "run",
+        UPPER,
+        "--json",
+        "--set=traffic.passes=20",
+        "--set=friction.dynamic_coefficient=0.3",
+        "--set=ends.upstream.spring=2 MN/m",
+        "--set=duct.depth=1.5 m",
+        "--set=solver.tolerance=0.05",
+        "--limit-force=downstream=100 N",
+        "--limit-movement=5 mm",
+    ]);
+    let run: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    for (field, value) in run.as_object().expect("an object") {
+        assert_eq!(answer[field], *value, "{field}");
+    }
+    for figure in ["force", "movement", "along"] {
+        let svg = answer["figures"][figure].as_str().expect("a figure");
+        assert!(svg.starts_with("<svg") && svg.contains("polyline"), "{figure}");
+    }
+    let verdicts = answer["headline"]["verdicts"].as_array().expect("verdicts");
+    let kept: Vec<_> = verdicts.iter().map(|verdict| verdict[1].as_bool()).collect();
+    assert_eq!(kept, [Some(true), Some(false), Some(true)], "{verdicts:?}");
+    let sentences = answer["headline"]["sentences"].as_str().expect("sentences");
+    assert!(sentences.contains("downstream end"), "{sentences}");
+}
+
+#[test]
+fn what_is_refused_has_the_words_of_the_command_line_and_its_key() {
+    let explored = Explored::new(&[]);
+    for (key, value) in [
+        ("duct.depth", "1 mm"),
+        ("duct.depth", "NaN m"),
+        ("friction.dynamic_coefficient", "inf"),
+        ("duct.depht", "1 m"),
+        ("restraints", "[{ position = \"40 m\", stiffness = \"1 MN/m\" }]"),
+        ("ground.model", "burmester"),
+        ("solver.method", "dynamic"),
+        ("duct.length", "1 m\nduct.depth"),
+        ("heat", "{ expansion = \"17e-6 1/K\", daily_swing = \"20 K\" }"),
+    ] {
+        let (status, body) = explored.post("/answer", &json!({ "set": { key: value } }));
+        let refusal: Value = serde_json::from_str(&body).expect("JSON");
+        let run = output(&["run", UPPER, &format!("--set={key}={value}")]);
+        assert_eq!(
+            (status, run.status.code()),
+            (422, Some(2)),
+            "{key}={value}: {body}"
+        );
+        let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+        let message = refusal["message"]
+            .as_str()
+            .expect("a message")
+            .replace(['\u{1b}', '\r'], "\u{fffd}");
+        assert!(
+            printed.trim_end().ends_with(message.trim_end()),
+            "{key}={value}: {message}\n{printed}"
+        );
+        let found = refusal["key"].as_str().expect("a key");
+        assert!(found.starts_with(key) || key == "heat", "{key}: {found}");
+    }
+    // A file of the user's is not for the page to choose.
+    let (status, body) = explored.post(
+        "/answer",
+        &json!({ "set": { "traffic.histogram": "/etc/passwd" } }),
+    );
+    assert!(status == 422 && !body.contains("root:"), "{body}");
+    explored.still_answers("refusals");
+}
+
+#[test]
+fn hostile_requests_are_refused_and_leave_it_answering() {
+    let explored = Explored::new(&[]);
+    let (port, token) = (explored.port, explored.token.clone());
+    let own = format!("Host: 127.0.0.1:{port}");
+    let with = |header: &str| vec![own.clone(), header.to_owned()];
+    let path = format!("/answer?token={token}");
+    let few = r#"{"set":{"traffic.passes":2},"tolerance":0.05}"#;
+    let nested = "[".repeat(100_000);
+    for (method, path, headers, body, expected) in [
+        ("POST", &*path, vec![own.clone()], few, 200),
+        ("POST", &path, vec![format!("Host: localhost:{port}")], few, 200),
+        (
+            "POST",
+            &path,
+            with(&format!("Origin: http://127.0.0.1:{port}")),
+            few,
+            200,
+        ),
+        ("POST", &path, vec!["Host: example.org".into()], few, 403),
+        (
+            "POST",
+            &path,
+            vec![format!("Host: 127.0.0.1.example.org:{port}")],
+            few,
+            403,
+        ),
+        ("POST", &path, vec!["Host: 127.0.0.1:1".into()], few, 403),
+        ("POST", &path, vec!["X-Host: none".into()], few, 403),
+        ("POST", &path, with(&own), few, 403),
+        ("POST", &path, with("Origin: https://example.org"), few, 403),
+        ("POST", &path, with("Origin: null"), few, 403),
+        ("POST", "/answer", vec![own.clone()], few, 403),
+        ("POST", "/answer?token=", vec![own.clone()], few, 403),
+        (
+            "POST",
+            "/answer?token=0123456789abcdef0123456789abcdef",
+            vec![own.clone()],
+            few,
+            403,
+        ),
+        ("POST", &format!("{path}0"), vec![own.clone()], few, 403),
+        (
+            "POST",
+            &format!("{path}&token={token}"),
+            vec![own.clone()],
+            few,
+            403,
+        ),
+        ("GET", "/", vec![own.clone()], "", 403),
+        (
+            "GET",
+            &format!("/../../etc/passwd?token={token}"),
+            vec![own.clone()],
+            "",
+            404,
+        ),
+        (
+            "GET",
+            &format!("/%2e%2e/%2e%2e/etc/passwd?token={token}"),
+            vec![own.clone()],
+            "",
+            404,
+        ),
+        (
+            "GET",
+            &format!("//etc/passwd?token={token}"),
+            vec![own.clone()],
+            "",
+            404,
+        ),
+        ("GET", &path, vec![own.clone()], "", 404),
+        ("DELETE", &format!("/?token={token}"), vec![own.clone()], "", 404),
+        ("POST", &path, vec![own.clone()], "", 400),
+        ("POST", &path, vec![own.clone()], "{", 400),
+        (
+            "POST",
+            &path,
+            vec![own.clone()],
+            "{\"set\": {\"duct.depth\": NaN}}",
+            400,
+        ),
+        ("POST", &path, vec![own.clone()], "{\"tolerance\": 1e999}", 400),
+        ("POST", &path, vec![own.clone()], "{\"files\": []}", 400),
+        ("POST", &path, vec![own.clone()], "{\"set\": [1]}", 400),
+        ("POST", &path, vec![own.clone()], "\u{0}", 400),
+        ("POST", &path, vec![own.clone()], &nested, 400),
+        (
+            "POST",
+            &path,
+            vec![own.clone()],
+            "{\"set\": {\"duct\": [1, {\"a\": 2}]}}",
+            422,
+        ),
+        ("POST", &path, vec![own.clone()], "{\"set\": {\"\": 1}}", 422),
+        ("POST", &path, vec![own.clone()], "{\"tolerance\": -1}", 422),
+        (
+            "POST",
+            &path,
+            vec![own.clone()],
+            "{\"limits\": {\"force\": [\"2 m\"]}}",
+            422,
+        ),
+        (
+            "POST",
+            &path,
+            vec![own.clone()],
+            "{\"limits\": {\"force\": [\"20 m=2 kN\"]}}",
+            422,
+        ),
+    ] {
+        let (status, head, body) = explored.request(method, path, &headers, body);
+        assert_eq!(status, expected, "{method} {path} {headers:?} {body}");
+        assert!(!body.contains("root:"), "{body}");
+        assert!(head.to_lowercase().contains("x-frame-options: deny"), "{head}");
+    }
+    explored.still_answers("each");
+    // No HTTP, headers without end, a body of 10 MB with and without its length.
+    for bytes in [
+        &b"\x16\x03\x01 hello\r\n\r\n"[..],
+        b"GET\r\n\r\n",
+        b"\r\n\r\n",
+        b"POST / HTTP/9.9\r\n\r\n",
+    ] {
+        explored.raw(bytes);
+    }
+    explored.raw(format!("GET / HTTP/1.1\r\n{}", "X: y\r\n".repeat(10_000)).as_bytes());
+    let large = " ".repeat(10 << 20);
+    assert_eq!(explored.request("POST", &path, &[], &large).0, 413);
+    let (length, large) = (large.len(), large.as_str());
+    let chunked =
+        format!("POST {path} HTTP/1.1\r\n{own}\r\nConnection: close\r\nTransfer-Encoding: chunked\r\n\r\n");
+    let (status, ..) = explored.raw(format!("{chunked}{length:x}\r\n{large}\r\n0\r\n\r\n").as_bytes());
+    assert_eq!(status, 413);
+    explored.still_answers("large bodies");
+}
+
+#[test]
+fn two_hundred_slow_ones_and_two_hundred_at_once_leave_it_answering() {
+    let explored = Explored::new(&[]);
+    // Bodies that never come, with and without the token, and heads that never end.
+    let path = format!("/answer?token={}", explored.token);
+    let heads = ["/answer", &path].map(|path| {
+        let host = format!("Host: 127.0.0.1:{}", explored.port);
+        format!("POST {path} HTTP/1.1\r\n{host}\r\nContent-Length: 900000\r\n\r\n{{")
+    });
+    let slow: Vec<TcpStream> = (0..200)
+        .map(|k| {
+            let mut stream = explored.connect();
+            let head = &heads[k % 2];
+            let sent = if k % 3 == 0 { &head[..20] } else { head };
+            stream.write_all(sent.as_bytes()).expect("a beginning");
+            stream
+        })
+        .collect();
+    explored.still_answers("slow bodies");
+    thread::scope(|scope| {
+        for _ in 0..200 {
+            scope.spawn(|| {
+                let (status, _) = explored.post(
+                    "/answer",
+                    &json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 }),
+                );
+                // The newest stops the others.
+                assert!([200, 409].contains(&status), "{status}");
+            });
+        }
+    });
+    explored.still_answers("two hundred at once");
+    drop(slow);
+    explored.still_answers("slow ones that leave");
+}
+
+#[test]
+fn a_newer_question_stops_the_one_under_way() {
+    let explored = Explored::new(&[]);
+    let long = json!({ "set": { "traffic.passes": 1_000_000, "solver.method": "quasi-static" } });
+    thread::scope(|scope| {
+        let older = scope.spawn(|| explored.post("/answer", &long).0);
+        thread::sleep(Duration::from_millis(300));
+        assert!(!older.is_finished());
+        explored.still_answers("a newer question");
+        assert_eq!(older.join().expect("a status"), 409);
+    });
+}
+
+#[test]
+fn a_saved_scene_is_the_one_that_was_asked_about() {
+    let explored = Explored::new(&["--set", "traffic.passes=30"]);
+    let set = [
+        "duct.depth=0.9 m",
+        "ends.downstream.spring=3 MN/m",
+        "friction.dynamic_coefficient=0.31",
+    ];
+    let clamps = "restraints=[{ position = \"12 m\", stiffness = \"1 MN/m\", holds = \"2 kN\" }]";
+    let overrides = [&["traffic.passes=30"], &set[..], &[clamps]].concat();
+    let expected = SceneFile::read(UPPER)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene");
+    let asked: serde_json::Map<String, Value> = overrides[1..]
+        .iter()
+        .filter_map(|set| set.split_once('='))
+        .map(|(key, value)| (key.to_owned(), value.into()))
+        .collect();
+    let (status, text) = explored.post("/scene", &json!({ "set": asked }));
+    assert_eq!(status, 200, "{text}");
+    assert_eq!(
+        creepage::Scene::from_toml("saved.toml", &text).expect("a scene"),
+        expected
+    );
+    // What stands in the comments at its head cannot end them.
+    let (_, text) = explored.post("/scene", &json!({ "set": { "title": "\"a\\nduct = 1\"" } }));
+    assert!(
+        text.lines().take_while(|line| line.starts_with('#')).count() >= 3,
+        "{text}"
+    );
+    creepage::Scene::from_toml("saved.toml", &text).expect("a scene");
+}
+
+/// The first pass against an independent computation (102.08 N on the fixed end), friction within its limits, and the duct slipping
+/// forward over a longer stretch than backward while the vehicle is above it (Kashiro et al., section 2.3).
+#[test]
+fn the_pass_that_is_shown_is_the_one_that_is_computed() {
+    let explored = Explored::new(&[]);
+    let numbers = |list: &Value| -> Vec<f64> {
+        list.as_array()
+            .expect("a list")
+            .iter()
+            .map(|number| number.as_f64().expect("a number"))
+            .collect()
+    };
+    let pass = |first: bool| -> Value {
+        let (status, body) = explored.post("/pass", &json!({ "tolerance": 0.05, "first": first }));
+        assert_eq!(status, 200, "{body}");
+        serde_json::from_str(&body).expect("JSON")
+    };
+    let first = pass(true);
+    let force = 0.1 * numbers(&first["after"]).last().expect("a force");
+    assert!((force / 102.08 - 1.0).abs() < 0.02, "{force} N");
+    assert!(numbers(&first["before"]).iter().all(|force| *force == 0.0));
+    let later = pass(false);
+    assert_eq!(
+        (first["pass"].as_u64(), later["pass"].as_u64()),
+        (Some(1), Some(201))
+    );
+    // Levelled off: the pass leaves what it found.
+    let ends = ["before", "after"].map(|when| *numbers(&later[when]).last().expect("a force"));
+    assert!((ends[1] / ends[0] - 1.0).abs() < 0.01, "{ends:?}");
+    for film in [&first, &later] {
+        let pictures = film["pictures"].as_array().expect("pictures");
+        assert!(pictures.len() > 100);
+        let all = pictures.iter().flat_map(|picture| numbers(&picture["friction"]));
+        assert!(all.map(f64::abs).all(|share| share <= 100.0));
+        let places = numbers(&json!(
+            pictures
+                .iter()
+                .map(|picture| &picture["vehicle_m"])
+                .collect::<Vec<_>>()
+        ));
+        assert!(places.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+    let middle = |picture: &&Value| (picture["vehicle_m"].as_f64().expect("a place") - 15.0).abs() < 0.2;
+    let picture = later["pictures"]
+        .as_array()
+        .and_then(|pictures| pictures.iter().find(middle))
+        .expect("a picture");
+    let slips = |at: f64| {
+        numbers(&picture["friction"])
+            .iter()
+            .filter(|share| **share == at)
+            .count()
+    };
+    assert!(
+        slips(100.0) > 2 * slips(-100.0) && slips(-100.0) > 5,
+        "{} {}",
+        slips(100.0),
+        slips(-100.0)
+    );
+}
+
+#[test]
+fn it_ends_by_its_button_or_by_ctrl_c_and_leaves_no_file() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explore");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER);
+    fs::copy(scene, folder.join("scene.toml")).expect("a scene");
+    let explored = Explored::new(&[]);
+    explored.still_answers("its beginning");
+    assert_eq!(explored.post("/end", &json!({})).0, 200);
+    assert_eq!(explored.ended().code(), Some(0));
+
+    let explored = Explored::new(&[]);
+    let sent = Command::new("kill")
+        .args(["-INT", &explored.child.id().to_string()])
+        .status();
+    assert!(sent.expect("kill").success());
+    assert_eq!(explored.ended().code(), Some(130));
+
+    // A port that is taken.
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = format!("--port={}", taken.local_addr().expect("its address").port());
+    let mut refused = creepage(&["explore", "scene.toml", "--no-browser", &port]);
+    let refused = refused.current_dir(&folder).output().expect("the command starts");
+    let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        refused.status.code() == Some(2) && words.contains("--port: found"),
+        "{words}"
+    );
+    let left: Vec<_> = fs::read_dir(&folder).expect("the folder").collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
