@@ -217,7 +217,10 @@ fn hostile_requests_are_refused_and_leave_it_answering() {
         b"\r\n\r\n",
         b"POST / HTTP/9.9\r\n\r\n",
     ] {
-        explored.raw(bytes);
+        let mut stream = explored.connect();
+        stream.write_all(bytes).expect("something to refuse");
+        let _ = stream.shutdown(Shutdown::Write);
+        assert_ne!(replied(stream).0, 200);
     }
     explored.raw(format!("GET / HTTP/1.1\r\n{}", "X: y\r\n".repeat(10_000)).as_bytes());
     let large = " ".repeat(10 << 20);
@@ -330,21 +333,28 @@ fn the_pass_that_is_shown_is_the_one_that_is_computed() {
         serde_json::from_str(&body).expect("JSON")
     };
     let first = pass(true);
-    let force = 0.1 * numbers(&first["after"]).last().expect("a force");
+    let force = 0.1 * numbers(&first["after_decinewtons"]).last().expect("a force");
     assert!((force / 102.08 - 1.0).abs() < 0.02, "{force} N");
-    assert!(numbers(&first["before"]).iter().all(|force| *force == 0.0));
+    assert!(
+        numbers(&first["before_decinewtons"])
+            .iter()
+            .all(|force| *force == 0.0)
+    );
     let later = pass(false);
     assert_eq!(
         (first["pass"].as_u64(), later["pass"].as_u64()),
         (Some(1), Some(201))
     );
     // Levelled off: the pass leaves what it found.
-    let ends = ["before", "after"].map(|when| *numbers(&later[when]).last().expect("a force"));
+    let ends = ["before_decinewtons", "after_decinewtons"]
+        .map(|when| *numbers(&later[when]).last().expect("a force"));
     assert!((ends[1] / ends[0] - 1.0).abs() < 0.01, "{ends:?}");
     for film in [&first, &later] {
         let pictures = film["pictures"].as_array().expect("pictures");
         assert!(pictures.len() > 100);
-        let all = pictures.iter().flat_map(|picture| numbers(&picture["friction"]));
+        let all = pictures
+            .iter()
+            .flat_map(|picture| numbers(&picture["friction_percent"]));
         assert!(all.map(f64::abs).all(|share| share <= 100.0));
         let places = numbers(&json!(
             pictures
@@ -360,7 +370,7 @@ fn the_pass_that_is_shown_is_the_one_that_is_computed() {
         .and_then(|pictures| pictures.iter().find(middle))
         .expect("a picture");
     let slips = |at: f64| {
-        numbers(&picture["friction"])
+        numbers(&picture["friction_percent"])
             .iter()
             .filter(|share| **share == at)
             .count()
@@ -380,12 +390,12 @@ fn it_ends_by_its_button_or_by_ctrl_c_and_leaves_no_file() {
     fs::create_dir_all(&folder).expect("a folder");
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER);
     fs::copy(scene, folder.join("scene.toml")).expect("a scene");
-    let explored = Explored::new(&[]);
+    let mut explored = Explored::new(&[]);
     explored.still_answers("its beginning");
     assert_eq!(explored.post("/end", &json!({})).0, 200);
     assert_eq!(explored.ended().code(), Some(0));
 
-    let explored = Explored::new(&[]);
+    let mut explored = Explored::new(&[]);
     let sent = Command::new("kill")
         .args(["-INT", &explored.child.id().to_string()])
         .status();

@@ -108,7 +108,7 @@ impl Explored {
         assert!(begun.elapsed() < PATIENCE, "after {after}: {:?}", begun.elapsed());
     }
 
-    pub fn ended(mut self) -> ExitStatus {
+    pub fn ended(&mut self) -> ExitStatus {
         let begun = Instant::now();
         while begun.elapsed() < PATIENCE {
             if let Some(status) = self.child.try_wait().expect("its status") {

@@ -94,69 +94,53 @@ pub fn sliders(file: &SceneFile) -> Vec<Slider> {
 }
 
 impl Slider {
-    /// The slider of a row, if that is the one of what was typed.
-    fn new(
-        (group, key, name, dimension, range, usual, is_logarithmic): &'static Row,
-        typed: &Typed,
-        file: &SceneFile,
-    ) -> Option<Self> {
-        let parts = || typed.key.split('.');
-        let names: Vec<&str> = parts().filter(|part| part.parse::<usize>().is_err()).collect();
+    /// The slider of a row for what was typed, if it is the row of that.
+    fn new(row: &'static Row, typed: &Typed, file: &SceneFile) -> Option<Self> {
+        let (group, key, name, dimension, range, usual, is_logarithmic) = *row;
+        let is_name = |part: &&str| part.parse::<usize>().is_err();
+        let mut names: Vec<&str> = typed.key.split('.').filter(is_name).collect();
+        let is_end = names[0] == "ends";
+        names.truncate(if is_end { 2 } else { names.len() });
         let names = names
             .join(".")
             .replace("restraints.spring", "restraints.stiffness");
-        let is_end = *group == "Ends and clamps" && key.starts_with("ends");
-        let names = names
-            .split('.')
-            .take(if is_end { 2 } else { usize::MAX })
-            .collect::<Vec<_>>()
-            .join(".");
-        if names != *key {
-            return None;
-        }
-        let held = is_end.then(|| {
-            if ["free", "fixed"].contains(&&*typed.text) {
-                &typed.text
-            } else {
-                "spring"
-            }
-        });
+        let is_held = ["free", "fixed"].contains(&&*typed.text);
         let usual = dimension.and_then(|dimension| Unit::of(dimension, usual));
         let unit = dimension
             .and_then(|dimension| file.typed_unit(&typed.key, dimension))
             .or(usual);
         let in_unit = |si: f64| unit.map_or(si, |unit| unit.of_si(si));
-        let si = dimension.map_or_else(
-            || typed.text.parse().ok(),
-            |dimension| dimension.parse_argument(&typed.text).ok(),
-        );
-        let value = si.map(in_unit);
-        if value.is_none() && !is_end {
+        let parsed = |text: &str| match dimension {
+            Some(dimension) => dimension.parse_argument(text).ok(),
+            None => text.parse().ok(),
+        };
+        let value = parsed(&typed.text).map(in_unit);
+        if names != key || value.is_none() && !is_held {
             return None;
         }
-        let [least, most] = range.map(|number| match (usual, dimension) {
-            (Some(usual), Some(dimension)) => dimension
-                .parse(&format!("{number} {}", usual.symbol()))
-                .map_or(number, in_unit),
-            _ => number,
+        let [least, most] = range.map(|number| {
+            let text = usual.map_or(number.to_string(), |usual| format!("{number} {}", usual.symbol()));
+            parsed(&text).map_or(number, in_unit)
         });
-        let number = parts().find_map(|part| part.parse::<usize>().ok());
+        let number = typed.key.split('.').find_map(|part| part.parse::<usize>().ok());
+        // What was typed has its place on the slider.
+        let reached = value.filter(|value| !is_logarithmic || *value > 0.0);
         Some(Self {
             group,
-            key: if is_end { names } else { typed.key.clone() },
-            name: name.replace(
-                '#',
-                &number.map_or(String::new(), |number| (number + 1).to_string()),
-            ),
+            name: name.replace('#', &(1 + number.unwrap_or_default()).to_string()),
             unit: unit.map_or("", |unit| unit.symbol()),
             value,
-            held: held.map(str::to_owned),
-            // What was typed has its place on it.
-            least: value
-                .filter(|value| !is_logarithmic || *value > 0.0)
-                .map_or(least, |value| least.min(value)),
-            most: value.map_or(most, |value| most.max(value)),
-            is_logarithmic: *is_logarithmic,
+            held: is_end.then(|| {
+                if is_held {
+                    typed.text.clone()
+                } else {
+                    "spring".to_owned()
+                }
+            }),
+            least: reached.map_or(least, |value| least.min(value)),
+            most: reached.map_or(most, |value| most.max(value)),
+            is_logarithmic,
+            key: if is_end { names } else { typed.key.clone() },
         })
     }
 }

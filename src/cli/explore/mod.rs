@@ -16,6 +16,7 @@ use std::process::{Command, Stdio};
 use super::failure::Failure;
 use super::shared::TrafficArguments;
 use super::{signals, terminal};
+use bench::Desk;
 use server::Server;
 use session::Session;
 
@@ -52,12 +53,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.no_browser {
         open(&address);
     }
-    let session = Session::new(
+    let path = &arguments.scene.file.scene;
+    let session = Session {
         file,
-        &arguments.scene.file.scene,
-        arguments.scene.overrides(),
-        random()?,
-    );
+        name: terminal::line(&path.file_name().unwrap_or_default().to_string_lossy()),
+        overrides: arguments.scene.overrides(),
+        nonce: random()?,
+        desk: Desk::default(),
+    };
     server.serve(move |method, path, body| session.reply(method, path, body));
     Ok(())
 }
@@ -71,14 +74,12 @@ fn random() -> Result<String, Failure> {
 
 /// Shows the page in the system's browser; if there is none, its address is printed.
 fn open(address: &str) {
-    let (program, arguments): (_, &[&str]) = if cfg!(windows) {
-        ("rundll32", &["url.dll,FileProtocolHandler"])
-    } else if cfg!(target_os = "macos") {
-        ("open", &[])
-    } else {
-        ("xdg-open", &[])
+    let (program, arguments) = match std::env::consts::OS {
+        "windows" => ("rundll32", &["url.dll,FileProtocolHandler"][..]),
+        "macos" => ("open", &[][..]),
+        _ => ("xdg-open", &[][..]),
     };
     let mut browser = Command::new(program);
-    let browser = browser.args(arguments).arg(address).stdin(Stdio::null());
+    browser.args(arguments).arg(address).stdin(Stdio::null());
     let _ = browser.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
 }

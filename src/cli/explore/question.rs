@@ -18,19 +18,12 @@ pub struct Question {
     set: BTreeMap<String, Value>,
     /// Tolerance in place of the scene's.
     tolerance: Option<f64>,
-    limits: Typed,
+    /// Of force and of movement, as they were typed, with places before `=` as on the command line.
+    limits: BTreeMap<String, Vec<String>>,
     /// Whether it is the first pass that is looked at, not the one after the last.
     pub first: bool,
     /// The vehicle that drives in it.
     pub vehicle: usize,
-}
-
-/// Limits as they were typed, with places before `=` as on the command line.
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Typed {
-    force: Vec<String>,
-    movement: Vec<String>,
 }
 
 /// The scene that a question is about.
@@ -58,8 +51,9 @@ pub struct Refusal {
 impl Question {
     /// Reads the JSON of a question about `file`.
     pub fn read(body: &[u8], file: &SceneFile) -> Result<(Self, Asked), Refusal> {
-        let question: Self = serde_json::from_slice(body)
-            .map_err(|error| Refusal::new(400, None, format!("not a question in JSON: {error}")))?;
+        let question: Result<Self, _> = serde_json::from_slice(body);
+        let no = |error| Refusal::new(400, None, &format!("not a question in JSON: {error}"));
+        let question = question.map_err(no)?;
         let asked = question.about(file)?;
         Ok((question, asked))
     }
@@ -72,23 +66,20 @@ impl Question {
             value => format!("{key}={value}"),
         };
         let overrides: Vec<String> = self.set.iter().map(set).collect();
-        let tolerance = self
-            .tolerance
-            .map(|tolerance| format!("solver.tolerance={tolerance}"));
+        let of_solver = |tolerance| format!("solver.tolerance={tolerance}");
+        let tolerance = self.tolerance.map(of_solver);
         let asked = file.with(&overrides)?.with(tolerance.as_slice())?;
         if asked.histogram() != file.histogram() {
             let message = "traffic.histogram: found another file than that of the scene; allowed: that one";
-            return Err(Refusal::new(422, Some("traffic.histogram"), message.into()));
+            return Err(Refusal::new(422, Some("traffic.histogram"), message));
         }
-        let limits = LimitArguments::typed(&self.limits.force, &self.limits.movement);
-        let limits =
-            limits.map_err(|(option, why)| Refusal::new(422, Some(option), format!("{option}: {why}")))?;
-        let scene = asked.scene()?;
-        let is_limited = limits.are_given();
+        let typed = |name| self.limits.get(name).map_or(&[][..], |texts| texts);
+        let limits = LimitArguments::typed(typed("force"), typed("movement"));
+        let refused = |(option, why)| Refusal::new(422, Some(option), &format!("{option}: {why}"));
+        let (scene, limits) = (asked.scene()?, limits.map_err(refused)?);
+        let given = limits.are_given().then(|| limits.limits_beside(&scene, &[]));
         Ok(Asked {
-            limits: is_limited
-                .then(|| limits.limits_beside(&scene, &[]))
-                .transpose()?,
+            limits: given.transpose()?,
             units: limits.units(&asked),
             file: asked,
             scene,
@@ -105,8 +96,8 @@ impl Asked {
 }
 
 impl Refusal {
-    pub fn new(status: u16, key: Option<&str>, message: String) -> Self {
-        let (message, key) = (terminal::cut(&message), key.map(str::to_owned));
+    pub fn new(status: u16, key: Option<&str>, message: &str) -> Self {
+        let (message, key) = (terminal::cut(message), key.map(str::to_owned));
         Self { status, message, key }
     }
 }
@@ -120,6 +111,6 @@ impl<E: Into<Failure>> From<E> for Refusal {
             Failure::Usage { argument, .. } => (422, Some(*argument)),
             _ => (422, None),
         };
-        Self::new(status, key, with_causes(&failure))
+        Self::new(status, key, &with_causes(&failure))
     }
 }

@@ -12,20 +12,19 @@ use crate::cli::failure::Failure;
 /// Largest body of a request \[bytes\].
 const LARGEST: usize = 1 << 20;
 /// In every reply: it is for this page alone, and kept nowhere.
-const HEADERS: [(&str, &str); 5] = [
+const HEADERS: [(&str, &str); 6] = [
     ("Cache-Control", "no-store"),
+    ("Content-Security-Policy", "frame-ancestors 'none'"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("Referrer-Policy", "no-referrer"),
     ("X-Content-Type-Options", "nosniff"),
     ("X-Frame-Options", "DENY"),
-    ("Referrer-Policy", "no-referrer"),
-    ("Cross-Origin-Resource-Policy", "same-origin"),
 ];
 
 pub struct Reply {
     pub status: u16,
     /// As in `Content-Type`.
     pub kind: &'static str,
-    /// What it may do, as in `Content-Security-Policy`.
-    pub policy: String,
     pub body: Vec<u8>,
     /// Whether the server ends once it is sent.
     pub is_last: bool,
@@ -33,14 +32,24 @@ pub struct Reply {
 
 impl Reply {
     pub fn new(status: u16, kind: &'static str, body: impl Into<Vec<u8>>) -> Self {
-        let (policy, body, is_last) = ("default-src 'none'".to_owned(), body.into(), false);
+        let (body, is_last) = (body.into(), false);
         Self {
             status,
             kind,
-            policy,
             body,
             is_last,
         }
+    }
+
+    pub fn last() -> Self {
+        let mut reply = Self::refusal(200, "the session has ended");
+        reply.is_last = true;
+        reply
+    }
+
+    /// Why there is no answer.
+    fn refusal(status: u16, words: &str) -> Self {
+        Self::new(status, "text/plain; charset=utf-8", words)
     }
 }
 
@@ -54,14 +63,13 @@ pub struct Server {
 impl Server {
     /// Listens on `port`, or on one that is free if it is 0.
     pub fn new(port: u16, token: String) -> Result<Self, Failure> {
-        let failed = |error: &dyn std::fmt::Display| Failure::Usage {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| Failure::Usage {
             argument: "--port",
             found: format!("{port}, which cannot be used: {error}"),
-            allowed: "a port of this machine that is free; a free one is taken without it".into(),
-        };
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| failed(&error))?;
+            allowed: "a port of this machine that is free; without it a free one is taken".into(),
+        })?;
         let port = listener.local_addr()?.port();
-        let http = tiny_http::Server::from_listener(listener, None).map_err(|error| failed(&error))?;
+        let http = tiny_http::Server::from_listener(listener, None).map_err(std::io::Error::other)?;
         Ok(Self { http, port, token })
     }
 
@@ -80,16 +88,11 @@ impl Server {
                 let (server, answer) = &*shared;
                 let reply = server
                     .answered(&mut request, answer)
-                    .unwrap_or_else(|(status, words)| Reply::new(status, "text/plain; charset=utf-8", words));
-                let headers = [
-                    ("Content-Type", reply.kind),
-                    ("Content-Security-Policy", &reply.policy),
-                ];
-                let headers = headers.into_iter().chain(HEADERS);
+                    .unwrap_or_else(|refusal| refusal);
+                let headers = HEADERS.into_iter().chain([("Content-Type", reply.kind)]);
+                let headers = headers.filter_map(|(name, value)| Header::from_bytes(name, value).ok());
                 let response = Response::from_data(reply.body).with_status_code(reply.status);
-                let response = headers
-                    .filter_map(|(name, value)| Header::from_bytes(name, value).ok())
-                    .fold(response, Response::with_header);
+                let response = headers.fold(response, Response::with_header);
                 // A browser that has gone does not want it.
                 let _ = request.respond(response.with_chunked_threshold(usize::MAX));
                 if reply.is_last {
@@ -104,7 +107,7 @@ impl Server {
         &self,
         request: &mut Request,
         answer: impl Fn(&str, &str, &[u8]) -> Reply,
-    ) -> Result<Reply, (u16, &'static str)> {
+    ) -> Result<Reply, Reply> {
         let all = |name: &'static str| {
             let named = request
                 .headers()
@@ -116,29 +119,29 @@ impl Server {
         let is_own = |host: &str| hosts.iter().any(|own| own == host);
         let from_here = |origin: &str| origin.strip_prefix("http://").is_some_and(is_own);
         if all("Host").count() != 1 || !all("Host").all(is_own) || !all("Origin").all(from_here) {
-            return Err((403, "this server answers its own page alone"));
+            return Err(Reply::refusal(403, "this server answers its own page alone"));
         }
         let (path, query) = request.url().split_once('?').unwrap_or_default();
         if !query
             .strip_prefix("token=")
             .is_some_and(|token| self.is_token(token))
         {
-            return Err((
+            return Err(Reply::refusal(
                 403,
                 "the token is missing or wrong: take the address that was printed",
             ));
         }
         let (method, path, mut body) = (request.method().to_string(), path.to_owned(), Vec::new());
-        let is_large = request.body_length().is_some_and(|length| length > LARGEST);
-        if !is_large {
+        let is_large = |length: usize| length > LARGEST;
+        if !request.body_length().is_some_and(is_large) {
             let read = request
                 .as_reader()
                 .take(LARGEST as u64 + 1)
                 .read_to_end(&mut body);
-            read.map_err(|_| (400, "the request ends too early"))?;
+            read.map_err(|_| Reply::refusal(400, "the request ends too early"))?;
         }
-        if is_large || body.len() > LARGEST {
-            return Err((413, "found a body of more than 1 MB"));
+        if is_large(request.body_length().unwrap_or_default().max(body.len())) {
+            return Err(Reply::refusal(413, "found a body of more than 1 MB"));
         }
         Ok(answer(&method, &path, &body))
     }

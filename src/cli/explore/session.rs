@@ -1,13 +1,10 @@
 //! What the page asks and gets.
 
-use std::path::Path;
-
-use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::bench::Desk;
+use super::bench::{Bench, Desk};
 use super::controls::sliders;
-use super::figures::Figures;
+use super::figures::figures;
 use super::film::film;
 use super::question::{Asked, Question, Refusal};
 use super::server::Reply;
@@ -18,7 +15,7 @@ use crate::report::{Report, ReportOptions, Source};
 use crate::scene::Unit;
 use crate::shown::percent;
 use crate::words::{Answer, Reader};
-use crate::{Run, SceneFile, Verdict};
+use crate::{Progress, Run, SceneFile, Units, Verdict};
 
 /// The page, with places for the scene and for the nonce of its script.
 const PAGE: &str = include_str!("page.html");
@@ -29,61 +26,31 @@ const VEHICLES: usize = 20;
 
 /// One scene and what is asked about it.
 pub struct Session {
-    file: SceneFile,
+    pub file: SceneFile,
     /// Name of its file.
-    name: String,
+    pub name: String,
     /// What the command line sets on top of the scene.
-    overrides: Vec<String>,
+    pub overrides: Vec<String>,
     /// Marks the page's own script, beside which none runs.
-    nonce: String,
-    desk: Desk,
-}
-
-/// A run as `creepage run --json` has it, and what the page shows of it.
-#[derive(Serialize)]
-struct Answered<'a> {
-    #[serde(flatten)]
-    judged: Judged<'a>,
-    figures: Figures,
-    #[serde(flatten)]
-    shown: Value,
+    pub nonce: String,
+    pub desk: Desk,
 }
 
 impl Session {
-    pub fn new(file: SceneFile, path: &Path, overrides: Vec<String>, nonce: String) -> Self {
-        let name = terminal::line(&path.file_name().unwrap_or_default().to_string_lossy());
-        let desk = Desk::default();
-        Self {
-            file,
-            name,
-            overrides,
-            nonce,
-            desk,
-        }
-    }
-
     /// The reply to a request that may be answered.
     pub fn reply(&self, method: &str, path: &str, body: &[u8]) -> Reply {
-        let question = || Question::read(body, &self.file);
+        let asked = || Question::read(body, &self.file);
         let reply = match (method, path) {
             ("GET", "/") => self.page(),
-            ("POST", "/answer") => question().and_then(|(_, asked)| self.answer(&asked)),
-            ("POST", "/pass") => question().and_then(|(question, asked)| {
-                let film = self
-                    .desk
-                    .compute(|bench, progress| film(bench, &asked.scene, &question, progress));
-                reply(&asked.located(film)?)
-            }),
-            ("POST", "/scene") => question().map(|(_, asked)| self.scene(&asked)),
-            ("POST", "/report") => question().and_then(|(_, asked)| self.report(&asked)),
-            ("POST", "/end") => Ok(Reply {
-                is_last: true,
-                ..Reply::new(200, JSON, "{}")
-            }),
+            ("POST", "/answer") => asked().and_then(|(_, asked)| self.answer(&asked)),
+            ("POST", "/pass") => asked().and_then(|(question, asked)| self.pass(&question, &asked)),
+            ("POST", "/scene") => asked().map(|(_, asked)| self.scene(&asked)),
+            ("POST", "/report") => asked().and_then(|(_, asked)| self.report(&asked)),
+            ("POST", "/end") => Ok(Reply::last()),
             _ => Err(Refusal::new(
                 404,
                 None,
-                "there is nothing but the page and its questions".into(),
+                "there is only the page and its questions",
             )),
         };
         reply.unwrap_or_else(|refusal| Reply::new(refusal.status, JSON, json!(refusal).to_string()))
@@ -103,53 +70,55 @@ impl Session {
         // Nothing in it ends the script that it stands in.
         let scene = scene.to_string().replace('<', "\\u003c");
         let page = PAGE
-            .replacen("NONCE", &self.nonce, 1)
+            .replace("NONCE", &self.nonce)
             .replacen("\"SCENE\"", &scene, 1);
-        let policy = format!(
-            "default-src 'none'; script-src 'nonce-{}'; style-src 'unsafe-inline'; connect-src 'self'; img-src data:; \
-             base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-            self.nonce
-        );
-        Ok(Reply {
-            policy,
-            ..Reply::new(200, HTML, page)
-        })
+        Ok(Reply::new(200, HTML, page))
     }
 
+    /// A run as `creepage run --json` has it, with figures, words, and the sliders as they are now.
     fn answer(&self, asked: &Asked) -> Result<Reply, Refusal> {
-        let run = self
-            .desk
-            .compute(|bench, progress| bench.run(&asked.scene, progress));
-        let mut run = asked.located(run)?;
+        let run = |bench: &mut Bench, progress: Progress<'_>| bench.run(&asked.scene, progress);
+        let mut run = asked.located(self.desk.compute(run))?;
         let slips = asked.file.slips().into_iter();
-        run.warnings.splice(
-            0..0,
-            slips.map(|(location, words)| format!("{location}: {words}")),
-        );
+        let slips = slips.map(|(location, words)| format!("{location}: {words}"));
+        run.warnings.splice(0..0, slips);
         let reader = Reader::new(asked.units, &asked.scene);
         let judgement = asked.limits.as_ref().map(|limits| Judgement::new(&run, limits));
-        reply(&Answered {
-            figures: Figures::new(&run, &reader)?,
-            shown: shown(asked, &run, reader, judgement.as_ref()),
-            judged: Judged { run: &run, judgement },
-        })
+        let headline = headline(asked, &run, reader, judgement.as_ref());
+        let Units {
+            force,
+            movement,
+            length,
+            ..
+        } = reader.units;
+        let unit = |unit: Unit| json!([unit.symbol(), unit.of_si(1.0)]);
+        let mut answer = json!(Judged { run: &run, judgement });
+        answer["figures"] = figures(&run, &reader)?;
+        answer["headline"] = headline;
+        answer["sliders"] = json!(sliders(&asked.file));
+        // Symbols, and how many of each are one in SI.
+        answer["units"] = json!({ "force": unit(force), "movement": unit(movement), "length": unit(length) });
+        Ok(Reply::new(200, JSON, answer.to_string()))
+    }
+
+    /// One simulated pass.
+    fn pass(&self, question: &Question, asked: &Asked) -> Result<Reply, Refusal> {
+        let film = self
+            .desk
+            .compute(|bench, progress| film(bench, &asked.scene, question, progress));
+        Ok(Reply::new(200, JSON, asked.located(film)?.to_string()))
     }
 
     /// The scene as a file, with what was changed.
     fn scene(&self, asked: &Asked) -> Reply {
-        let changes = self.overrides.iter().chain(&asked.overrides);
-        let changes: String = changes
-            .map(|set| format!("#   {}\n", terminal::line(set)))
-            .collect();
-        let head = format!(
-            "# {} in SI units, as left by `creepage explore`, which has set on top of it:\n",
+        let mut text = format!(
+            "# {} in SI units, as left by `creepage explore`, which set:\n",
             self.name
         );
-        Reply::new(
-            200,
-            "application/toml",
-            format!("{head}{changes}\n{}", asked.scene.to_toml()),
-        )
+        for set in self.overrides.iter().chain(&asked.overrides) {
+            text += &format!("#   {}\n", terminal::line(set));
+        }
+        Reply::new(200, "application/toml", text + "\n" + &asked.scene.to_toml())
     }
 
     fn report(&self, asked: &Asked) -> Result<Reply, Refusal> {
@@ -172,39 +141,19 @@ impl Session {
     }
 }
 
-/// The answer in words, the sliders as they are now, and symbols of the reader's units with how many of each are one in SI.
-fn shown(asked: &Asked, run: &Run, reader: Reader, judgement: Option<&Judgement>) -> Value {
-    let Asked { scene, file, .. } = asked;
+/// The answer in words: sentences, facts with their remarks, each limit and whether it is kept.
+fn headline(asked: &Asked, run: &Run, reader: Reader, judgement: Option<&Judgement>) -> Value {
+    let scene = &asked.scene;
     let answer = Answer { scene, run, reader };
     let limits = judgement.map_or(&[][..], |judgement| &judgement.limits);
     let is_kept = |verdict: &Verdict| !verdict.is_exceeded() && verdict.levels_off_above.is_none();
-    let verdicts = limits
-        .iter()
-        .map(|verdict| (answer.verdict(verdict), is_kept(verdict)));
-    let facts = answer
-        .facts()
-        .into_iter()
-        .map(|fact| (fact.name, fact.value, fact.note));
-    let unit = |unit: Unit| (unit.symbol(), unit.of_si(1.0));
+    let judged = |verdict: &Verdict| (answer.verdict(verdict), is_kept(verdict));
+    let facts = answer.facts().into_iter();
+    let facts = facts.map(|fact| (fact.name, fact.value, fact.note));
     json!({
-        "headline": {
-            "sentences": answer.sentences(),
-            "error": percent(run.error_estimate.relative),
-            "facts": facts.collect::<Vec<_>>(),
-            "verdicts": verdicts.collect::<Vec<_>>(),
-            "summary": (limits.len() > 1).then(|| Verdict::summary(limits)),
-        },
-        "sliders": sliders(file),
-        "units": {
-            "force": unit(reader.units.force),
-            "movement": unit(reader.units.movement),
-            "length": unit(reader.units.length),
-        },
-        "most_movement_m": reader.most,
+        "sentences": answer.sentences(),
+        "error": percent(run.error_estimate.relative),
+        "facts": facts.collect::<Vec<_>>(),
+        "verdicts": limits.iter().map(judged).collect::<Vec<_>>(),
     })
-}
-
-fn reply(answer: &impl Serialize) -> Result<Reply, Refusal> {
-    let text = serde_json::to_vec(answer).map_err(std::io::Error::from)?;
-    Ok(Reply::new(200, JSON, text))
 }
