@@ -50,8 +50,8 @@
 //! # Features
 //!
 //! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `plot` (figures and the
-//! report), `sweep`, `xlsx` (workbooks), and `cli`, the command. Without them a scene is read, planned and
-//! run, with 40 crates in all.
+//! report), `sweep`, `xlsx` (workbooks), and `cli`, the command, with its page `explore`. Without them a scene
+//! is read, planned and run, with 40 crates in all.
 
 #[cfg(feature = "calibrate")]
 pub mod calibration;

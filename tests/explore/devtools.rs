@@ -15,6 +15,8 @@ const KEY: &str = "AAAAAAAAAAAAAAAAAAAAAA==";
 pub struct Browser {
     child: Child,
     stream: TcpStream,
+    /// Of the page; none before it is found.
+    session: String,
     count: u64,
     events: Vec<Value>,
 }
@@ -47,21 +49,12 @@ impl Browser {
         // It waits for no reader of what it says later.
         std::thread::spawn(move || errors.for_each(drop));
         let address = address.expect("an address of the browser");
-        let port: u16 = address
-            .split('/')
-            .next()
-            .and_then(|port| port.parse().ok())
-            .expect("a port");
-        let pages = get(port, "/json");
-        let pages: Value = serde_json::from_str(&pages).expect("a list of pages");
-        let mut pages = pages.as_array().expect("a list").iter();
-        let page = pages.find(|page| page["type"] == "page").expect("a page");
-        let path = page["webSocketDebuggerUrl"].as_str().expect("an address");
-        let path = path.split_once(&port.to_string()).expect("a path").1;
+        let (port, path) = address.split_once('/').expect("a path");
+        let port: u16 = port.parse().expect("a port");
         let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("a connection");
         stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
         let head = format!(
-            "GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+            "GET /{path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
              Sec-WebSocket-Key: {KEY}\r\nSec-WebSocket-Version: 13\r\n\r\n"
         );
         stream.write_all(head.as_bytes()).expect("a handshake");
@@ -69,12 +62,23 @@ impl Browser {
         while !reply.ends_with(b"\r\n\r\n") {
             reply.extend_from_slice(&bytes(&mut stream, 1));
         }
+        let session = String::new();
         let mut browser = Self {
             child,
             stream,
+            session,
             count: 0,
             events: Vec::new(),
         };
+        let targets = browser.call("Target.getTargets", json!({}));
+        let mut targets = targets["targetInfos"].as_array().expect("a list").iter();
+        let page = targets.find(|target| target["type"] == "page").expect("a page");
+        let page = json!({ "targetId": page["targetId"], "flatten": true });
+        let attached = browser.call("Target.attachToTarget", page);
+        attached["sessionId"]
+            .as_str()
+            .expect("a session")
+            .clone_into(&mut browser.session);
         for domain in ["Page", "Runtime", "Log"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
@@ -84,7 +88,12 @@ impl Browser {
     /// Calls a method of the protocol; its result.
     pub fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.count += 1;
-        let message = json!({ "id": self.count, "method": method, "params": parameters }).to_string();
+        let mut message = json!({ "id": self.count, "method": method, "params": parameters });
+        // Downloads are the browser's.
+        if !self.session.is_empty() && !method.starts_with("Browser.") {
+            message["sessionId"] = self.session.as_str().into();
+        }
+        let message = message.to_string();
         let length = message.len();
         // One frame of text, masked with zeros.
         let mut frame = vec![0x81, 0x80 | 127];
@@ -191,30 +200,6 @@ fn bytes(stream: &mut TcpStream, count: usize) -> Vec<u8> {
     let mut bytes = vec![0; count];
     stream.read_exact(&mut bytes).expect("an answer of the browser");
     bytes
-}
-
-fn get(port: u16, path: &str) -> String {
-    let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("a connection");
-    stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
-    let head = format!("GET {path} HTTP/1.0\r\nHost: 127.0.0.1:{port}\r\n\r\n");
-    stream.write_all(head.as_bytes()).expect("a request");
-    let mut text = String::new();
-    let mut reader = BufReader::new(stream);
-    let mut length = 0;
-    loop {
-        let mut line = String::new();
-        reader.read_line(&mut line).expect("a head");
-        if let Some((name, value)) = line.split_once(':')
-            && name.eq_ignore_ascii_case("content-length")
-        {
-            length = value.trim().parse().expect("a length");
-        }
-        if line.trim().is_empty() {
-            break;
-        }
-    }
-    reader.take(length).read_to_string(&mut text).expect("a body");
-    text
 }
 
 /// The bytes of a text in base 64 (RFC 4648).

@@ -5,17 +5,80 @@
 mod server;
 
 use std::fs;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::path::Path;
 use std::process::Command;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use creepage::SceneFile;
 use serde_json::{Value, json};
 
-use server::{Explored, UPPER, creepage, output, replied};
+use server::{Explored, PATIENCE, UPPER, creepage, output};
+
+impl Explored {
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(("127.0.0.1", self.port)).expect("a connection");
+        stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
+        stream
+    }
+
+    /// Sends `bytes` and reads status, head and body of the reply.
+    fn raw(&self, bytes: &[u8]) -> (u16, String, String) {
+        let mut stream = self.connect();
+        // A server that refuses a request may close before all of it is sent.
+        let _ = stream.write_all(bytes);
+        replied(stream)
+    }
+
+    fn request(&self, method: &str, path: &str, headers: &[String], body: &str) -> (u16, String, String) {
+        let host = format!("Host: 127.0.0.1:{}", self.port);
+        let headers = if headers.is_empty() { &[host][..] } else { headers };
+        let (headers, length) = (headers.join("\r\n"), body.len());
+        let head = format!(
+            "{method} {path} HTTP/1.1\r\n{headers}\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n"
+        );
+        self.raw(&[head.as_bytes(), body.as_bytes()].concat())
+    }
+
+    fn post(&self, path: &str, question: &Value) -> (u16, String) {
+        let path = format!("{path}?token={}", self.token);
+        let (status, _, body) = self.request("POST", &path, &[], &question.to_string());
+        (status, body)
+    }
+
+    /// The answer to a question that has one.
+    fn answer(&self, question: &Value) -> Value {
+        let (status, body) = self.post("/answer", question);
+        assert_eq!(status, 200, "{question}: {body}");
+        serde_json::from_str(&body).expect("JSON")
+    }
+
+    /// Asserts that it still answers a small question.
+    fn still_answers(&self, after: &str) {
+        let (begun, few) = (
+            Instant::now(),
+            json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 }),
+        );
+        let answer = self.answer(&few);
+        assert_eq!(
+            answer["passes"].as_array().map(Vec::len),
+            Some(2),
+            "after {after}"
+        );
+        assert!(begun.elapsed() < PATIENCE, "after {after}: {:?}", begun.elapsed());
+    }
+}
+
+fn replied(mut stream: TcpStream) -> (u16, String, String) {
+    let mut bytes = Vec::new();
+    let _ = stream.read_to_end(&mut bytes);
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let (head, body) = text.split_once("\r\n\r\n").unwrap_or((&text, ""));
+    let status = head.split(' ').nth(1).and_then(|status| status.parse().ok());
+    (status.unwrap_or(0), head.to_owned(), body.to_owned())
+}
 
 #[test]
 fn an_answer_is_that_of_run_with_figures_and_words() {
