@@ -73,24 +73,11 @@ const ROWS: &[Row] = &[
 /// The sliders of a scene, in the order of the table.
 pub fn sliders(file: &SceneFile) -> Vec<Slider> {
     let typed = file.typed();
-    let rows = ROWS
-        .iter()
-        .flat_map(|row| typed.iter().map(move |typed| (row, typed)));
-    let mut sliders: Vec<Slider> = rows
+    let of_row = |row| typed.iter().map(move |typed| (row, typed));
+    let pairs = ROWS.iter().flat_map(of_row);
+    pairs
         .filter_map(|(row, typed)| Slider::new(row, typed, file))
-        .collect();
-    // A clamp is somewhere along the duct.
-    let length = sliders
-        .iter()
-        .find(|slider| slider.key == "duct.length")
-        .and_then(|slider| slider.value);
-    for place in sliders
-        .iter_mut()
-        .filter(|slider| slider.key.ends_with(".position"))
-    {
-        place.most = length.unwrap_or(place.most);
-    }
-    sliders
+        .collect()
 }
 
 impl Slider {

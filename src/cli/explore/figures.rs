@@ -2,12 +2,10 @@
 
 use serde_json::{Value, json};
 
-use crate::figure::{Axis, Chart, FigureError, Panels, Series};
+use crate::figure::{Axis, Chart, FigureError, Series};
 use crate::words::{Reader, after_pass, over_day};
 use crate::{CableEnd, Limited, Run};
 
-/// Size of a figure \[px\].
-const SIZE: (f64, f64) = (640.0, 400.0);
 /// Passes or days beyond which their axis is logarithmic.
 const MANY: f64 = 2000.0;
 
@@ -28,9 +26,9 @@ pub fn figures(run: &Run, reader: &Reader) -> Result<Value, FigureError> {
     let forces = Axis::linear(reader.head("force", Limited::Force));
     let along = Chart::new("Force along the cable", places, forces);
     Ok(json!({
-        "force": svg(over_time(run, reader, "force", Limited::Force))?,
-        "movement": svg(over_time(run, reader, "movement", Limited::Movement))?,
-        "along": svg(along.with(Series::line("", profile.map(in_unit))))?,
+        "force": over_time(run, reader, "force", Limited::Force).to_svg()?,
+        "movement": over_time(run, reader, "movement", Limited::Movement).to_svg()?,
+        "along": along.with(Series::line("", profile.map(in_unit))).to_svg()?,
     }))
 }
 
@@ -64,8 +62,4 @@ fn over_time(run: &Run, reader: &Reader, what: &str, quantity: Limited) -> Chart
             .with(Series::line(name, points(end, 1)).look(look))
             .with(least)
     })
-}
-
-fn svg(chart: Chart) -> Result<String, FigureError> {
-    Panels::new("").panel_size(SIZE.0, SIZE.1).with(chart).to_svg()
 }

@@ -2,6 +2,7 @@
 //! (Kashiro et al., Figure 7).
 
 use cable_dem::{CableState, DuctedCable, QuasiStatic};
+use ground_field::DuctMotion;
 use serde_json::{Value, json};
 
 use super::bench::Bench;
@@ -21,9 +22,6 @@ const PLACES: i32 = 120;
 const SEEN_A_DEPTH: f64 = 12.0;
 /// Friction of this share of its limit is at it.
 const AT_LIMIT: f64 = 1.0 - 1e-6;
-/// Units of pictures: a tenth of a newton, 10 nm.
-const FORCE: f64 = 0.1;
-const MOVEMENT: f64 = 1e-8;
 
 /// How pictures are taken.
 struct Camera {
@@ -78,10 +76,6 @@ pub fn film(
             pictures.push(camera.picture(position, &look()));
         }
     })?;
-    let place = |k: i32| SEEN * depth * f64::from(k) / f64::from(PLACES);
-    let places: Vec<f64> = (-PLACES..=PLACES).map(place).collect();
-    let along = places.iter().map(|place| 1e6 * motion.longitudinal(*place));
-    let down = places.iter().map(|place| 1e6 * motion.vertical(*place));
     let wheels = vehicle.wheels().into_iter().map(|wheel| wheel.x);
     Ok(json!({
         "pass": if question.first { 1 } else { scene.traffic.passes + 1 },
@@ -91,13 +85,21 @@ pub fn film(
         "length_m": mesh.length(),
         "depth_m": depth,
         "spacing_m": mesh.spacing() * every as f64,
-        "along_um": along.collect::<Vec<_>>(),
-        "down_um": down.collect::<Vec<_>>(),
-        "ahead_m": places,
+        "motion": around(motion, SEEN * depth),
         "before_decinewtons": camera.forces(&camera.begin, 0, usize::MAX)?,
         "after_decinewtons": camera.forces(&state, 0, usize::MAX)?,
         "pictures": pictures.into_iter().collect::<Result<Vec<_>, _>>()?,
     }))
+}
+
+/// The motion of the duct so far on either side of the vehicle \[m\].
+fn around(motion: &DuctMotion, half: f64) -> Value {
+    let place = |k: i32| half * f64::from(k) / f64::from(PLACES);
+    let ahead: Vec<f64> = (-PLACES..=PLACES).map(place).collect();
+    let along = ahead.iter().map(|place| 1e6 * motion.longitudinal(*place));
+    let down = ahead.iter().map(|place| 1e6 * motion.vertical(*place));
+    let (along, down): (Vec<f64>, Vec<f64>) = (along.collect(), down.collect());
+    json!({ "ahead_m": ahead, "along_um": along, "down_um": down })
 }
 
 impl Camera {
@@ -108,7 +110,7 @@ impl Camera {
         let from = under.saturating_sub(self.half) / self.every * self.every;
         let (limits, count) = (now.friction_limits(&self.cable)?, 2 * self.half / self.every + 1);
         let nodes = || (from..limits.len()).step_by(self.every).take(count);
-        let moved = |node: usize| (now.displacement()[node] - self.begin.displacement()[node]) / MOVEMENT;
+        let moved = |node: usize| 1e8 * (now.displacement()[node] - self.begin.displacement()[node]);
         let friction = nodes().map(|node| percent(now.friction()[node], limits[node]));
         Ok(json!({
             "vehicle_m": vehicle,
@@ -119,12 +121,12 @@ impl Camera {
         }))
     }
 
-    /// The forces at so many nodes that are seen: those in the elements before them and after them.
+    /// The forces \[0.1 N\] at so many nodes that are seen: those in the elements before them and after them.
     fn forces(&self, state: &CableState, from: usize, count: usize) -> Result<Vec<i64>, Error> {
         let forces: Vec<f64> = state.element_forces(&self.cable)?.collect();
         let at = |node: usize| 0.5 * (forces[node.max(1) - 1] + forces[node.min(forces.len() - 1)]);
         let nodes = (from..=forces.len()).step_by(self.every).take(count);
-        Ok(nodes.map(|node| (at(node) / FORCE).round() as i64).collect())
+        Ok(nodes.map(|node| (10.0 * at(node)).round() as i64).collect())
     }
 }
 

@@ -89,7 +89,7 @@ impl Question {
 }
 
 impl Asked {
-    /// The failure of a computation, with the line of the key at fault.
+    /// An answer, or the failure with the line of the key at fault.
     pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Refusal> {
         answer.map_err(|error| error.located(&self.file).into())
     }

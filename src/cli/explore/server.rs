@@ -21,36 +21,15 @@ const HEADERS: [(&str, &str); 6] = [
     ("X-Frame-Options", "DENY"),
 ];
 
-pub struct Reply {
-    pub status: u16,
-    /// As in `Content-Type`.
-    pub kind: &'static str,
-    pub body: Vec<u8>,
-    /// Whether the server ends once it is sent.
-    pub is_last: bool,
-}
+/// An answer: its status, its kind as in `Content-Type`, its body.
+pub type Reply = (u16, &'static str, Vec<u8>);
 
-impl Reply {
-    pub fn new(status: u16, kind: &'static str, body: impl Into<Vec<u8>>) -> Self {
-        let (body, is_last) = (body.into(), false);
-        Self {
-            status,
-            kind,
-            body,
-            is_last,
-        }
-    }
+/// Status of the last answer, after which the server ends.
+pub const LAST: u16 = 205;
 
-    pub fn last() -> Self {
-        let mut reply = Self::refusal(200, "the session has ended");
-        reply.is_last = true;
-        reply
-    }
-
-    /// Why there is no answer.
-    fn refusal(status: u16, words: &str) -> Self {
-        Self::new(status, "text/plain; charset=utf-8", words)
-    }
+/// Why there is no answer.
+fn refusal(status: u16, words: &str) -> Reply {
+    (status, "text/plain; charset=utf-8", words.into())
 }
 
 /// A server on the loopback address, for whoever knows its token.
@@ -86,16 +65,15 @@ impl Server {
             // If there is no thread, this request has no answer.
             let _ = thread::Builder::new().spawn(move || {
                 let (server, answer) = &*shared;
-                let reply = server
-                    .answered(&mut request, answer)
-                    .unwrap_or_else(|refusal| refusal);
-                let headers = HEADERS.into_iter().chain([("Content-Type", reply.kind)]);
+                let reply = server.answered(&mut request, answer);
+                let (status, kind, body) = reply.unwrap_or_else(|refusal| refusal);
+                let headers = HEADERS.into_iter().chain([("Content-Type", kind)]);
                 let headers = headers.filter_map(|(name, value)| Header::from_bytes(name, value).ok());
-                let response = Response::from_data(reply.body).with_status_code(reply.status);
+                let response = Response::from_data(body).with_status_code(status);
                 let response = headers.fold(response, Response::with_header);
                 // A browser that has gone does not want it.
                 let _ = request.respond(response.with_chunked_threshold(usize::MAX));
-                if reply.is_last {
+                if status == LAST {
                     server.http.unblock();
                 }
             });
@@ -109,39 +87,32 @@ impl Server {
         answer: impl Fn(&str, &str, &[u8]) -> Reply,
     ) -> Result<Reply, Reply> {
         let all = |name: &'static str| {
-            let named = request
-                .headers()
-                .iter()
-                .filter(move |header| header.field.equiv(name));
+            let is_named = move |header: &&Header| header.field.equiv(name);
+            let named = request.headers().iter().filter(is_named);
             named.map(|header| header.value.as_str())
         };
         let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{}", self.port));
         let is_own = |host: &str| hosts.iter().any(|own| own == host);
         let from_here = |origin: &str| origin.strip_prefix("http://").is_some_and(is_own);
         if all("Host").count() != 1 || !all("Host").all(is_own) || !all("Origin").all(from_here) {
-            return Err(Reply::refusal(403, "this server answers its own page alone"));
+            return Err(refusal(403, "this server answers its own page alone"));
         }
         let (path, query) = request.url().split_once('?').unwrap_or_default();
-        if !query
-            .strip_prefix("token=")
-            .is_some_and(|token| self.is_token(token))
-        {
-            return Err(Reply::refusal(
+        if !self.is_token(query.strip_prefix("token=").unwrap_or_default()) {
+            return Err(refusal(
                 403,
-                "the token is missing or wrong: take the address that was printed",
+                "no token, or a wrong one: take the address that was printed",
             ));
         }
         let (method, path, mut body) = (request.method().to_string(), path.to_owned(), Vec::new());
         let is_large = |length: usize| length > LARGEST;
         if !request.body_length().is_some_and(is_large) {
-            let read = request
-                .as_reader()
-                .take(LARGEST as u64 + 1)
-                .read_to_end(&mut body);
-            read.map_err(|_| Reply::refusal(400, "the request ends too early"))?;
+            let mut reader = request.as_reader().take(LARGEST as u64 + 1);
+            let early = |_| refusal(400, "the request ends too early");
+            reader.read_to_end(&mut body).map_err(early)?;
         }
         if is_large(request.body_length().unwrap_or_default().max(body.len())) {
-            return Err(Reply::refusal(413, "found a body of more than 1 MB"));
+            return Err(refusal(413, "found a body of more than 1 MB"));
         }
         Ok(answer(&method, &path, &body))
     }

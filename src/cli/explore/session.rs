@@ -7,7 +7,7 @@ use super::controls::sliders;
 use super::figures::figures;
 use super::film::film;
 use super::question::{Asked, Question, Refusal};
-use super::server::Reply;
+use super::server::{LAST, Reply};
 use crate::cli::report::date;
 use crate::cli::run::{Judged, Judgement};
 use crate::cli::terminal;
@@ -15,7 +15,7 @@ use crate::report::{Report, ReportOptions, Source};
 use crate::scene::Unit;
 use crate::shown::percent;
 use crate::words::{Answer, Reader};
-use crate::{Progress, Run, SceneFile, Units, Verdict};
+use crate::{Progress, Run, SceneFile, Verdict};
 
 /// The page, with places for the scene and for the nonce of its script.
 const PAGE: &str = include_str!("page.html");
@@ -46,14 +46,10 @@ impl Session {
             ("POST", "/pass") => asked().and_then(|(question, asked)| self.pass(&question, &asked)),
             ("POST", "/scene") => asked().map(|(_, asked)| self.scene(&asked)),
             ("POST", "/report") => asked().and_then(|(_, asked)| self.report(&asked)),
-            ("POST", "/end") => Ok(Reply::last()),
-            _ => Err(Refusal::new(
-                404,
-                None,
-                "there is only the page and its questions",
-            )),
+            ("POST", "/end") => Ok((LAST, JSON, Vec::new())),
+            _ => Err(Refusal::new(404, None, "found neither the page nor a question")),
         };
-        reply.unwrap_or_else(|refusal| Reply::new(refusal.status, JSON, json!(refusal).to_string()))
+        reply.unwrap_or_else(|refusal| (refusal.status, JSON, json!(refusal).to_string().into()))
     }
 
     /// The page with the scene as it is.
@@ -69,10 +65,8 @@ impl Session {
         });
         // Nothing in it ends the script that it stands in.
         let scene = scene.to_string().replace('<', "\\u003c");
-        let page = PAGE
-            .replace("NONCE", &self.nonce)
-            .replacen("\"SCENE\"", &scene, 1);
-        Ok(Reply::new(200, HTML, page))
+        let page = PAGE.replace("NONCE", &self.nonce);
+        Ok((200, HTML, page.replacen("\"SCENE\"", &scene, 1).into()))
     }
 
     /// A run as `creepage run --json` has it, with figures, words, and the sliders as they are now.
@@ -85,40 +79,33 @@ impl Session {
         let reader = Reader::new(asked.units, &asked.scene);
         let judgement = asked.limits.as_ref().map(|limits| Judgement::new(&run, limits));
         let headline = headline(asked, &run, reader, judgement.as_ref());
-        let Units {
-            force,
-            movement,
-            length,
-            ..
-        } = reader.units;
+        // Symbols, and how many of each are one in SI.
         let unit = |unit: Unit| json!([unit.symbol(), unit.of_si(1.0)]);
+        let [force, movement, length] =
+            [reader.units.force, reader.units.movement, reader.units.length].map(unit);
         let mut answer = json!(Judged { run: &run, judgement });
         answer["figures"] = figures(&run, &reader)?;
         answer["headline"] = headline;
         answer["sliders"] = json!(sliders(&asked.file));
-        // Symbols, and how many of each are one in SI.
-        answer["units"] = json!({ "force": unit(force), "movement": unit(movement), "length": unit(length) });
-        Ok(Reply::new(200, JSON, answer.to_string()))
+        answer["units"] = json!({ "force": force, "movement": movement, "length": length });
+        Ok((200, JSON, answer.to_string().into()))
     }
 
     /// One simulated pass.
     fn pass(&self, question: &Question, asked: &Asked) -> Result<Reply, Refusal> {
-        let film = self
-            .desk
-            .compute(|bench, progress| film(bench, &asked.scene, question, progress));
-        Ok(Reply::new(200, JSON, asked.located(film)?.to_string()))
+        let take = |bench: &mut Bench, progress: Progress<'_>| film(bench, &asked.scene, question, progress);
+        let film = asked.located(self.desk.compute(take))?;
+        Ok((200, JSON, film.to_string().into()))
     }
 
     /// The scene as a file, with what was changed.
     fn scene(&self, asked: &Asked) -> Reply {
-        let mut text = format!(
-            "# {} in SI units, as left by `creepage explore`, which set:\n",
-            self.name
-        );
+        let mut text = format!("# {} in SI units, with what `creepage explore` set:\n", self.name);
         for set in self.overrides.iter().chain(&asked.overrides) {
             text += &format!("#   {}\n", terminal::line(set));
         }
-        Reply::new(200, "application/toml", text + "\n" + &asked.scene.to_toml())
+        text += &format!("\n{}", asked.scene.to_toml());
+        (200, "application/toml", text.into())
     }
 
     fn report(&self, asked: &Asked) -> Result<Reply, Refusal> {
@@ -137,7 +124,7 @@ impl Session {
             };
             Report::new(&asked.scene, &options)
         });
-        Ok(Reply::new(200, HTML, asked.located(report)?.to_html()))
+        Ok((200, HTML, asked.located(report)?.to_html().into()))
     }
 }
 
