@@ -218,7 +218,7 @@ fn visit(width: u32, dark: bool) {
     page.press("cable.axial_stiffness", 10, "ArrowLeft");
     page.click("pin");
     assert!(page.is("!get('comparison').hidden && get('table').querySelectorAll('thead th').length === 4"));
-    assert!(page.is("get('comparison').querySelectorAll('polyline[stroke=\"var(--pin2)\"]').length >= 1"));
+    assert!(page.is("get('comparison').querySelectorAll('polyline[stroke=\"var(--other)\"]').length >= 1"));
     page.browser
         .value("get('limit-force').value = 'downstream=100 N', get('limit-force').onchange()");
     page.wait("get('verdicts').textContent.includes('✗')");
