@@ -318,6 +318,7 @@ fn what_is_added_has_sliders_and_can_be_taken_away() {
     }
     assert!(page.is("row_of('restraints.0.position').slider.value === 15 && !row_of('traffic.passes')"));
     assert!(page.is("shown.heat && shown.restraints.length === 1"));
+    assert!(page.is("!get('film-error').textContent && film.pictures.length > 100"));
     page.press("restraints.0.position", 10, "ArrowLeft");
     assert!(page.is("shown.restraints[0].position_m < 15"));
     for key in ["restraints.0.position", "heat.daily_swing"] {
