@@ -69,7 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 fn random() -> Result<String, Failure> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(|error| std::io::Error::other(error.to_string()))?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(format!("{:032x}", u128::from_ne_bytes(bytes)))
 }
 
 /// Shows the page in the system's browser; if there is none, its address is printed.

@@ -80,7 +80,8 @@ impl Question {
         let given = limits.are_given().then(|| limits.limits_beside(&scene, &[]));
         Ok(Asked {
             limits: given.transpose()?,
-            units: limits.units(&asked),
+            // A slider's unit says nothing about those of answers.
+            units: limits.units(file),
             file: asked,
             scene,
             overrides,

@@ -100,11 +100,12 @@ impl Session {
 
     /// The scene as a file, with what was changed.
     fn scene(&self, asked: &Asked) -> Reply {
-        let mut text = format!("# {} in SI units, with what `creepage explore` set:\n", self.name);
-        for set in self.overrides.iter().chain(&asked.overrides) {
-            text += &format!("#   {}\n", terminal::line(set));
-        }
-        text += &format!("\n{}", asked.scene.to_toml());
+        let changes = self.overrides.iter().chain(&asked.overrides);
+        let changes: Vec<String> = changes
+            .map(|set| format!("#   {}\n", terminal::line(set)))
+            .collect();
+        let head = format!("# {} in SI units, with what `creepage explore` set:\n", self.name);
+        let text = [&head, &changes.concat(), "\n", &asked.scene.to_toml()].concat();
         (200, "application/toml", text.into())
     }
 
