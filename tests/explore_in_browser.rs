@@ -68,12 +68,12 @@ impl Page {
         let downloads = folder.join("downloads");
         browser.call(
             "Browser.setDownloadBehavior",
-            json!({ "behavior": "allow", "downloadPath": downloads }),
+            &json!({ "behavior": "allow", "downloadPath": downloads }),
         );
         browser.size(width, 900);
         browser.media("prefers-color-scheme", if dark { "dark" } else { "light" });
         let address = format!("http://127.0.0.1:{}/?token={}", explored.port, explored.token);
-        browser.call("Page.navigate", json!({ "url": address }));
+        browser.call("Page.navigate", &json!({ "url": address }));
         let mut page = Self {
             browser,
             explored,
@@ -126,7 +126,7 @@ impl Page {
         self.browser.value(&format!(
             "row_of('{key}').field.focus(), row_of('{key}').field.select()"
         ));
-        self.browser.call("Input.insertText", json!({ "text": text }));
+        self.browser.call("Input.insertText", &json!({ "text": text }));
         self.browser.key("Enter");
     }
 

@@ -70,23 +70,23 @@ impl Browser {
             count: 0,
             events: Vec::new(),
         };
-        let targets = browser.call("Target.getTargets", json!({}));
+        let targets = browser.call("Target.getTargets", &json!({}));
         let mut targets = targets["targetInfos"].as_array().expect("a list").iter();
         let page = targets.find(|target| target["type"] == "page").expect("a page");
         let page = json!({ "targetId": page["targetId"], "flatten": true });
-        let attached = browser.call("Target.attachToTarget", page);
+        let attached = browser.call("Target.attachToTarget", &page);
         attached["sessionId"]
             .as_str()
             .expect("a session")
             .clone_into(&mut browser.session);
         for domain in ["Page", "Runtime", "Log"] {
-            browser.call(&format!("{domain}.enable"), json!({}));
+            browser.call(&format!("{domain}.enable"), &json!({}));
         }
         browser
     }
 
     /// Calls a method of the protocol; its result.
-    pub fn call(&mut self, method: &str, parameters: Value) -> Value {
+    pub fn call(&mut self, method: &str, parameters: &Value) -> Value {
         self.count += 1;
         let mut message = json!({ "id": self.count, "method": method, "params": parameters });
         // Downloads are the browser's.
@@ -132,7 +132,7 @@ impl Browser {
     /// The value of an expression of JavaScript in the page.
     pub fn value(&mut self, expression: &str) -> Value {
         let parameters = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
-        let found = self.call("Runtime.evaluate", parameters);
+        let found = self.call("Runtime.evaluate", &parameters);
         assert!(
             found["exceptionDetails"].is_null(),
             "{expression}: {}",
@@ -153,19 +153,19 @@ impl Browser {
             let text = if kind == "keyDown" { text } else { "" };
             let event =
                 json!({ "type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code, "text": text });
-            self.call("Input.dispatchKeyEvent", event);
+            self.call("Input.dispatchKeyEvent", &event);
         }
     }
 
     pub fn size(&mut self, width: u32, height: u32) {
         let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
-        self.call("Emulation.setDeviceMetricsOverride", size);
+        self.call("Emulation.setDeviceMetricsOverride", &size);
     }
 
     /// What a reader prefers.
     pub fn media(&mut self, name: &str, value: &str) {
         let feature = json!({ "features": [{ "name": name, "value": value }] });
-        self.call("Emulation.setEmulatedMedia", feature);
+        self.call("Emulation.setEmulatedMedia", &feature);
     }
 
     /// Errors that were thrown, and what stands on the console.
@@ -184,7 +184,10 @@ impl Browser {
 
     /// The whole page as a PNG.
     pub fn screenshot(&mut self) -> Vec<u8> {
-        let shot = self.call("Page.captureScreenshot", json!({ "captureBeyondViewport": true }));
+        let shot = self.call(
+            "Page.captureScreenshot",
+            &json!({ "captureBeyondViewport": true }),
+        );
         base64(shot["data"].as_str().expect("a picture"))
     }
 }
