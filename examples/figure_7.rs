@@ -79,7 +79,7 @@ pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, 
         .with_ends(End::Free, End::Fixed)?;
     let mesh = Mesh::new(LENGTH, 0.1, 0.05)?;
     let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
-    let mut solver = QuasiStatic::new(cable, mesh)?;
+    let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
     let mut state = CableState::at_rest(&mesh);
     let mut found = Vec::new();
     for pass in 1..=passes.last().copied().unwrap_or(0) {
@@ -101,7 +101,7 @@ pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, 
                         .enumerate()
                         .map(|(node, friction)| (place(node), *friction))
                         .collect(),
-                    slip: state.slip_lengths(&vec![LIMIT; mesh.nodes()]),
+                    slip: state.slip_lengths(&cable).unwrap_or_default(),
                 });
             }
         })?;

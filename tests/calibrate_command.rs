@@ -1,7 +1,5 @@
 //! `creepage calibrate`, from outside.
 
-#![cfg(feature = "cli")]
-
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};

@@ -1,8 +1,6 @@
 //! Typical mistakes of a cable engineer, each with what its message has to say: the line, the key, what was found, what is allowed, and
 //! advice that is right.
 
-#![cfg(feature = "cli")]
-
 use std::process::Command;
 
 use tempfile::TempDir;

@@ -1,7 +1,5 @@
 //! The report: what it says is what a run says, it is well-formed, loads nothing, and no text of a user becomes markup.
 
-#![cfg(all(feature = "cli", feature = "plot"))]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

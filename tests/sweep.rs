@@ -1,7 +1,5 @@
 //! Sweeps: the grid, its table, what survives an interruption, and quantiles of drawn keys.
 
-#![cfg(feature = "sweep")]
-
 use std::collections::HashSet;
 use std::fs;
 use std::ops::ControlFlow;

@@ -1,7 +1,5 @@
 //! Workbooks: every number is that of the JSON document or the CSV table, in the unit below its name.
 
-#![cfg(all(feature = "cli", feature = "xlsx"))]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

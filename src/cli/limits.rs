@@ -169,7 +169,6 @@ impl LimitArguments {
     }
 
     /// The limits of every point of a sweep. A limit of all clamps is none where there is no clamp.
-    #[cfg(feature = "sweep")]
     pub fn of_points(&self) -> crate::sweep::PointLimits {
         let own = self.clone();
         crate::sweep::PointLimits::new(format!("{self:?}"), move |scene| {

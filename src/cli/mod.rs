@@ -17,7 +17,6 @@ mod presets;
 mod profile;
 mod progress;
 mod readings;
-#[cfg(feature = "plot")]
 mod report;
 mod run;
 mod shared;
@@ -70,7 +69,6 @@ enum Command {
     /// Find the springs or the clamp that stay within limits of force and movement
     Design(Box<design::Arguments>),
     /// Write a self-contained HTML report with figures
-    #[cfg(feature = "plot")]
     Report(Box<report::Arguments>),
     /// Show a page on this machine with the scene's numbers as sliders, whose answer follows the hand
     #[cfg(feature = "explore")]
@@ -140,7 +138,6 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
-        #[cfg(feature = "plot")]
         Command::Report(arguments) => report::execute(arguments),
         #[cfg(feature = "explore")]
         Command::Explore(arguments) => explore::execute(arguments),

@@ -46,7 +46,6 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.json")]
     save_state: Option<PathBuf>,
     /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
-    #[cfg(feature = "xlsx")]
     #[arg(long, value_name = "FILE.xlsx")]
     xlsx: Option<PathBuf>,
     #[command(flatten)]
@@ -95,7 +94,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let start = arguments.start.start()?;
     let (option, path) = ("--save-state", arguments.save_state.as_deref());
     let saved = beside(&mut files, option, path, "json", "a file for --from-state")?;
-    #[cfg(feature = "xlsx")]
     let workbook = {
         let allowed = "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv";
         beside(&mut files, "--xlsx", arguments.xlsx.as_deref(), "xlsx", allowed)?
@@ -131,7 +129,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         run: &run,
         reader,
     };
-    #[cfg(feature = "xlsx")]
     if let Some(output) = &workbook {
         let bytes = crate::workbook::of_run(&run, verdicts, input.file(), &reader.units);
         let bytes = bytes.map_err(|source| output.failed(source))?;

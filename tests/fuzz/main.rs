@@ -1,8 +1,6 @@
 //! Whatever is read: scene files, overrides, readings, quantities and varied keys. Good inputs are changed at random, and what
 //! comes of each is an answer that keeps its own rules or an error that says where, never a panic.
 
-#![cfg(feature = "sweep")]
-
 mod mutate;
 
 use std::fs;

@@ -209,22 +209,6 @@ impl DuctedCable {
         cable
     }
 
-    /// The cable seen in a mirror across the duct's middle.
-    #[must_use]
-    pub fn mirrored(&self) -> Self {
-        let mut mirrored = self.clone();
-        std::mem::swap(&mut mirrored.upstream, &mut mirrored.downstream);
-        for restraint in &mut mirrored.restraints {
-            restraint.position = self.length - restraint.position;
-        }
-        mirrored.end_positions = [-self.end_positions[1], -self.end_positions[0]];
-        mirrored.sections.reverse();
-        for section in &mut mirrored.sections {
-            section.body_force = -section.body_force;
-        }
-        mirrored
-    }
-
     /// Length \[m\].
     pub fn length(&self) -> f64 {
         self.length

@@ -15,8 +15,8 @@ const ELEMENTS: usize = 8;
 /// A shape of the duct's displacement that travels along the duct.
 pub(crate) struct Course<F> {
     pub direction: Direction,
-    /// Displacement \[m\] of the duct at ξ \[m\] ahead of the vehicle, both positive in its direction.
-    pub shape: F,
+    /// Displacement \[m\] of the duct where x is ξ \[m\] greater than at the vehicle, positive toward growing x.
+    shape: F,
     /// Distance \[m\] before and past the duct over which the vehicle is followed.
     pub approach: f64,
     /// How far its wheels reach from its origin \[m\].
@@ -45,27 +45,31 @@ pub(crate) fn as_driven(
     } else {
         Direction::Forward
     };
-    let sign = direction.sign();
     Ok(Course {
         direction,
         // A lattice needs a few points more than the reach.
-        shape: move |xi: f64| sign * motion.longitudinal(sign * xi.clamp(-reach, reach)),
+        shape: move |xi: f64| motion.longitudinal(xi.clamp(-reach, reach)),
         approach,
         half_length: motion.half_length(),
     })
 }
 
-impl<F: Fn(f64) -> f64> Course<F> {
-    /// The course of a given shape.
-    pub fn new(direction: Direction, shape: F, approach: f64) -> Result<Self, CableError> {
-        Ok(Self {
-            direction,
-            shape,
-            approach: checked_approach(approach)?,
-            half_length: 0.0,
-        })
-    }
+/// The course of a displacement `shape` \[m\] at ξ \[m\] ahead of the vehicle, both positive in its `direction`.
+pub(crate) fn of_shape(
+    direction: Direction,
+    shape: impl Fn(f64) -> f64,
+    approach: f64,
+) -> Result<Course<impl Fn(f64) -> f64>, CableError> {
+    let sign = direction.sign();
+    Ok(Course {
+        direction,
+        shape: move |xi: f64| sign * shape(sign * xi),
+        approach: checked_approach(approach)?,
+        half_length: 0.0,
+    })
+}
 
+impl<F: Fn(f64) -> f64> Course<F> {
     /// The shape at every ξ \[m\] of `distances`.
     pub fn tabulate(&self, distances: impl Iterator<Item = f64>) -> Result<Vec<f64>, CableError> {
         distances

@@ -76,6 +76,16 @@ impl EndReader {
         }
     }
 
+    /// Reads springs by their displacements: while masses move, the force of the chain also accelerates the half element there.
+    pub fn moving(mut self, cable: &DuctedCable) -> Self {
+        for (reading, end) in self.reads.iter_mut().zip([cable.upstream(), cable.downstream()]) {
+            if let (Reading::Chain, End::Spring(spring)) = (*reading, end) {
+                *reading = Reading::Spring(spring);
+            }
+        }
+        self
+    }
+
     /// Force on each end of a cable whose heat has the force `thermal` \[N\], from the displacement \[m\] and friction \[N/m\] of any node.
     pub fn read(
         &self,

@@ -1,5 +1,7 @@
 //! What can go wrong in the cable.
 
+use crate::StepLimits;
+
 /// Error of a cable model or of a solver.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -30,7 +32,7 @@ pub enum CableError {
         vehicle(*.vehicle_position)
     )]
     NoConvergence {
-        /// Position of the vehicle's origin along the duct, from where it enters \[m\]; infinite where none is near.
+        /// Position of the vehicle's origin along the duct \[m\]; infinite where none is near.
         vehicle_position: f64,
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,
@@ -102,26 +104,23 @@ pub enum CableError {
     },
     /// A time step beyond the explicit scheme's limit.
     #[error(
-        "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({elastic:.3e} s for the springs \
-         and {friction:.3e} s for friction)"
+        "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {:.3e} s ({:.3e} s for the springs \
+         and {:.3e} s for friction)",
+        .limits.together(),
+        .limits.elastic,
+        .limits.friction
     )]
     UnstableStep {
         /// The step asked for \[s\].
         time_step: f64,
-        /// The longest stable step \[s\].
-        limit: f64,
-        /// That of the springs alone \[s\].
-        elastic: f64,
-        /// That of friction alone \[s\].
-        friction: f64,
+        /// The longest stable step.
+        limits: StepLimits,
     },
     /// A pass would take more work than allowed.
     #[error(
-        "a pass takes {node_updates:.2e} node updates ({steps:.2e} steps of {time_step:.2e} s); {allowed:.2e} are allowed"
+        "a pass in steps of {time_step:.2e} s takes {node_updates:.2e} node updates; {allowed:.2e} are allowed"
     )]
     TooManySteps {
-        /// Steps of one pass.
-        steps: f64,
         /// Duration of a step \[s\].
         time_step: f64,
         /// Steps times nodes.

@@ -1,7 +1,7 @@
 //! The cable as laid.
 
-use crate::step::{Chain, Stretch, largest};
-use crate::tridiagonal::{self, Row};
+use crate::step::{Chain, largest};
+use crate::tridiagonal::Row;
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable, Section};
 
 /// `cable` on `mesh` as laid: in a level duct without displacement or friction, under a body force p at rest after one step from there,
@@ -44,8 +44,14 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         let limit = limit_of_all;
         return Err(CableError::NothingHolds { body_force, limit });
     }
+    // Without friction, K u = w p.
     let elastic = if chain.is_held {
-        without_friction(&chain, &cable.loads(mesh, 0.0))
+        let load = cable.loads(mesh, 0.0);
+        chain.solve(|i| {
+            let share = 1.0 / chain.nodes[i].diagonal;
+            let value = share * load[i] * chain.per_stiffness;
+            Row { share, value }
+        })
     } else {
         vec![0.0; mesh.nodes()]
     };
@@ -68,17 +74,4 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         }
     }
     Ok(state)
-}
-
-/// K u = w p, by elimination.
-fn without_friction(chain: &Chain, body: &[f64]) -> Vec<f64> {
-    let (mut u, mut factors) = (vec![0.0; body.len()], vec![0.0; body.len()]);
-    let Stretch { lo, hi } = chain.free;
-    let row = |k: usize| {
-        let share = 1.0 / chain.nodes[lo + k].diagonal;
-        let value = share * body[lo + k] * chain.per_stiffness;
-        Row { share, value }
-    };
-    tridiagonal::solve([0.0, 0.0], row, &mut factors, &mut u[lo..=hi]);
-    u
 }

@@ -27,8 +27,9 @@ const STEPS_PER_SPACING: f64 = 2.0;
 pub struct Mesh {
     elements: usize,
     spacing: f64,
-    steps_per_spacing: usize,
-    spacings_per_step: usize,
+    /// Lattice points from one node to the next, and from one vehicle position to the next: one of both is 1.
+    pub(crate) phases: usize,
+    pub(crate) stride: usize,
 }
 
 impl Mesh {
@@ -59,7 +60,7 @@ impl Mesh {
         // A spacing that divides the length to rounding is taken as it is.
         let elements = ((length / node_spacing) * (1.0 - 1e-12)).ceil() as usize;
         let spacing = length / elements as f64;
-        let (steps_per_spacing, spacings_per_step) = if vehicle_step < spacing * (1.0 - 1e-12) {
+        let (phases, stride) = if vehicle_step < spacing * (1.0 - 1e-12) {
             (((spacing / vehicle_step) * (1.0 - 1e-12)).ceil() as usize, 1)
         } else {
             (1, ((vehicle_step / spacing) * (1.0 + 1e-12)).floor() as usize)
@@ -67,8 +68,8 @@ impl Mesh {
         Ok(Self {
             elements,
             spacing,
-            steps_per_spacing,
-            spacings_per_step,
+            phases,
+            stride,
         })
     }
 
@@ -102,16 +103,16 @@ impl Mesh {
         Ok(Self {
             elements,
             spacing: checked("node_spacing", spacing, "finite and positive", |v| v > 0.0)?,
-            steps_per_spacing: 1,
-            spacings_per_step: 1,
+            phases: 1,
+            stride: 1,
         })
     }
 
     /// The same nodes, whatever the vehicle's steps.
     pub(crate) fn nodes_alone(&self) -> Self {
         Self {
-            steps_per_spacing: 1,
-            spacings_per_step: 1,
+            phases: 1,
+            stride: 1,
             ..*self
         }
     }
@@ -138,7 +139,7 @@ impl Mesh {
 
     /// Advance of the vehicle per step \[m\].
     pub fn vehicle_step(&self) -> f64 {
-        self.lattice_step() * self.spacings_per_step as f64
+        self.lattice_step() * self.stride as f64
     }
 
     /// Length of cable \[m\] whose friction acts at `node`: h, and half of it at the ends.
@@ -167,16 +168,6 @@ impl Mesh {
 
     /// Distance between the points of the lattice on which both nodes and vehicle positions lie \[m\].
     pub(crate) fn lattice_step(&self) -> f64 {
-        self.spacing / self.steps_per_spacing as f64
-    }
-
-    /// Lattice points from one node to the next.
-    pub(crate) fn phases(&self) -> usize {
-        self.steps_per_spacing
-    }
-
-    /// Lattice points from one vehicle position to the next.
-    pub(crate) fn stride(&self) -> usize {
-        self.spacings_per_step
+        self.spacing / self.phases as f64
     }
 }

@@ -41,7 +41,52 @@ impl PassOutcome {
     ///
     /// [`CableError::InvalidParameter`] unless the cable is as long as the state's mesh.
     pub fn at_rest(cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
-        Recorder::new(cable, state)?.outcome(cable, state, state.end_forces(cable)?)
+        let (force, restraints) = (state.end_forces(cable)?, state.restraint_forces(cable)?);
+        let (least, largest) = extremes(state, cable);
+        Ok(Self {
+            force,
+            peak: force,
+            lowest: force,
+            max_compression: largest.max(force.upstream).max(force.downstream),
+            max_tension: -least.min(force.upstream).min(force.downstream),
+            upstream_displacement: state.displacement[0],
+            downstream_displacement: state.displacement[state.displacement.len() - 1],
+            restraint_ranges: restraints.iter().map(|force| [*force; 2]).collect(),
+            restraints,
+            restraint_slips: state.clamp_slips(cable),
+            dissipated: 0.0,
+            statistics: Statistics::default(),
+        })
+    }
+
+    /// Takes account of forces on the ends \[N\] during the pass.
+    pub(crate) fn see(&mut self, force: EndForces) {
+        self.peak.upstream = self.peak.upstream.max(force.upstream);
+        self.peak.downstream = self.peak.downstream.max(force.downstream);
+        self.lowest.upstream = self.lowest.upstream.min(force.upstream);
+        self.lowest.downstream = self.lowest.downstream.min(force.downstream);
+    }
+
+    /// The same for the `forces` on all clamps \[N\].
+    pub(crate) fn see_clamps(&mut self, forces: &[f64]) {
+        for (range, &force) in self.restraint_ranges.iter_mut().zip(forces) {
+            *range = [range[0].min(force), range[1].max(force)];
+        }
+    }
+
+    /// Ends the pass, which left the cable in `state`.
+    pub(crate) fn ended(mut self, cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
+        let rest = Self::at_rest(cable, state)?;
+        self.see(rest.force);
+        self.see_clamps(&rest.restraints);
+        Ok(Self {
+            peak: self.peak,
+            lowest: self.lowest,
+            restraint_ranges: self.restraint_ranges,
+            dissipated: self.dissipated,
+            statistics: self.statistics,
+            ..rest
+        })
     }
 
     /// The same with the cable moved as a whole by `distance` \[m\].
@@ -62,19 +107,20 @@ impl PassOutcome {
             (0..count).map(sum).collect()
         };
         let sum = |of: fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
+        let ends = |of: fn(&Self) -> EndForces| EndForces {
+            upstream: parts
+                .iter()
+                .map(|(weight, part)| weight * of(part).upstream)
+                .sum(),
+            downstream: parts
+                .iter()
+                .map(|(weight, part)| weight * of(part).downstream)
+                .sum(),
+        };
         Self {
-            force: EndForces {
-                upstream: sum(|o| o.force.upstream),
-                downstream: sum(|o| o.force.downstream),
-            },
-            peak: EndForces {
-                upstream: sum(|o| o.peak.upstream),
-                downstream: sum(|o| o.peak.downstream),
-            },
-            lowest: EndForces {
-                upstream: sum(|o| o.lowest.upstream),
-                downstream: sum(|o| o.lowest.downstream),
-            },
+            force: ends(|o| o.force),
+            peak: ends(|o| o.peak),
+            lowest: ends(|o| o.lowest),
             max_compression: sum(|o| o.max_compression),
             max_tension: sum(|o| o.max_tension),
             upstream_displacement: sum(|o| o.upstream_displacement),
@@ -88,86 +134,6 @@ impl PassOutcome {
             dissipated: sum(|o| o.dissipated),
             statistics: Statistics::default(),
         }
-    }
-}
-
-/// What gathers as the vehicle passes.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Recorder {
-    pub peak: EndForces,
-    pub lowest: EndForces,
-    /// Least and largest force on every clamp \[N\].
-    clamps: Vec<[f64; 2]>,
-    pub dissipated: f64,
-    pub statistics: Statistics,
-}
-
-impl Recorder {
-    /// The recorder of a pass over `cable` that begins in `state`.
-    pub fn new(cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
-        let start = state.end_forces(cable)?;
-        let clamps = state.restraint_forces(cable)?.into_iter();
-        Ok(Self {
-            peak: start,
-            lowest: start,
-            clamps: clamps.map(|force| [force; 2]).collect(),
-            dissipated: 0.0,
-            statistics: Statistics::default(),
-        })
-    }
-
-    pub fn record(&mut self, force: EndForces) {
-        self.peak.upstream = self.peak.upstream.max(force.upstream);
-        self.peak.downstream = self.peak.downstream.max(force.downstream);
-        self.lowest.upstream = self.lowest.upstream.min(force.upstream);
-        self.lowest.downstream = self.lowest.downstream.min(force.downstream);
-    }
-
-    /// Records the `forces` on all clamps \[N\].
-    pub fn record_clamps(&mut self, forces: &[f64]) {
-        for (range, &force) in self.clamps.iter_mut().zip(forces) {
-            *range = [range[0].min(force), range[1].max(force)];
-        }
-    }
-
-    /// Seen in the mirror the ends change places; compression stays compression. Forces on clamps turn round.
-    pub fn mirror(&mut self) {
-        for range in &mut self.clamps {
-            *range = [-range[1], -range[0]];
-        }
-        std::mem::swap(&mut self.peak.upstream, &mut self.peak.downstream);
-        std::mem::swap(&mut self.lowest.upstream, &mut self.lowest.downstream);
-    }
-
-    /// The outcome of a pass that left the cable in `state` with `force` on its ends.
-    pub fn outcome(
-        mut self,
-        cable: &DuctedCable,
-        state: &CableState,
-        force: EndForces,
-    ) -> Result<PassOutcome, CableError> {
-        self.record(force);
-        let restraints = state.restraint_forces(cable)?;
-        self.record_clamps(&restraints);
-        let (least, largest) = [force.upstream, force.downstream]
-            .into_iter()
-            .fold(extremes(state, cable), |(least, largest), force| {
-                (least.min(force), largest.max(force))
-            });
-        Ok(PassOutcome {
-            force,
-            peak: self.peak,
-            lowest: self.lowest,
-            max_compression: largest,
-            max_tension: -least,
-            upstream_displacement: state.displacement()[0],
-            downstream_displacement: state.displacement()[state.displacement().len() - 1],
-            restraints,
-            restraint_ranges: self.clamps,
-            restraint_slips: state.clamp_slips(cable),
-            dissipated: self.dissipated,
-            statistics: self.statistics,
-        })
     }
 }
 

@@ -1,8 +1,8 @@
 //! The cable between two passes, when duct and cable are at rest.
 
 use crate::error::checked;
-use crate::step::{Chain, FixedEndFriction, Load, StepSolver, Stretch, largest};
-use crate::tridiagonal::{self, Row};
+use crate::step::{Chain, FixedEndFriction, Load, StepSolver, largest};
+use crate::tridiagonal::Row;
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
 /// Change of a friction limit in a bend, as a share of it, with which a step has found its force; and rounds until then at most.
@@ -45,9 +45,6 @@ pub struct RestingCable {
     /// Slips of the clamps before and after the change by which they were released \[m\].
     released: [Vec<[f64; 2]>; 2],
     mesh: Mesh,
-    /// Storage of [`Self::diffuse`].
-    factor: Vec<f64>,
-    given: Vec<f64>,
 }
 
 impl RestingCable {
@@ -77,8 +74,6 @@ impl RestingCable {
             load: cable.loads(mesh, 0.0),
             released: [Vec::new(), Vec::new()],
             mesh: *mesh,
-            factor: zeros(),
-            given: zeros(),
             cable,
         }
     }
@@ -176,21 +171,19 @@ impl RestingCable {
 
     /// Solves (1 + s K/w) y = b for slopes s ≥ 0 \[m²/N\] at every node: what diffuses b along the cable. `y` holds b before and
     /// the answer after; it is zero at fixed ends.
-    pub fn diffuse(&mut self, slope: impl Fn(usize) -> f64, y: &mut [f64]) {
-        let (chain, given) = (&self.step.chain, &mut self.given);
-        let Stretch { lo, hi } = chain.free;
-        given.copy_from_slice(y);
-        y.fill(0.0);
-        let row = |k: usize| {
-            let node = &chain.nodes[lo + k];
-            let off = slope(lo + k) * chain.stiffness * node.per_tributary;
+    pub fn diffuse(&self, slope: impl Fn(usize) -> f64, y: &mut [f64]) {
+        let chain = &self.step.chain;
+        let row = |i: usize| {
+            let node = &chain.nodes[i];
+            let off = slope(i) * chain.stiffness * node.per_tributary;
             let per_pivot = 1.0 / (1.0 + off * node.diagonal);
             Row {
                 share: off * per_pivot,
-                value: given[lo + k] * per_pivot,
+                value: y[i] * per_pivot,
             }
         };
-        tridiagonal::solve([0.0, 0.0], row, &mut self.factor, &mut y[lo..=hi]);
+        let solved = chain.solve(row);
+        y.copy_from_slice(&solved);
     }
 
     /// Lets the cable come to rest: friction beyond its limit yields, and the cable moves as little as equilibrium needs.
@@ -368,7 +361,7 @@ mod tests {
                 .and_then(|cable| cable.with_ends(ends.0, ends.1))
                 .expect("a cable");
             let mesh = Mesh::new(length, 0.2, 0.1).expect("a mesh");
-            let mut resting = RestingCable::new(&cable, &mesh).expect("a cable at rest");
+            let resting = RestingCable::new(&cable, &mesh).expect("a cable at rest");
             // Any numbers.
             let noise = |i: usize| ((i * 7919 + 13) % 1009) as f64 / 1009.0;
             let slope = |i: usize| 1e-7 * noise(i);

@@ -36,9 +36,10 @@ pub struct SlipLengths {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(into = "Stored", try_from = "Stored"))]
+#[cfg_attr(feature = "serde", serde(try_from = "Stored"))]
 pub struct CableState {
     /// The nodes, without the vehicle's steps.
+    #[cfg_attr(feature = "serde", serde(rename = "node_spacing", serialize_with = "spacing"))]
     mesh: Mesh,
     /// Displacement u \[m\], positive toward growing x.
     pub(crate) displacement: Vec<f64>,
@@ -50,9 +51,9 @@ pub struct CableState {
     pub(crate) clamp_slips: Vec<[f64; 2]>,
 }
 
-/// A state as it is stored; checked as it is read.
+/// A state as it is read, not yet checked.
 #[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(serde::Deserialize)]
 struct Stored {
     node_spacing: f64,
     displacement: Vec<f64>,
@@ -63,17 +64,10 @@ struct Stored {
     clamp_slips: Vec<[f64; 2]>,
 }
 
+/// A state names the distance between its nodes.
 #[cfg(feature = "serde")]
-impl From<CableState> for Stored {
-    fn from(state: CableState) -> Self {
-        Self {
-            node_spacing: state.mesh.spacing(),
-            displacement: state.displacement,
-            friction: state.friction,
-            thermal_force: state.thermal_force,
-            clamp_slips: state.clamp_slips,
-        }
-    }
+fn spacing<S: serde::Serializer>(mesh: &Mesh, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(mesh.spacing())
 }
 
 #[cfg(feature = "serde")]
@@ -245,32 +239,32 @@ impl CableState {
         }))
     }
 
-    /// The largest friction \[N/m\] that every node can bear with the cable's force as it is; it depends on that in bends alone.
+    /// The largest friction \[N/m\] that every node can bear with the force in `cable` as it is; it depends on that in bends alone.
     ///
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
     pub fn friction_limits(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
-        Ok(self
-            .pressing(cable)?
-            .nodes
-            .iter()
-            .map(|node| node.limit)
-            .collect())
+        let nodes = self.pressing(cable)?.nodes;
+        Ok(nodes.iter().map(|node| node.limit).collect())
     }
 
-    /// Lengths of cable whose friction is at its `limits` \[N/m\] ([`CableState::friction_limits`]); none without friction.
-    pub fn slip_lengths(&self, limits: &[f64]) -> SlipLengths {
+    /// Lengths of `cable` whose friction is at the limit that its force makes; none without friction.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn slip_lengths(&self, cable: &DuctedCable) -> Result<SlipLengths, CableError> {
         let mut lengths = SlipLengths::default();
-        for (node, (&friction, &limit)) in self.friction.iter().zip(limits).enumerate() {
-            let at_limit = (1.0 - AT_LIMIT) * limit;
-            if limit > 0.0 && friction >= at_limit {
-                lengths.forward += self.mesh.tributary_length(node);
-            } else if limit > 0.0 && friction <= -at_limit {
-                lengths.backward += self.mesh.tributary_length(node);
+        for (&friction, node) in self.friction.iter().zip(&self.pressing(cable)?.nodes) {
+            let at_limit = (1.0 - AT_LIMIT) * node.limit;
+            if node.limit > 0.0 && friction >= at_limit {
+                lengths.forward += node.tributary;
+            } else if node.limit > 0.0 && friction <= -at_limit {
+                lengths.backward += node.tributary;
             }
         }
-        lengths
+        Ok(lengths)
     }
 
     /// Largest friction that equilibrium needs at any node, as a share of its limit: the difference of the forces in both elements, less
@@ -315,19 +309,6 @@ impl CableState {
         let (spacing, wanted) = (self.mesh.spacing(), mesh.spacing());
         let same = |v: f64| (v / wanted - 1.0).abs() < 1e-9;
         checked("node spacing of the state", spacing, "the mesh's", same).map(|_| ())
-    }
-
-    /// The same state seen in a mirror across the duct's middle.
-    pub(crate) fn mirror(&mut self) {
-        for values in [&mut self.displacement, &mut self.friction] {
-            values.reverse();
-            for value in values.iter_mut() {
-                *value = -*value;
-            }
-        }
-        for slips in &mut self.clamp_slips {
-            *slips = [-slips[1], -slips[0]];
-        }
     }
 }
 

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::ground::{Ground, road};
+use creepage_plan::ground::{Ground, road};
+
 use crate::scene::{self, TrafficVehicle};
 use crate::{Error, Progress, Run, RunOptions, SavedState, Scene};
 
@@ -14,7 +15,6 @@ const GROUNDS: usize = 4;
 /// What a ground follows from: layers, vehicles; depth, offset and reach \[m\], and the tolerance.
 type Site = (scene::Ground, Vec<TrafficVehicle>, [f64; 4]);
 
-/// What is used again.
 #[derive(Default)]
 pub struct Bench {
     grounds: Vec<(Site, Arc<Ground>)>,
@@ -62,7 +62,6 @@ impl Bench {
     }
 }
 
-/// A bench for one at a time.
 #[derive(Default)]
 pub struct Desk {
     newest: AtomicU64,

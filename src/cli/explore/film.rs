@@ -2,12 +2,13 @@
 //! (Kashiro et al., Figure 7).
 
 use cable_dem::{CableState, DuctedCable, QuasiStatic};
+use creepage_plan::{ground::road, plan_over};
+use creepage_run::passes::Task;
 use ground_field::DuctMotion;
 use serde_json::{Value, json};
 
 use super::bench::Bench;
 use super::question::Question;
-use crate::ground::road;
 use crate::{Error, Progress, Scene};
 
 /// Pictures of a pass, and nodes in a picture, at most.
@@ -46,14 +47,14 @@ pub fn film(
         bench.state(scene, progress)?
     };
     let ground = bench.ground(scene)?;
-    let mut plan = creepage_run::plan::plan_over(scene, ground.clone())?;
+    let mut plan = plan_over(scene, ground.clone())?;
     plan.start = start.as_deref();
     let index = question.vehicle.min(scene.vehicles.len() - 1);
     let (motion, vehicle, depth) = (&ground.motions[index], &scene.vehicles[index], scene.duct.depth);
     let mut levels = plan.levels.first..plan.levels.finest;
     let is_fine = |level: &usize| SEEN_A_DEPTH * plan.levels.spacing(*level).0 <= depth;
     let level = levels.find(is_fine).unwrap_or(plan.levels.first);
-    let task = plan.task(scene, plan.levels.mesh(level)?);
+    let task = Task::of(&plan, scene, plan.levels.mesh(level)?);
     let (mesh, cable) = (task.mesh, task.cable()?);
     let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
     let passage = solver.passage(motion, road::approach(scene, &ground.motions)?)?;

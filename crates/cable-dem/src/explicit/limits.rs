@@ -1,6 +1,6 @@
 //! The longest time step of the explicit scheme.
 
-use super::lumped::Lumped;
+use super::nodes::MovingNodes;
 use crate::FrictionLaw;
 
 /// Limits of the explicit scheme's time step for one cable on one mesh.
@@ -38,8 +38,8 @@ pub struct StepLimits {
 }
 
 impl StepLimits {
-    pub(super) fn new(lumped: &Lumped) -> Self {
-        let chain = &lumped.chain;
+    pub(super) fn new(nodes: &MovingNodes) -> Self {
+        let chain = &nodes.chain;
         // Springs to the ground count `weight` times.
         let fastest = |weight: f64| {
             let row = |i: usize| {
@@ -48,11 +48,11 @@ impl StepLimits {
             };
             // A node that is held does not swing.
             let rows = chain.free.nodes().map(row);
-            rows.fold(0.0, f64::max) / lumped.mass_per_metre
+            rows.fold(0.0, f64::max) / nodes.mass_per_metre
         };
 
-        let friction = lumped.cable.friction();
-        let per_mass = friction.limit() * friction.law().shape_factor() / lumped.mass_per_metre;
+        let friction = nodes.cable.friction();
+        let per_mass = friction.limit() * friction.law().shape_factor() / nodes.mass_per_metre;
         Self {
             elastic: 2.0 / fastest(1.0).sqrt(),
             friction: match friction.law() {

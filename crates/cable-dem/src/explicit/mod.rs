@@ -3,7 +3,6 @@
 mod energy;
 mod leak;
 mod limits;
-mod lumped;
 mod moving_duct;
 mod nodes;
 
@@ -16,10 +15,8 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::laid::laid;
-use crate::outcome::Recorder;
 use crate::step::{Grip, check_precision};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
-use lumped::Lumped;
 use nodes::MovingNodes;
 
 /// Steps between two looks at the kinetic energy.
@@ -110,7 +107,7 @@ pub struct ExplicitOutcome {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Explicit {
-    lumped: Lumped,
+    nodes: MovingNodes,
     options: ExplicitOptions,
     limits: StepLimits,
     resting: RestingCable,
@@ -131,9 +128,9 @@ impl Explicit {
         mass_per_metre: f64,
         options: ExplicitOptions,
     ) -> Result<Self, CableError> {
-        let mut lumped = Lumped::new(cable, mesh, mass_per_metre)?;
-        let limits = StepLimits::new(&lumped);
-        lumped.grips = lumped.chain.take_grips();
+        let mut nodes = MovingNodes::new(cable, mesh, mass_per_metre)?;
+        let limits = StepLimits::new(&nodes);
+        nodes.grips = nodes.chain.take_grips();
         checked(
             "max_node_updates",
             options.max_node_updates,
@@ -145,18 +142,13 @@ impl Explicit {
             // Written so that NaN fails.
             let is_stable = time_step <= limits.together();
             if options.check_limits && !is_stable {
-                return Err(CableError::UnstableStep {
-                    time_step,
-                    elastic: limits.elastic,
-                    friction: limits.friction,
-                    limit: limits.together(),
-                });
+                return Err(CableError::UnstableStep { time_step, limits });
             }
         }
         Ok(Self {
-            laid: laid(&lumped.cable, &mesh)?,
-            resting: RestingCable::with_memory(&lumped.cable, &mesh),
-            lumped,
+            laid: laid(&nodes.cable, &mesh)?,
+            resting: RestingCable::with_memory(&nodes.cable, &mesh),
+            nodes,
             options,
             limits,
         })
@@ -164,12 +156,12 @@ impl Explicit {
 
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
-        &self.lumped.mesh
+        &self.nodes.mesh
     }
 
     /// The cable.
     pub fn cable(&self) -> &DuctedCable {
-        &self.lumped.cable
+        &self.nodes.cable
     }
 
     /// Limits of the time step.
@@ -183,7 +175,7 @@ impl Explicit {
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
-        let advance = self.lumped.mesh.vehicle_step() / duct.speed();
+        let advance = self.nodes.mesh.vehicle_step() / duct.speed();
         let longest = self.limits.advised().min(advance);
         duct.steps(self.options.time_step.unwrap_or(longest))
     }
@@ -200,7 +192,7 @@ impl Explicit {
     ///
     /// As for [`MovingDuct::new`].
     pub fn passage(&self, motion: &DuctMotion, approach: f64) -> Result<MovingDuct, CableError> {
-        MovingDuct::new(&self.lumped.cable, &self.lumped.mesh, motion, approach)
+        MovingDuct::new(&self.nodes.cable, &self.nodes.mesh, motion, approach)
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
@@ -226,7 +218,7 @@ impl Explicit {
         &mut self,
         duct: &MovingDuct,
         state: &mut CableState,
-        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+        observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<ExplicitOutcome, CableError> {
         state.check(self.mesh())?;
         duct.check(self.mesh())?;
@@ -234,43 +226,31 @@ impl Explicit {
             return Err(CableError::Heated);
         }
         let (steps, time_step) = (self.steps(duct), self.time_step(duct));
-        let mut recorder = Recorder::new(self.cable(), state)?;
-        recorder.peak = self.lumped.end_forces(&state.displacement, &state.friction);
-        recorder.lowest = recorder.peak;
+        let mut outcome = PassOutcome::at_rest(self.cable(), state)?;
         let mut moving = state.clone();
         let mut energy = EnergyBalance::default();
-        let mut force_before_rest = recorder.peak;
+        let mut force_before_rest = outcome.force;
         // Without friction nothing drags the cable.
         if self.cable().friction().limit() > 0.0 {
             check_precision(self.cable(), self.mesh(), &state.displacement, duct.peak())?;
-            self.check_work(steps, time_step)?;
+            let (node_updates, allowed) = (steps * self.mesh().nodes() as f64, self.options.max_node_updates);
+            if node_updates > allowed {
+                return Err(CableError::TooManySteps {
+                    time_step,
+                    node_updates,
+                    allowed,
+                });
+            }
             let arrival = self.rest(duct, 0.0, 1.0, &mut moving)?;
-            let mesh = self.lumped.mesh;
-            let look = |t: f64, nodes: &MovingNodes| {
-                let state = || {
-                    let mut state = CableState::at_rest(&mesh);
-                    nodes.store(&mut state);
-                    state
-                };
-                observe(duct.vehicle_position(t), &state);
-            };
-            energy = run(
-                &mut self.lumped,
-                duct,
-                steps as usize,
-                &mut moving,
-                &mut recorder,
-                look,
-            )?;
+            energy = self.run(duct, steps as usize, &mut moving, &mut outcome, observe)?;
             if self.options.check_energy {
                 energy.check()?;
             }
-            force_before_rest = self.lumped.end_forces(&moving.displacement, &moving.friction);
+            force_before_rest = self.nodes.end_forces();
             let departure = self.rest(duct, duct.duration(), -1.0, &mut moving)?;
-            recorder.dissipated = arrival + energy.dissipated + departure;
+            outcome.dissipated = arrival + energy.dissipated + departure;
         }
-        let force = self.lumped.end_forces(&moving.displacement, &moving.friction);
-        let pass = recorder.outcome(self.cable(), &moving, force)?;
+        let pass = outcome.ended(self.cable(), &moving)?;
         *state = moving;
         Ok(ExplicitOutcome {
             pass,
@@ -279,21 +259,6 @@ impl Explicit {
             force_before_rest,
             leak: SigmoidLeak::new(self.cable(), time_step, duct),
         })
-    }
-
-    /// Refuses a pass of so many `steps` where that is more work than allowed.
-    fn check_work(&self, steps: f64, time_step: f64) -> Result<(), CableError> {
-        let node_updates = steps * self.mesh().nodes() as f64;
-        let allowed = self.options.max_node_updates;
-        if node_updates > allowed {
-            return Err(CableError::TooManySteps {
-                steps,
-                time_step,
-                node_updates,
-                allowed,
-            });
-        }
-        Ok(())
     }
 
     /// One step without inertia in which the duct moves between rest and where it stands at the
@@ -317,61 +282,53 @@ impl Explicit {
         state.friction.fill(0.0);
         let heat = self.resting.follow(state, Some(&increment), 0.0, duct.peak())?;
         let friction = &state.friction;
-        let forgotten = self.lumped.weighted(|i| friction[i].powi(2));
-        Ok(heat + self.lumped.chain.compliance * forgotten)
+        let forgotten = self.nodes.weighted(|i| friction[i].powi(2));
+        Ok(heat + self.nodes.chain.compliance * forgotten)
     }
-}
 
-/// All steps of time of one pass; `state` is carried on.
-fn run(
-    lumped: &mut Lumped,
-    duct: &MovingDuct,
-    steps: usize,
-    state: &mut CableState,
-    recorder: &mut Recorder,
-    mut look: impl FnMut(f64, &MovingNodes),
-) -> Result<EnergyBalance, CableError> {
-    let count = lumped.mesh.nodes();
-    let time_step = duct.duration() / steps as f64;
-    for grip in &mut lumped.grips {
-        grip.start(&state.clamp_slips);
-    }
-    let elastic = lumped.elastic_energy(&state.displacement);
-    let mut nodes = MovingNodes::new(state);
-    duct.displacement(0.0, &mut nodes.duct);
-    let mut peak_kinetic = 0.0_f64;
-    for step in 1..=steps {
-        let t = time_step * step as f64;
-        nodes.step(lumped, |d| duct.displacement(t, d), time_step);
-        recorder.record(nodes.end_forces(lumped));
-        if !lumped.grips.is_empty() {
-            let clamps = lumped.cable.restraints();
-            recorder.record_clamps(&Grip::forces(&lumped.grips, clamps, |i| nodes.displacement(i)));
-        }
-        look(t, &nodes);
-        if step % LOOK == 0 || step == steps {
-            let kinetic = nodes.kinetic_energy(lumped);
-            if !kinetic.is_finite() {
-                return Err(CableError::EnergyNotConserved {
-                    unbalanced: 1.0,
-                    returned: nodes
-                        .energy(lumped, (state, elastic), peak_kinetic)
-                        .returned_share(),
-                });
+    /// All steps of time of one pass; `state` is carried on.
+    fn run(
+        &mut self,
+        duct: &MovingDuct,
+        steps: usize,
+        state: &mut CableState,
+        outcome: &mut PassOutcome,
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+    ) -> Result<EnergyBalance, CableError> {
+        let (nodes, time_step) = (&mut self.nodes, duct.duration() / steps as f64);
+        nodes.begin(state);
+        duct.displacement(0.0, &mut nodes.duct);
+        let mut peak_kinetic = 0.0_f64;
+        for step in 1..=steps {
+            let t = time_step * step as f64;
+            nodes.step(|d| duct.displacement(t, d), time_step);
+            outcome.see(nodes.end_forces());
+            if !nodes.grips.is_empty() {
+                let u = |i: usize| nodes.displacement[i];
+                outcome.see_clamps(&Grip::forces(&nodes.grips, nodes.cable.restraints(), u));
             }
-            peak_kinetic = peak_kinetic.max(kinetic);
+            observe(duct.vehicle_position(t), &|| {
+                let mut shown = state.clone();
+                nodes.store(&mut shown);
+                shown
+            });
+            if step % LOOK == 0 || step == steps {
+                let kinetic = nodes.kinetic_energy();
+                if !kinetic.is_finite() {
+                    return Err(CableError::EnergyNotConserved {
+                        unbalanced: 1.0,
+                        returned: nodes.energy(state, peak_kinetic, duct.peak()).returned_share(),
+                    });
+                }
+                peak_kinetic = peak_kinetic.max(kinetic);
+            }
         }
+        let count = nodes.mesh.nodes();
+        outcome.statistics.steps = steps;
+        outcome.statistics.node_updates += steps * count;
+        outcome.statistics.widest_window = count;
+        let energy = nodes.energy(state, peak_kinetic, duct.peak());
+        nodes.store(state);
+        Ok(energy)
     }
-    let energy = EnergyBalance {
-        reference: lumped.cable.friction().limit() * lumped.cable.length() * duct.peak(),
-        ..nodes.energy(lumped, (state, elastic), peak_kinetic)
-    };
-    recorder.statistics.steps = steps;
-    recorder.statistics.node_updates += steps * count;
-    recorder.statistics.widest_window = count;
-    for grip in &lumped.grips {
-        grip.store(&mut state.clamp_slips);
-    }
-    nodes.store(state);
-    Ok(energy)
 }

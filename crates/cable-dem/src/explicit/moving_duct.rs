@@ -2,7 +2,7 @@
 
 use ground_field::{Direction, DuctMotion};
 
-use crate::course::{Course, as_driven};
+use crate::course::{Course, as_driven, of_shape};
 use crate::error::checked;
 use crate::{CableError, DuctedCable, Mesh};
 
@@ -71,7 +71,7 @@ impl MovingDuct {
         shape: impl Fn(f64) -> f64,
         approach: f64,
     ) -> Result<Self, CableError> {
-        Self::on_course(cable, mesh, speed, &Course::new(direction, shape, approach)?)
+        Self::on_course(cable, mesh, speed, &of_shape(direction, shape, approach)?)
     }
 
     fn on_course(
@@ -92,13 +92,9 @@ impl MovingDuct {
         checked("lattice points", points, "at most 4e7", |v| v <= MAX_POINTS)?;
         let origin = before * h;
 
-        // Along x, whichever way the vehicle drives; two points more on both sides, for the slopes.
-        let sign = direction.sign();
-        let places = (0..points as usize + 4).map(|j| sign * (step * (j as f64 - 2.0) - origin));
-        let mut values = course.tabulate(places)?;
-        for value in &mut values {
-            *value *= sign;
-        }
+        // Two points more on both sides, for the slopes.
+        let places = (0..points as usize + 4).map(|j| step * (j as f64 - 2.0) - origin);
+        let values = course.tabulate(places)?;
         let slope = |d: &[f64]| (8.0 * (d[3] - d[1]) - (d[4] - d[0])) / (12.0 * step);
         let largest = |most: f64, value: f64| most.max(value.abs());
         Ok(Self {

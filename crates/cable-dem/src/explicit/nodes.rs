@@ -1,14 +1,32 @@
-//! One explicit step.
+//! The cable as masses and springs, M ü + K u + S u = w (f + p), and one explicit step of it.
+//!
+//! Node i carries the mass m_i = w_i m′ and the friction w_i f_i of its tributary length w_i (h, and h/2 at the ends), and hangs on its
+//! neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does not move.
 
 use super::energy::EnergyBalance;
-use super::lumped::Lumped;
-use crate::{CableState, EndForces, FrictionLaw};
+use crate::ends::EndReader;
+use crate::error::checked;
+use crate::step::{Chain, FixedEndFriction, Grip};
+use crate::{CableError, CableState, DuctedCable, EndForces, FrictionLaw, Mesh};
 
-/// Motion and energy accounts of all nodes.
+/// Masses, springs and supports of one cable on one mesh, their motion, and the accounts of their energy.
 #[derive(Debug, Clone)]
 pub(super) struct MovingNodes {
+    pub cable: DuctedCable,
+    pub mesh: Mesh,
+    /// m′ \[kg/m\].
+    pub mass_per_metre: f64,
+    /// K + S, without clamps.
+    pub chain: Chain,
+    /// Clamps.
+    pub grips: Vec<Grip>,
+    /// Loads of every node \[N\]: body force w p, and springs of ends that are held elsewhere.
+    load: Vec<f64>,
+    /// Friction of held nodes.
+    held: FixedEndFriction,
+    ends: EndReader,
     /// u \[m\].
-    displacement: Vec<f64>,
+    pub displacement: Vec<f64>,
     /// v \[m/s\], half a step back.
     velocity: Vec<f64>,
     /// f \[N/m\].
@@ -23,47 +41,82 @@ pub(super) struct MovingNodes {
     work: f64,
     heat: f64,
     gross: f64,
+    /// Elastic energy, and that in the contact's shear, at the start \[J\].
+    initial: [f64; 2],
 }
 
 impl MovingNodes {
-    /// At rest in `state`.
-    pub fn new(state: &CableState) -> Self {
-        let nodes = state.friction.len();
-        let zeros = || vec![0.0; nodes];
-        Self {
-            displacement: state.displacement.clone(),
+    pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
+        checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
+            v > 0.0
+        })?;
+        mesh.check_length(cable.length())?;
+        let zeros = || vec![0.0; mesh.nodes()];
+        Ok(Self {
+            mass_per_metre,
+            chain: Chain::new(&cable, &mesh),
+            grips: Vec::new(),
+            load: cable.loads(&mesh, 0.0),
+            held: FixedEndFriction::new(&cable, &mesh),
+            ends: EndReader::new(&cable, &mesh).moving(&cable),
+            displacement: zeros(),
             velocity: zeros(),
-            friction: state.friction.clone(),
+            friction: zeros(),
             duct: zeros(),
-            before: vec![[0.0; 2]; nodes],
+            before: vec![[0.0; 2]; mesh.nodes()],
             increment: zeros(),
             work: 0.0,
             heat: 0.0,
             gross: 0.0,
+            initial: [0.0; 2],
+            cable,
+            mesh,
+        })
+    }
+
+    /// Begins a pass at rest in `state`.
+    pub fn begin(&mut self, state: &CableState) {
+        self.displacement.copy_from_slice(&state.displacement);
+        self.friction.copy_from_slice(&state.friction);
+        self.velocity.fill(0.0);
+        self.before.fill([0.0; 2]);
+        for grip in &mut self.grips {
+            grip.start(&state.clamp_slips);
+        }
+        (self.work, self.heat, self.gross) = (0.0, 0.0, 0.0);
+        self.initial = [self.elastic_energy(), self.stored_energy()];
+    }
+
+    /// Writes displacement, friction and slips of clamps to `state`.
+    pub fn store(&self, state: &mut CableState) {
+        state.displacement.copy_from_slice(&self.displacement);
+        state.friction.copy_from_slice(&self.friction);
+        for grip in &self.grips {
+            grip.store(&mut state.clamp_slips);
         }
     }
 
     /// One step of `time_step` \[s\]; `displacement` writes where the duct stands after it \[m\].
-    pub fn step(&mut self, lumped: &mut Lumped, displacement: impl Fn(&mut [f64]), time_step: f64) {
+    pub fn step(&mut self, displacement: impl Fn(&mut [f64]), time_step: f64) {
         displacement(&mut self.increment);
-        lumped.chain.press(|i| self.displacement[i], 0.0);
+        self.chain.press(|i| self.displacement[i], 0.0);
         for (duct, increment) in self.duct.iter_mut().zip(&mut self.increment) {
             let before = std::mem::replace(duct, *increment);
             *increment -= before;
         }
-        let per_mass = time_step / lumped.mass_per_metre;
-        let gripped = self.accelerate(lumped, per_mass);
-        let friction = lumped.cable.friction();
-        let compliance = lumped.elastic_compliance();
+        let per_mass = time_step / self.mass_per_metre;
+        let gripped = self.accelerate(per_mass);
+        let friction = self.cable.friction();
+        let compliance = self.elastic_compliance();
         let coulomb = friction.law() == FrictionLaw::Coulomb;
         let (mut work, mut heat, mut gross) = (0.0, 0.0, 0.0);
         for i in 0..self.velocity.len() {
             let (increment, before) = (self.increment[i], self.friction[i]);
-            let limit = lumped.chain.nodes[i].limit;
-            let is_held = !lumped.chain.free.nodes().contains(&i);
+            let limit = self.chain.nodes[i].limit;
+            let is_held = !self.chain.free.nodes().contains(&i);
             let (velocity, after) = if is_held {
                 // Fixed ends do not move; their friction follows their own slip.
-                (0.0, lumped.held.after_slip(before, increment, limit))
+                (0.0, self.held.after_slip(before, increment, limit))
             } else if coulomb {
                 // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by
                 // node, as the masses are lumped).
@@ -83,7 +136,7 @@ impl MovingNodes {
             let slip = increment - moved - compliance * (after - before);
             let acting = if coulomb { after } else { before };
             // Friction acts from one half step to the next: on half the slip of either step.
-            let weight = 0.5 * lumped.chain.nodes[i].tributary * acting;
+            let weight = 0.5 * self.chain.nodes[i].tributary * acting;
             let [earlier, plastic] = std::mem::replace(&mut self.before[i], [increment, slip]);
             let done = weight * (plastic + slip);
             work += weight * (earlier + increment);
@@ -97,13 +150,13 @@ impl MovingNodes {
     }
 
     /// v ← v + Δt (w p − (K + S) u)/m, with `per_mass` Δt/m′. Returned: the heat of clamps that slip \[J\].
-    fn accelerate(&mut self, lumped: &mut Lumped, per_mass: f64) -> f64 {
-        let (chain, u) = (&lumped.chain, &self.displacement);
+    fn accelerate(&mut self, per_mass: f64) -> f64 {
+        let (chain, u) = (&self.chain, &self.displacement);
         for (i, velocity) in self.velocity.iter_mut().enumerate() {
-            *velocity -= per_mass * chain.balancing_friction(u, &lumped.load, i);
+            *velocity -= per_mass * chain.balancing_friction(u, &self.load, i);
         }
         let mut gripped = 0.0;
-        for grip in &mut lumped.grips {
+        for grip in &mut self.grips {
             let (force, heat) = grip.bear(u[grip.node]);
             gripped += heat;
             self.velocity[grip.node] -= per_mass * force * chain.nodes[grip.node].per_tributary;
@@ -111,49 +164,64 @@ impl MovingNodes {
         gripped
     }
 
-    pub fn end_forces(&self, lumped: &Lumped) -> EndForces {
-        lumped.end_forces(&self.displacement, &self.friction)
+    /// Force on each end \[N\], compression positive.
+    pub fn end_forces(&self) -> EndForces {
+        self.ends
+            .read(0.0, |i| self.displacement[i], |i| self.friction[i])
     }
 
-    /// Displacement of a node \[m\].
-    pub fn displacement(&self, node: usize) -> f64 {
-        self.displacement[node]
-    }
-
-    /// Writes displacement and friction to `state`.
-    pub fn store(&self, state: &mut CableState) {
-        state.displacement.copy_from_slice(&self.displacement);
-        state.friction.copy_from_slice(&self.friction);
+    /// Σ w_i value(i) over all nodes.
+    pub fn weighted(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let nodes = self.chain.nodes.iter().enumerate();
+        nodes.map(|(i, node)| node.tributary * value(i)).sum()
     }
 
     /// ½ Σ m v² \[J\].
-    pub fn kinetic_energy(&self, lumped: &Lumped) -> f64 {
-        0.5 * lumped.mass_per_metre * lumped.weighted(|i| self.velocity[i].powi(2))
+    pub fn kinetic_energy(&self) -> f64 {
+        0.5 * self.mass_per_metre * self.weighted(|i| self.velocity[i].powi(2))
     }
 
-    /// The accounts of a pass that began in `state` with the `elastic` energy \[J\].
-    pub fn energy(
-        &self,
-        lumped: &Lumped,
-        (state, elastic): (&CableState, f64),
-        peak_kinetic: f64,
-    ) -> EnergyBalance {
-        let stored = lumped.stored_energy(&state.friction);
+    /// ½ uᵀ(K + S) u \[J\], clamps that slip as they are now.
+    fn elastic_energy(&self) -> f64 {
+        let u = &self.displacement;
+        let gripped: f64 = self.grips.iter().map(|grip| grip.energy(u[grip.node])).sum();
+        let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        let supported: f64 = (0..u.len()).map(|i| self.chain.spring(i) * u[i] * u[i]).sum();
+        0.5 * (self.chain.stiffness * stretched + supported) + gripped
+    }
+
+    /// γ \[m²/N\] of a contact that shears elastically: 0 for Coulomb's law and for laws without memory.
+    fn elastic_compliance(&self) -> f64 {
+        if self.cable.friction().law().has_memory() {
+            self.chain.compliance
+        } else {
+            0.0
+        }
+    }
+
+    /// ½ γ Σ w f² \[J\]: energy in the contact's elastic shear.
+    fn stored_energy(&self) -> f64 {
+        0.5 * self.elastic_compliance() * self.weighted(|i| self.friction[i].powi(2))
+    }
+
+    /// The accounts of the pass that began in `state`, whose duct moves by `peak` \[m\] at most.
+    pub fn energy(&self, state: &CableState, peak_kinetic: f64, peak: f64) -> EnergyBalance {
+        let [elastic, stored] = self.initial;
         let moved = self.displacement.iter().zip(&state.displacement);
         let body_work = moved
-            .zip(&lumped.load)
+            .zip(&self.load)
             .map(|((after, before), load)| load * (after - before));
         EnergyBalance {
             duct_work: self.work,
             body_work: body_work.sum(),
-            elastic: lumped.elastic_energy(&self.displacement) - elastic,
-            kinetic: self.kinetic_energy(lumped),
-            stored: lumped.stored_energy(&self.friction) - stored,
+            elastic: self.elastic_energy() - elastic,
+            kinetic: self.kinetic_energy(),
+            stored: self.stored_energy() - stored,
             dissipated: self.heat,
             returned: 0.5 * (self.gross - self.heat),
             peak_kinetic,
             initial: elastic + stored,
-            reference: 0.0,
+            reference: self.cable.friction().limit() * self.cable.length() * peak,
         }
     }
 }

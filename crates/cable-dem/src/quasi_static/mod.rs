@@ -8,14 +8,16 @@ mod window;
 
 pub use passage::Passage;
 
-use ground_field::{Direction, DuctMotion};
+use ground_field::DuctMotion;
 
+use crate::ends::EndReader;
 use crate::error::checked;
 use crate::laid::laid;
-use crate::outcome::Recorder;
-use crate::step::check_precision;
+use crate::step::{Chain, Prediction, StepSolver, Stretch, check_precision};
+use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
-use pass::ForwardSolver;
+use supports::Supports;
+use window::WindowBounds;
 
 /// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
 ///
@@ -59,9 +61,25 @@ pub struct QuasiStatic {
     mesh: Mesh,
     /// The cable as laid.
     laid: CableState,
-    forward: ForwardSolver,
-    /// The cable seen in the mirror, for reverse traffic; made when first needed.
-    reverse: Option<ForwardSolver>,
+    step: StepSolver,
+    ends: EndReader,
+    supports: Supports,
+    bounds: WindowBounds,
+    /// A node moves if it does so by more than this in a step \[m\].
+    quiet: f64,
+    /// State in the adherent frame: r \[m\] and g \[N/m\].
+    r: Vec<f64>,
+    g: Vec<f64>,
+    /// Where the duct held every node before the step, r + γ g \[m\].
+    anchor: Vec<f64>,
+    /// Of the cable in the current pass \[N\].
+    thermal_force: f64,
+    /// What moved in the last step, and the nodes beside it.
+    moving: Vec<Stretch>,
+    /// Of the current pass alone, so that a pass is a function of the state and the passage.
+    prediction: Prediction,
+    /// What the current pass has shown so far.
+    outcome: PassOutcome,
 }
 
 impl QuasiStatic {
@@ -75,10 +93,24 @@ impl QuasiStatic {
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("quasi-static")?;
         mesh.check_length(cable.length())?;
+        let chain = Chain::new(&cable, &mesh);
+        let screening = chain.compliance * chain.stiffness / mesh.spacing();
+        let bounds = WindowBounds::new(chain.free, screening);
+        let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {
             laid: laid(&cable, &mesh)?,
-            forward: ForwardSolver::new(cable.clone(), &mesh),
-            reverse: None,
+            supports: Supports::new(&cable, &mesh, &chain, bounds),
+            ends: EndReader::new(&cable, &mesh),
+            bounds,
+            quiet: QUIET_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
+            step: StepSolver::new(chain),
+            r: zeros(),
+            g: zeros(),
+            anchor: zeros(),
+            thermal_force: 0.0,
+            moving: Vec::new(),
+            prediction: Prediction::default(),
+            outcome: PassOutcome::default(),
             cable,
             mesh,
         })
@@ -131,7 +163,7 @@ impl QuasiStatic {
         &mut self,
         passage: &Passage,
         state: &mut CableState,
-        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+        observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
         if !passage.fits(&self.cable, &self.mesh) {
@@ -141,52 +173,7 @@ impl QuasiStatic {
             return self.without_friction(state);
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
-        let mirrored = passage.direction() == Direction::Reverse;
-        let solver = if mirrored {
-            self.reverse
-                .get_or_insert_with(|| ForwardSolver::new(self.cable.mirrored(), &self.mesh))
-        } else {
-            &mut self.forward
-        };
-        let mut after = state.clone();
-        if mirrored {
-            after.mirror();
-        }
-        let (mesh, thermal_force) = (&self.mesh, state.thermal_force);
-        // Clamps that never slip keep what they had.
-        let slips = after.clamp_slips.clone();
-        let mut recorder = solver.pass(passage, &mut after, |r, g, grips, snapshot| {
-            let position = mesh.lattice_step() * snapshot.position as f64;
-            let state = || {
-                let mut state = CableState::at_rest(mesh);
-                state.thermal_force = thermal_force;
-                state.clamp_slips.clone_from(&slips);
-                for node in 0..mesh.nodes() {
-                    state.displacement[node] = r[node] + snapshot.adherent_at(node);
-                    state.friction[node] = g[node] + snapshot.adhesion[node];
-                }
-                for grip in grips {
-                    grip.store(&mut state.clamp_slips);
-                }
-                if mirrored {
-                    state.mirror();
-                }
-                state
-            };
-            let vehicle = if mirrored {
-                mesh.length() - position
-            } else {
-                position
-            };
-            observe(vehicle, &state);
-        })?;
-        if mirrored {
-            after.mirror();
-            recorder.mirror();
-        }
-        let outcome = recorder.outcome(&self.cable, &after, after.end_forces(&self.cable)?)?;
-        *state = after;
-        Ok(outcome)
+        self.drive(passage, state, observe)
     }
 
     /// Nothing drags the cable, and what held it is gone: it lies as laid, or where it was if nothing
@@ -197,10 +184,9 @@ impl QuasiStatic {
         })?;
         let mean = state.displacement.iter().sum::<f64>() / state.displacement.len() as f64;
         state.clone_from(&self.laid);
-        if !self.forward.step.chain.is_held {
+        if !self.step.chain.is_held {
             state.displacement.fill(mean);
         }
-        let force = state.end_forces(&self.cable)?;
-        Recorder::new(&self.cable, state)?.outcome(&self.cable, state, force)
+        PassOutcome::at_rest(&self.cable, state)
     }
 }

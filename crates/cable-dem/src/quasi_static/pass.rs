@@ -1,77 +1,60 @@
-//! One pass, forward: the cable in the vehicle's adherent frame, step by step.
+//! One pass: the cable in the vehicle's adherent frame, step by step.
 
+use std::ops::Range;
+
+use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
-use super::supports::Supports;
-use super::window::{self, WindowBounds};
-use crate::ends::EndReader;
-use crate::outcome::Recorder;
-use crate::step::{Chain, Grip, Load, Prediction, StepSolver, Stretch, largest};
-use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
-use crate::{CableError, CableState, DuctedCable, Mesh};
+use super::window;
+use crate::step::{Grip, Load, Prediction, StepSolver, Stretch, largest};
+use crate::tuning::UNBALANCED_SHARE;
+use crate::{CableError, CableState, PassOutcome};
 
 /// Solves at most in which clamps change between sticking and sliding: a few are right at once.
 const MAX_CORRECTIONS: usize = 100;
 
-/// Drives vehicles forward over one cable; allocated once.
-#[derive(Debug, Clone)]
-pub(super) struct ForwardSolver {
-    pub step: StepSolver,
-    cable: DuctedCable,
-    ends: EndReader,
-    supports: Supports,
-    bounds: WindowBounds,
-    /// A node moves if it does so by more than this in a step \[m\].
-    quiet: f64,
-    /// State in the adherent frame: r \[m\] and g \[N/m\].
-    r: Vec<f64>,
-    g: Vec<f64>,
-    /// Where the duct held every node before the step, r + γ g \[m\].
-    anchor: Vec<f64>,
-    /// Of the cable in the current pass \[N\].
-    thermal_force: f64,
-    windows: Vec<Stretch>,
-    /// What moved in the last step.
-    moving: Vec<Stretch>,
-    /// Of the current pass alone, so that a pass is a function of the state and the passage.
-    prediction: Prediction,
-    /// What the current pass gathers.
-    recorder: Recorder,
-    mesh: Mesh,
-}
-
-impl ForwardSolver {
-    pub fn new(cable: DuctedCable, mesh: &Mesh) -> Self {
-        let nodes = mesh.nodes();
-        let chain = Chain::new(&cable, mesh);
-        let screening = chain.compliance * chain.stiffness / mesh.spacing();
-        let bounds = WindowBounds::new(chain.free, screening);
-        Self {
-            supports: Supports::new(&cable, mesh, &chain, bounds),
-            ends: EndReader::new(&cable, mesh),
-            bounds,
-            quiet: QUIET_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
-            cable,
-            step: StepSolver::new(chain),
-            r: vec![0.0; nodes],
-            g: vec![0.0; nodes],
-            anchor: vec![0.0; nodes],
-            thermal_force: 0.0,
-            windows: Vec::new(),
-            moving: Vec::new(),
-            prediction: Prediction::default(),
-            recorder: Recorder::default(),
-            mesh: *mesh,
-        }
-    }
-
-    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees r, g, clamps that slip and the
-    /// vehicle at every step.
-    pub fn pass(
+impl QuasiStatic {
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` is called as in
+    /// [`QuasiStatic::pass_observed`].
+    pub(super) fn drive(
         &mut self,
         passage: &Passage,
         state: &mut CableState,
-        mut observe: impl FnMut(&[f64], &[f64], &[Grip], Snapshot<'_>),
-    ) -> Result<Recorder, CableError> {
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+    ) -> Result<PassOutcome, CableError> {
+        self.begin(passage, state)?;
+        let mut last = passage.still();
+        let mut watched = self.bounds.free;
+        for (step, &position) in passage.positions.iter().enumerate() {
+            let snapshot = passage.snapshot(position);
+            self.move_duct(&last, &snapshot);
+            let under = self.bounds.under(snapshot.node, passage.reach);
+            if step == 0 {
+                self.step_whole(&snapshot)?;
+            } else {
+                // A node is looked at once more where adhesion no longer reaches it, and all of them where the friction limit changes.
+                let near = if self.step.chain.bends() {
+                    self.bounds.free
+                } else {
+                    watched.hull(under)
+                };
+                self.step_windows(&snapshot, near, passage.first_point(&snapshot))?;
+            }
+            (last, watched) = (snapshot, under);
+            let vehicle = self.mesh.lattice_step() * position as f64;
+            observe(vehicle, &|| self.shown(&snapshot, state));
+        }
+
+        // The ground comes to rest. What the windows left out of account is settled by the same step.
+        let still = passage.still();
+        self.move_duct(&last, &still);
+        self.step_whole(&still)?;
+        *state = self.shown(&still, state);
+        self.outcome.statistics += self.step.statistics;
+        std::mem::take(&mut self.outcome).ended(&self.cable, state)
+    }
+
+    /// Begins a pass over the cable in `state`.
+    fn begin(&mut self, passage: &Passage, state: &CableState) -> Result<(), CableError> {
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.step.start(largest(&self.r, passage.peak));
@@ -85,53 +68,37 @@ impl ForwardSolver {
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction = Prediction::new(points, phases);
-        self.recorder = Recorder::new(&self.cable, state)?;
+        self.outcome = PassOutcome::at_rest(&self.cable, state)?;
+        Ok(())
+    }
 
-        let mut behind = self.bounds.free.lo;
-        let mut last = passage.still();
-        for (step, &position) in passage.positions.iter().enumerate() {
-            self.press(&last);
-            let snapshot = passage.snapshot(position);
-            last = snapshot;
-            let under = self.bounds.under(snapshot.node, passage.reach);
-            // A node is looked at once more where adhesion no longer reaches it, and all of them where the friction limit changes.
-            let watched = if self.step.chain.bends() {
-                self.bounds.free
-            } else {
-                Stretch { lo: behind, ..under }
-            };
-            behind = under.lo;
-            if step == 0 {
-                self.step_whole(&snapshot)?;
-            } else {
-                let first = passage.first_point(&snapshot);
-                self.step_windows(&snapshot, watched, first)?;
-            }
-            observe(&self.r, &self.g, &self.step.chain.grips, snapshot);
+    /// The cable under `snapshot`; clamps that never slip keep what they had in `before`.
+    fn shown(&self, snapshot: &Snapshot<'_>, before: &CableState) -> CableState {
+        let mut state = before.clone();
+        for node in 0..self.mesh.nodes() {
+            state.displacement[node] = self.r[node] + snapshot.adherent_at(node);
+            state.friction[node] = self.g[node] + snapshot.adhesion[node];
         }
-
-        // The ground comes to rest. What the windows left out of account is settled by the same step.
-        self.press(&last);
-        self.step_whole(&passage.still())?;
-        state.displacement.copy_from_slice(&self.r);
-        state.friction.copy_from_slice(&self.g);
         for grip in &self.step.chain.grips {
             grip.store(&mut state.clamp_slips);
         }
-        self.recorder.statistics += self.step.statistics;
-        Ok(std::mem::take(&mut self.recorder))
+        state
     }
 
-    /// Lets the cable press on the bends of the duct with the force that it has under `snapshot`.
-    fn press(&mut self, snapshot: &Snapshot<'_>) {
+    /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
+    /// force that it had.
+    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) {
+        self.outcome.statistics.steps += 1;
+        let StepSolver { chain, trial, .. } = &mut self.step;
         let r = &self.r;
-        let u = |node: usize| r[node] + snapshot.adherent_at(node);
-        self.step.chain.press(u, self.thermal_force);
+        chain.press(|node| r[node] + last.adherent_at(node), self.thermal_force);
+        self.supports.load(snapshot, chain);
+        let state = (&mut *self.r, &mut *self.g);
+        self.outcome.dissipated += self.supports.hold([last, snapshot], chain, state, trial);
     }
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
-        self.hold(snapshot);
         self.solve(self.bounds.free, snapshot)?;
         self.anchor(self.bounds.free);
         self.moving.clear();
@@ -148,11 +115,8 @@ impl ForwardSolver {
         watched: Stretch,
         first: usize,
     ) -> Result<(), CableError> {
-        self.hold(snapshot);
-        let mut windows = std::mem::take(&mut self.windows);
-        self.collect(&mut windows, snapshot, watched);
-        let travelling = windows.clone();
-        windows.extend(&self.supports.windows);
+        let travelling = self.travelling(snapshot, watched);
+        let mut windows = [&travelling[..], &self.supports.windows].concat();
         window::join(&mut windows);
         self.moving.clear();
         for window in &mut windows {
@@ -168,56 +132,43 @@ impl ForwardSolver {
                 // Around a support nothing travels.
                 self.moving.truncate(before);
             }
-            let widest = &mut self.recorder.statistics.widest_window;
+            let widest = &mut self.outcome.statistics.widest_window;
             *widest = window.len().max(*widest);
         }
         for window in &windows {
             self.anchor(*window);
         }
+        // The node beside one that moved is disturbed if the window travels on.
+        for part in &mut self.moving {
+            *part = self.bounds.widened(*part, 1);
+        }
+        window::join(&mut self.moving);
         self.record_ends(snapshot);
         self.record_clamps(snapshot);
-        self.windows = windows;
         Ok(())
     }
 
-    /// Lists the windows of a step beside those around supports: what moved in the last one, and
-    /// what of `watched` begins to slip.
-    fn collect(&mut self, windows: &mut Vec<Stretch>, snapshot: &Snapshot<'_>, watched: Stretch) {
-        let bounds = self.bounds;
-        windows.clear();
-        // The node beside one that moved is disturbed if the window travels on.
-        windows.extend(self.moving.iter().map(|&part| bounds.widened(part, 1)));
-        window::join(windows);
-        // Between them and beyond.
-        let known = windows.len();
-        let near = watched.lo..watched.hi + 1;
-        let chain = &self.step.chain;
-        let slips_above = |limit: f64| limit * (1.0 + SLIPPING_SHARE);
-        let (least, limit) = (slips_above(chain.least_limit), |i: usize| {
-            slips_above(chain.nodes[i].limit)
-        });
-        let mut lo = near.start;
-        for at in 0..=known {
-            let (hi, next) = if at < known {
-                let Stretch { lo, hi } = windows[at];
-                (lo.min(near.end), hi + 1)
-            } else {
-                (near.end, near.end)
-            };
-            window::slipping(lo..hi, (&self.g, snapshot.adhesion), (least, limit), |slips| {
-                windows.push(bounds.widened(slips, bounds.margin));
+    /// The windows of a step that do not belong to supports: what moved in the last one, and what of `watched` begins to slip.
+    fn travelling(&self, snapshot: &Snapshot<'_>, watched: Stretch) -> Vec<Stretch> {
+        let (bounds, chain) = (self.bounds, &self.step.chain);
+        let above = |limit: f64| (1.0 + SLIPPING_SHARE) * limit;
+        let slips =
+            |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes[node].limit);
+        // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
+        let may_slip = |block: Range<usize>| {
+            let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
+            let least = above(chain.least_limit);
+            pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
+        };
+        let mut windows = self.moving.clone();
+        let (mut from, end) = (watched.lo, watched.hi + 1);
+        for known in self.moving.iter().chain([&Stretch { lo: end, hi: end }]) {
+            window::slipping(from..known.lo.min(end), may_slip, slips, |begun| {
+                windows.push(bounds.widened(begun, bounds.margin));
             });
-            lo = lo.max(next);
+            from = from.max(known.hi + 1);
         }
-    }
-
-    /// Brings loads and fixed ends to the vehicle's position.
-    fn hold(&mut self, snapshot: &Snapshot<'_>) {
-        self.recorder.statistics.steps += 1;
-        let StepSolver { chain, trial, .. } = &mut self.step;
-        self.supports.load(snapshot, chain);
-        let state = (&mut *self.r, &mut *self.g);
-        self.recorder.dissipated += self.supports.hold(snapshot, chain, state, trial);
+        windows
     }
 
     /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
@@ -230,7 +181,7 @@ impl ForwardSolver {
             let slip = std::mem::replace(anchor, now) - now;
             node.tributary * node.limit * slip.abs()
         });
-        self.recorder.dissipated += slips.sum::<f64>();
+        self.outcome.dissipated += slips.sum::<f64>();
     }
 
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
@@ -238,7 +189,7 @@ impl ForwardSolver {
     fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
         let (mut growth, mut corrections) = (self.bounds.margin, 0);
         loop {
-            self.recorder.statistics.windows += 1;
+            self.outcome.statistics.windows += 1;
             let load = Load {
                 adhesion: snapshot.adhesion,
                 support: &self.supports.load,
@@ -273,9 +224,9 @@ impl ForwardSolver {
             .filter(|grip| stretch.nodes().contains(&grip.node))
         {
             let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
-            self.recorder.dissipated += grip.settle(u);
+            self.outcome.dissipated += grip.settle(u);
         }
-        let moves = |node: usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
+        let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();
         self.r[nodes.clone()].copy_from_slice(&trial.r[nodes.clone()]);
@@ -295,14 +246,14 @@ impl ForwardSolver {
         let grips = &self.step.chain.grips;
         if !grips.is_empty() {
             let u = |node| self.r[node] + snapshot.adherent_at(node);
-            self.recorder
-                .record_clamps(&Grip::forces(grips, self.cable.restraints(), u));
+            self.outcome
+                .see_clamps(&Grip::forces(grips, self.cable.restraints(), u));
         }
     }
 
     /// Records the force on each end with the vehicle at the snapshot's position.
     fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
-        self.recorder.record(self.ends.read(
+        self.outcome.see(self.ends.read(
             self.thermal_force,
             |node| self.r[node] + snapshot.adherent_at(node),
             |node| self.g[node] + snapshot.adhesion[node],

@@ -3,7 +3,7 @@
 use ground_field::{Direction, DuctMotion};
 
 use super::schedule::schedule;
-use crate::course::{Course, as_driven};
+use crate::course::{Course, as_driven, of_shape};
 use crate::tridiagonal::{self, Row};
 use crate::tuning::{UNBALANCED_SHARE, WATCHED_SHARE};
 use crate::{CableError, DuctedCable, Friction, Mesh};
@@ -40,7 +40,7 @@ pub struct Passage {
     phases: Vec<Phase>,
     /// Lattice indices before the vehicle's origin.
     behind: usize,
-    /// Vehicle positions, in lattice units, from before the duct to past it.
+    /// Vehicle positions along the duct, in lattice units, in the order in which the vehicle takes them.
     pub(super) positions: Vec<i64>,
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
     pub(super) reach: usize,
@@ -87,7 +87,6 @@ impl Passage {
         motion: &DuctMotion,
         approach: f64,
     ) -> Result<Self, CableError> {
-        // The solver always drives forward; reverse traffic is its mirror image.
         Self::on_course(cable, mesh, &as_driven(motion, mesh, approach)?)
     }
 
@@ -106,7 +105,7 @@ impl Passage {
         shape: impl Fn(f64) -> f64,
         approach: f64,
     ) -> Result<Self, CableError> {
-        Self::on_course(cable, mesh, &Course::new(direction, shape, approach)?)
+        Self::on_course(cable, mesh, &of_shape(direction, shape, approach)?)
     }
 
     fn on_course(
@@ -116,15 +115,19 @@ impl Passage {
     ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
         let unseen = WATCHED_SHARE * UNBALANCED_SHARE * cable.least_limit();
-        let m = mesh.phases() as i64;
-        let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
+        let m = mesh.phases as i64;
+        let (end, stride) = (mesh.elements() as i64 * m, mesh.stride as i64);
         let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;
 
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
         let behind = ((end + stride + approach) / m + 3) * m;
-        let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
-        let shape = course.tabulate((-behind..ahead).map(|j| step * j as f64))?;
-        let positions = schedule(end, approach, (course.half_length / step).ceil() as i64, stride);
+        let shape = course.tabulate((-behind..behind).map(|j| step * j as f64))?;
+        let mut positions = schedule(end, approach, (course.half_length / step).ceil() as i64, stride);
+        if course.direction == Direction::Reverse {
+            for position in &mut positions {
+                *position = end - *position;
+            }
+        }
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         let phases: Vec<Phase> = (0..m as usize)

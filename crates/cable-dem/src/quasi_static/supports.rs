@@ -12,7 +12,8 @@ use crate::{DuctedCable, Mesh};
 pub(super) struct Supports {
     /// Ends that move, with the stiffness of their springs \[N/m\].
     ends: Vec<(usize, f64)>,
-    fixed: Vec<FixedEnd>,
+    /// Ends that do not, and where they stand \[m\].
+    fixed: Vec<(usize, f64)>,
     /// Friction law of fixed nodes.
     law: FixedEndFriction,
     /// Least windows around all of them.
@@ -21,16 +22,6 @@ pub(super) struct Supports {
     pub load: Vec<f64>,
     /// The latter alone.
     body: Vec<f64>,
-}
-
-/// A fixed end, and how far its friction has followed the duct.
-#[derive(Debug, Clone)]
-struct FixedEnd {
-    node: usize,
-    /// Where it stands \[m\].
-    position: f64,
-    /// Displacement \[m\] and adhesion \[N/m\] of the duct.
-    followed: [f64; 2],
 }
 
 impl Supports {
@@ -43,11 +34,7 @@ impl Supports {
         for ((node, end), position) in held.into_iter().zip(cable.end_positions()) {
             match end.stiffness() {
                 Some(spring) => ends.push((node, spring)),
-                None => fixed.push(FixedEnd {
-                    node,
-                    position,
-                    followed: [0.0; 2],
-                }),
+                None => fixed.push((node, position)),
             }
         }
         let nodes = [0, last]
@@ -69,9 +56,6 @@ impl Supports {
     pub fn rest(&mut self, body: Vec<f64>) {
         self.load.copy_from_slice(&body);
         self.body = body;
-        for end in &mut self.fixed {
-            end.followed = [0.0; 2];
-        }
     }
 
     /// Loads ends and clamps as the vehicle and what slips demand.
@@ -86,26 +70,26 @@ impl Supports {
         chain.add_grip_loads(&mut self.load, |node| snapshot.adherent_at(node));
     }
 
-    /// Moves fixed nodes, whose friction is `g`, in both the state `r` and the `trial`. Returns the heat of the slip there \[J\].
+    /// Moves fixed nodes, whose friction is `g`, from one snapshot to the other, in both the state `r` and the `trial`. Returns the heat
+    /// of the slip there \[J\].
     pub fn hold(
-        &mut self,
-        snapshot: &Snapshot<'_>,
+        &self,
+        snapshots: [&Snapshot<'_>; 2],
         chain: &Chain,
         (r, g): (&mut [f64], &mut [f64]),
         trial: &mut Trial,
     ) -> f64 {
-        let mut heat = 0.0;
-        for end in &mut self.fixed {
-            let node = end.node;
-            r[node] = end.position - snapshot.adherent_at(node);
-            trial.r[node] = r[node];
+        let (mut heat, gamma) = (0.0, chain.compliance);
+        for &(node, position) in &self.fixed {
+            let [adhesion_before, adhesion] = snapshots.map(|snapshot| snapshot.adhesion[node]);
             // The duct stands at D = a + γ A.
-            let (gamma, adhesion) = (chain.compliance, snapshot.adhesion[node]);
-            let duct = snapshot.adherent_at(node) + gamma * adhesion;
-            let [duct_before, adhesion_before] = std::mem::replace(&mut end.followed, [duct, adhesion]);
+            let [duct_before, duct] =
+                snapshots.map(|snapshot| snapshot.adherent_at(node) + gamma * snapshot.adhesion[node]);
             let (slip, before) = (duct - duct_before, g[node] + adhesion_before);
             let after = self.law.after_slip(before, slip, chain.nodes[node].limit);
             heat += chain.nodes[node].tributary * after * (slip - gamma * (after - before));
+            r[node] = position - snapshots[1].adherent_at(node);
+            trial.r[node] = r[node];
             g[node] = after - adhesion;
         }
         heat

@@ -73,59 +73,41 @@ pub(super) fn grow(
     (grown, 2 * growth)
 }
 
-/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside
-/// each edge. At least [`GAP`] quiet nodes lie between two parts; of fewer than four more the
-/// windows of the next step take so many that they join again.
-pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
-    let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
-    let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {
-        return;
-    };
-    let with_edges = |lo: usize, hi: usize| Stretch {
-        lo: solved.lo.max(lo.saturating_sub(1)),
-        hi: solved.hi.min(hi + 1),
-    };
-    let mut lo = first;
-    // Of so many quiet nodes side by side one at least is looked at.
-    let mut probe = first + GAP;
-    while probe < last {
-        if !moves(probe) {
-            let before = (lo..probe).rev().find(|&node| moves(node)).unwrap_or(lo);
-            let after = (probe..last).find(|&node| moves(node)).unwrap_or(last);
-            if after > before + GAP {
-                parts.push(with_edges(lo, before));
-                lo = after;
-            }
-            probe = after;
+/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. At least [`GAP`] quiet
+/// nodes lie between two of them.
+pub(super) fn moving(solved: Stretch, moves: impl Fn(&usize) -> bool, parts: &mut Vec<Stretch>) {
+    let mut from = solved.lo;
+    while let Some(lo) = (from..=solved.hi).find(&moves) {
+        let mut hi = lo;
+        // From the far end: of so many nodes side by side one at least is looked at.
+        while let Some(next) = (hi + 1..=solved.hi.min(hi + GAP)).rev().find(&moves) {
+            hi = next;
         }
-        probe += GAP;
+        from = hi + 1;
+        parts.push(Stretch {
+            lo: solved.lo.max(lo.saturating_sub(1)),
+            hi: solved.hi.min(hi + 1),
+        });
     }
-    parts.push(with_edges(lo, last));
 }
 
-/// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond the `limit` of the node,
-/// and so beyond the `least` one \[N/m\].
+/// Finds the stretches of `nodes` that slip side by side, where a block of nodes `may_slip`.
 pub(super) fn slipping(
     nodes: Range<usize>,
-    (friction, adhesion): (&[f64], &[f64]),
-    (least, limit): (f64, impl Fn(usize) -> f64),
+    may_slip: impl Fn(Range<usize>) -> bool,
+    slips: impl Fn(&usize) -> bool,
     mut found: impl FnMut(Stretch),
 ) {
-    let slips = |node: &usize| (friction[*node] + adhesion[*node]).abs() > limit(*node);
-    let mut from = nodes.start;
-    while from < nodes.end {
-        let block = from..(from + BLOCK).min(nodes.end);
-        let pairs = friction[block.clone()].iter().zip(&adhesion[block.clone()]);
-        // Several nodes are looked at at once: a third of the time of a pass in which few slip.
-        let beyond = pairs.fold(false, |beyond, (friction, adhesion)| {
-            beyond | ((friction + adhesion).abs() > least)
-        });
-        let Some(lo) = beyond.then(|| block.clone().find(slips)).flatten() else {
-            from = block.end;
-            continue;
-        };
-        from = (lo..nodes.end).find(|node| !slips(node)).unwrap_or(nodes.end);
-        found(Stretch { lo, hi: from - 1 });
+    let (mut from, end) = (nodes.start, nodes.end);
+    while from < end {
+        let mut block = from..(from + BLOCK).min(end);
+        from = block.end;
+        if may_slip(block.clone()) {
+            if let Some(lo) = block.find(&slips) {
+                from = (lo..end).find(|node| !slips(node)).unwrap_or(end);
+                found(Stretch { lo, hi: from - 1 });
+            }
+        }
     }
 }
 
@@ -149,7 +131,7 @@ mod tests {
     /// The parts of [`SOLVED`] that move where `stretches` do.
     fn parts(stretches: &[(usize, usize)]) -> Vec<(usize, usize)> {
         let mut parts = Vec::new();
-        let moves = |node| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(&node));
+        let moves = |node: &usize| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(node));
         moving(SOLVED, moves, &mut parts);
         parts.into_iter().map(|part| (part.lo, part.hi)).collect()
     }

@@ -11,7 +11,7 @@
 
 use super::grip::Grip;
 use crate::section::{self, Section, limit_of};
-use crate::tridiagonal::Row;
+use crate::tridiagonal::{self, Row};
 use crate::{DuctedCable, End, Mesh};
 
 /// State of the contact between one node and the duct.
@@ -101,6 +101,13 @@ impl Stretch {
 
     pub fn overlaps(self, other: Self) -> bool {
         self.lo <= other.hi && other.lo <= self.hi
+    }
+
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.max(other.hi),
+        }
     }
 
     pub fn len(self) -> usize {
@@ -340,6 +347,14 @@ impl Chain {
     /// Spring to the ground on node i \[N/m\].
     pub fn spring(&self, i: usize) -> f64 {
         self.stiffness * (self.nodes[i].diagonal - self.neighbours(i))
+    }
+
+    /// Unknowns of all nodes that solve the `row` of each that is free; zero at fixed ends.
+    pub fn solve(&self, row: impl Fn(usize) -> Row) -> Vec<f64> {
+        let Stretch { lo, hi } = self.free;
+        let (mut x, mut factors) = (vec![0.0; self.nodes.len()], vec![0.0; self.free.len()]);
+        tridiagonal::solve([0.0; 2], |k| row(lo + k), &mut factors, &mut x[lo..=hi]);
+        x
     }
 
     /// Friction per metre \[N/m\] that balances node i: (K r + s r − p)/w.

@@ -4,6 +4,8 @@ mod common;
 mod explicit;
 mod explicit_faults;
 mod inertia;
+#[path = "../shared/mirrored.rs"]
+mod mirrored;
 mod nasty_values;
 mod sigmoid;
 mod work;

@@ -1,6 +1,7 @@
 //! Whatever the numbers: an answer or an error, never a panic. And the rule for meshes, with its errors.
 
 use crate::common::{APPROACH, EA, LIMIT, Outcome, STIFF_SHEATH, truck};
+use crate::mirrored::mirrored;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, MovingDuct, Order, Passage,
     QuasiStatic, Restraint, Traffic, inertia_ratio,
@@ -50,7 +51,7 @@ proptest! {
             .and_then(|cable| cable.with_ends(End::Spring(spring), End::Fixed))
             .and_then(|cable| cable.with_restraints(vec![Restraint::new(clamp, spring)]));
         let Ok(cable) = cable else { return Ok(()); };
-        cable.mirrored().screening_length();
+        mirrored(&cable).expect("a cable").screening_length();
         let _ = inertia_ratio(&cable, clamp, other);
         for length in [length, mesh_length] {
             let Ok(mesh) = Mesh::new(length, length / 3.0, length) else { continue; };

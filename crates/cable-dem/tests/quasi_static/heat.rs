@@ -6,6 +6,7 @@ use cable_dem::{CableError, CableState, DuctedCable, End, Friction, Mesh, Passag
 use ground_field::Direction;
 use proptest::prelude::*;
 
+use super::mirrored::mirrored;
 use super::scenes::{
     AXIAL_STIFFNESS, LIMITS, Run, cable, coulomb, largest_difference, reference_motion, sheathed,
     unjudged_passage,
@@ -188,12 +189,14 @@ proptest! {
             Ok((run, state))
         };
         let (_, one) = after(&held, Direction::Forward)?;
-        let mirrored = held.mirrored();
+        let mirrored = mirrored(&held)?;
         let (_, other) = after(&mirrored, Direction::Reverse)?;
         let ends = (one.end_forces(&held)?, other.end_forces(&mirrored)?);
         let apart = one.displacement().iter().rev().zip(other.displacement()).map(|(a, b)| (a + b).abs());
-        prop_assert!(apart.fold(0.0, f64::max) < 1e-12);
-        prop_assert!((ends.0.upstream - ends.1.downstream).abs() < 1e-6);
+        let moved = one.displacement().iter().fold(1e-6, |most: f64, u| most.max(u.abs()));
+        // Each of some hundred steps is exact to 1e-9 of the friction limit.
+        prop_assert!(apart.fold(0.0, f64::max) < 1e-7 * moved);
+        prop_assert!((ends.0.upstream - ends.1.downstream).abs() < 1e-7 * LIMIT * length);
     }
 }
 

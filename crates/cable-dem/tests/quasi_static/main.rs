@@ -11,6 +11,8 @@ mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
 mod heat;
+#[path = "../shared/mirrored.rs"]
+mod mirrored;
 mod reference;
 mod refusals;
 mod robustness;

@@ -5,6 +5,8 @@
 mod agreement;
 mod friction_symmetry;
 mod harness;
+#[path = "../shared/mirrored.rs"]
+mod mirrored;
 mod models;
 mod opposing_traffic;
 mod rate;

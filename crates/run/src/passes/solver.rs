@@ -6,11 +6,9 @@ use cable_dem::{
 };
 
 use super::task::Task;
-use crate::Error;
 use crate::answer::FrictionProfile;
-use crate::cable::mass;
-use crate::ground::road::approach;
-use crate::scene::SolverMethod;
+use creepage_plan::{Error, cable::mass, ground::road::approach};
+use creepage_scene::SolverMethod;
 
 /// A solver with the scene's vehicles, ready to let them pass.
 pub enum PassSolver {
@@ -89,9 +87,7 @@ impl PassSolver {
                 .map(|node| mesh.spacing() * node as f64)
                 .collect(),
             friction_n_per_m: state.friction().to_vec(),
-            slip_lengths: state
-                .slip_lengths(&state.friction_limits(&cable).unwrap_or_default())
-                .into(),
+            slip_lengths: state.slip_lengths(&cable).unwrap_or_default().into(),
         });
         Ok((outcome, friction))
     }

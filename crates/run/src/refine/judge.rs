@@ -5,9 +5,10 @@ use cable_dem::Mesh;
 
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::plan::{MOST_PASSES, Plan};
-use crate::shown::{exact_percent, percent};
-use crate::{Error, ErrorSource};
+use creepage_plan::{
+    Error, ErrorSource, MOST_PASSES, Plan,
+    shown::{exact_percent, percent},
+};
 
 /// Refuses an answer that is none, and warns of one that is not as good as asked.
 pub fn judge(error: &ErrorParts, plan: &Plan<'_>, warnings: &mut Vec<String>) -> Result<(), Error> {
