@@ -15,6 +15,8 @@ mod cli;
 mod design;
 #[path = "discrepancy.rs"]
 mod discrepancy;
+#[path = "explore/main.rs"]
+mod explore;
 #[path = "faulty_cells.rs"]
 mod faulty_cells;
 #[path = "files/main.rs"]

@@ -6,6 +6,8 @@ mod completions;
 mod design;
 mod design_words;
 mod explain;
+#[cfg(feature = "explore")]
+mod explore;
 mod failure;
 mod limits;
 mod new;
@@ -42,7 +44,8 @@ use failure::Failure;
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --csv forces.csv
   creepage profile my-duct.toml --positions -1.5,0,1.5 --json
   creepage calibrate my-duct.toml --data load-cell.csv --robust
-  creepage report my-duct.toml -o my-duct.html"
+  creepage report my-duct.toml -o my-duct.html
+  creepage explore my-duct.toml"
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -67,6 +70,9 @@ enum Command {
     Design(Box<design::Arguments>),
     /// Write a self-contained HTML report with figures
     Report(Box<report::Arguments>),
+    /// Show a page on this machine with the scene's numbers as sliders, whose answer follows the hand
+    #[cfg(feature = "explore")]
+    Explore(Box<explore::Arguments>),
     /// Write a commented scene to start from
     New(Box<new::Arguments>),
     /// List named values for vehicles, cables, friction and pavements, with their sources
@@ -133,6 +139,8 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
         Command::Report(arguments) => report::execute(arguments),
+        #[cfg(feature = "explore")]
+        Command::Explore(arguments) => explore::execute(arguments),
         Command::New(arguments) => new::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::Explain(arguments) => explain::execute(arguments),

@@ -54,22 +54,22 @@ pub struct Arguments {
 
 /// The run, and what it makes of the limits, if there are any.
 #[derive(Serialize)]
-struct Judged<'a> {
+pub struct Judged<'a> {
     #[serde(flatten)]
-    run: &'a Run,
+    pub run: &'a Run,
     #[serde(flatten)]
-    judgement: Option<Judgement>,
+    pub judgement: Option<Judgement>,
 }
 
 #[derive(Serialize)]
-struct Judgement {
+pub struct Judgement {
     /// Of the limit that is exceeded first; null where all are kept.
     limit_reached_after: Option<Reached>,
-    limits: Vec<Verdict>,
+    pub limits: Vec<Verdict>,
 }
 
 impl Judgement {
-    fn new(run: &Run, limits: &Limits) -> Self {
+    pub fn new(run: &Run, limits: &Limits) -> Self {
         let limits = limits.verdicts(run);
         let reached = limits.iter().filter_map(|verdict| verdict.reached_after);
         Self {
