@@ -65,8 +65,6 @@ mod sweep;
 mod sweep_rows;
 #[path = "threads.rs"]
 mod threads;
-#[path = "whole_range.rs"]
-mod whole_range;
 #[path = "workbook.rs"]
 mod workbook;
 #[path = "../crates/figure/tests/xml/mod.rs"]
