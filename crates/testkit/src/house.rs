@@ -7,7 +7,8 @@ use std::fs;
 pub fn files(root: &str) -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(root).into_iter().flatten() {
-        let name = entry.expect("an entry").file_name().display().to_string();
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_str().expect("UTF-8").to_owned();
         let below = files(&format!("{root}/{name}"));
         found.extend(below.iter().map(|file| format!("{name}/{file}")));
         found.push(name);
