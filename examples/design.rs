@@ -11,12 +11,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut limits = Limits::default();
     (limits.downstream.force_n, limits.downstream.movement_m) = (Some(300.0), Some(2e-3));
     let answer = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
-    match (&answer.answer, answer.range_n_per_m) {
+    let said = match (&answer.answer, answer.range_n_per_m) {
         (Some(_), Some((low, Some(high)))) => {
-            println!("a spring from {:.0} to {:.0} kN/m", 1e-3 * low, 1e-3 * high)
+            format!("a spring from {:.0} to {:.0} kN/m", 1e-3 * low, 1e-3 * high)
         }
-        (Some(_), Some((low, None))) => println!("a spring from {:.0} kN/m on, or a fixed end", 1e-3 * low),
-        _ => println!("no spring keeps both limits"),
-    }
+        (Some(_), Some((low, None))) => format!("a spring from {:.0} kN/m on, or a fixed end", 1e-3 * low),
+        _ => "no spring keeps both limits".to_owned(),
+    };
+    println!("{said}");
     Ok(())
 }

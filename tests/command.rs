@@ -43,7 +43,7 @@ pub fn output(line: &str) -> (i32, String, String) {
 pub fn answer(output: Output) -> (i32, String, String) {
     let [said, errors] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("UTF-8"));
     let errors = errors.lines().filter(|line| !line.starts_with("progress: "));
-    let errors = errors.map(|line| format!("{line}\n")).collect();
+    let errors = errors.fold(String::new(), |all, line| all + line + "\n");
     (output.status.code().expect("no signal"), said, errors)
 }
 

@@ -112,10 +112,12 @@ fn each_command_has_its_exit_status_and_a_message_that_helps() {
                 .replace("passes = 200", "passes = 20\n[solver]\nmethod = \"quasi-static\""),
         ),
     ];
-    faulty
-        .iter()
-        .for_each(|(name, text)| write(name, text.as_bytes()));
-    FILES.iter().for_each(|(_, name, bytes)| write(name, bytes));
+    for (name, text) in &faulty {
+        write(name, text.as_bytes());
+    }
+    for (_, name, bytes) in FILES {
+        write(name, bytes);
+    }
     write("given.csv", b"");
     let before = fs::read_dir(path).expect("the folder").count();
     let mut failures = Vec::new();

@@ -86,7 +86,7 @@ impl GroundMap {
     pub fn write(
         &self,
         file: &Path,
-        y: (&str, Axis),
+        (heading, y): (&str, &Axis),
         what: &str,
         mut panels: Panels,
     ) -> Result<Panels, Failure> {
@@ -106,10 +106,7 @@ impl GroundMap {
             "failed: no number",
             &off,
         ];
-        let mut table = format!(
-            "modulus_of_layer_over_base,{},model,outcome,error_share_of_peak\n",
-            y.0
-        );
+        let mut table = format!("modulus_of_layer_over_base,{heading},model,outcome,error_share_of_peak\n");
         for (model, name) in self.models.iter().enumerate() {
             table += &self.grid.lines(|x, y, cell| {
                 let outcome = names[cell[model].outcome as usize];
@@ -120,7 +117,7 @@ impl GroundMap {
                 .x_axis("modulus of the layer over that of the half-space");
             let title = format!("{name}: {what}");
             let class = |cell: &[Cell; 2]| cell[model].outcome as usize;
-            panels = panels.with(self.grid.panel(&title, [x, y.1.clone()], names, class));
+            panels = panels.with(self.grid.panel(&title, [x, y.clone()], names, class));
         }
         std::fs::write(file, table)?;
         Ok(panels)

@@ -105,9 +105,14 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         "Layered ground by Hankel transform, duct at 1.2 m: outcome by contrast and thickness of a layer",
     )
     .columns(2);
-    let y = ("thickness_m", map.grid.y_axis("thickness of the layer, m"));
+    let thickness = map.grid.y_axis("thickness of the layer, m");
     let file = out.join("stability-burmister.csv");
-    let panels = map.write(&file, y, "layer on a half-space", panels)?;
+    let panels = map.write(
+        &file,
+        ("thickness_m", &thickness),
+        "layer on a half-space",
+        panels,
+    )?;
     std::fs::write(out.join("stability-burmister.svg"), panels.to_svg()?)?;
     Ok(())
 }

@@ -157,9 +157,9 @@ pub fn run(out: &Path) -> Result<(), Failure> {
     )
     .columns(2);
     let file = out.join("stability-fem-ratio.csv");
-    let panels = ratios.write(&file, ("poisson_ratio", ratio), "layer of 0.3 m", panels)?;
+    let panels = ratios.write(&file, ("poisson_ratio", &ratio), "layer of 0.3 m", panels)?;
     let file = out.join("stability-fem-thickness.csv");
-    let panels = thicknesses.write(&file, ("thickness_m", thickness), "ν = 0.35 on 0.4", panels)?;
+    let panels = thicknesses.write(&file, ("thickness_m", &thickness), "ν = 0.35 on 0.4", panels)?;
     std::fs::write(out.join("stability-fem.svg"), panels.to_svg()?)?;
     Ok(())
 }
