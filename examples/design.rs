@@ -1,4 +1,4 @@
-//! How stiff may what holds the joint be, if it bears at most 300 N and moves by at most 2 mm?
+//! How stiff may what holds the joint be, if it bears at most 300 N and moves by at most 3 mm?
 //!
 //! `cargo run --release --example design`
 
@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
     scene.traffic.passes = 100;
     let mut limits = Limits::default();
-    (limits.downstream.force_n, limits.downstream.movement_m) = (Some(300.0), Some(2e-3));
+    (limits.downstream.force_n, limits.downstream.movement_m) = (Some(300.0), Some(3e-3));
     let answer = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
     let said = match (&answer.answer, answer.range_n_per_m) {
         (Some(_), Some((low, Some(high)))) => {

@@ -1,6 +1,6 @@
 //! A scene on a ground of your own: here Boussinesq's, half as soft as the scene's.
 //!
-//! `cargo run --release --example own_ground`
+//! `cargo run --release --example scene_on_own_ground`
 
 use creepage::boussinesq::HalfSpace;
 use creepage::ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
