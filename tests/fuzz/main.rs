@@ -86,6 +86,8 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
 /// The examples, difficult grounds, and new scenes with every preset.
 fn scenes() -> Vec<String> {
     let mut scenes = files("examples/scenes", "toml");
+    // A text has no folder in which a table of axles could lie.
+    scenes.retain(|text| !text.contains("histogram"));
     scenes.extend(files("tests/data/difficult", "toml"));
     for preset in presets::all() {
         let key = match preset.kind {

@@ -41,7 +41,7 @@ const fn row(number: f64, locked_share: f64, advance_share: f64) -> Row {
     }
 }
 
-/// Made by `cargo run --release --example occurrence`, at 24 nodes a depth.
+/// Made by `cargo run --release -p creepage-validation occurrence`, at 24 nodes a depth.
 pub const TABLE: [Row; 12] = [
     row(0.05, 0.8149, 1.561),
     row(0.1, 0.7787, 1.920),
