@@ -47,15 +47,6 @@ impl Restraint {
             holds: None,
         }
     }
-
-    /// The same that slips above the force `holds` \[N\].
-    #[must_use]
-    pub fn that_holds(self, holds: f64) -> Self {
-        Self {
-            holds: Some(holds),
-            ..self
-        }
-    }
 }
 
 /// A cable in a duct from x = 0 (upstream) to x = length (downstream), level and straight unless its
@@ -65,7 +56,7 @@ impl Restraint {
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Restraint};
 ///
 /// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
-/// let clamp = Restraint::new(12.0, 1e6).that_holds(2e3);
+/// let clamp = Restraint { holds: Some(2e3), ..Restraint::new(12.0, 1e6) };
 /// let cable = DuctedCable::new(30.0, 8.01e6, friction)?
 ///     .with_ends(End::Spring(5e6), End::Fixed)?
 ///     .with_restraints(vec![clamp])?;

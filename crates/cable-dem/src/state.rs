@@ -112,11 +112,9 @@ impl CableState {
             }
         }
         Ok(Self {
-            mesh: mesh.nodes_alone(),
             displacement,
             friction,
-            thermal_force: 0.0,
-            clamp_slips: Vec::new(),
+            ..Self::at_rest(mesh)
         })
     }
 

@@ -35,7 +35,8 @@ pub struct MovingDuct {
     /// ξ of the third lattice point is −`origin` \[m\].
     origin: f64,
     peak: f64,
-    steepest: f64,
+    /// Largest |D′|.
+    pub(super) steepest: f64,
 }
 
 impl MovingDuct {
@@ -111,11 +112,6 @@ impl MovingDuct {
         })
     }
 
-    /// Which way the vehicle drives.
-    pub fn direction(&self) -> Direction {
-        self.direction
-    }
-
     /// Speed of the vehicle \[m/s\].
     pub fn speed(&self) -> f64 {
         self.speed
@@ -129,21 +125,6 @@ impl MovingDuct {
     /// Largest displacement of the duct \[m\].
     pub fn peak(&self) -> f64 {
         self.peak
-    }
-
-    /// Largest velocity of the duct along itself \[m/s\].
-    pub fn peak_velocity(&self) -> f64 {
-        self.steepest * self.speed
-    }
-
-    /// Length \[m\] over which the duct's displacement changes: its largest value over its steepest slope. 0 for a duct at
-    /// rest.
-    pub fn natural_length(&self) -> f64 {
-        if self.steepest > 0.0 {
-            self.peak / self.steepest
-        } else {
-            0.0
-        }
     }
 
     /// Whether this duct was tabulated for `mesh`.

@@ -41,8 +41,8 @@ pub(super) struct MovingNodes {
     work: f64,
     heat: f64,
     gross: f64,
-    /// Elastic energy, and that in the contact's shear, at the start \[J\].
-    initial: [f64; 2],
+    /// Elastic energy at the start \[J\].
+    initial: f64,
 }
 
 impl MovingNodes {
@@ -68,7 +68,7 @@ impl MovingNodes {
             work: 0.0,
             heat: 0.0,
             gross: 0.0,
-            initial: [0.0; 2],
+            initial: 0.0,
             cable,
             mesh,
         })
@@ -84,7 +84,7 @@ impl MovingNodes {
             grip.start(&state.clamp_slips);
         }
         (self.work, self.heat, self.gross) = (0.0, 0.0, 0.0);
-        self.initial = [self.elastic_energy(), self.stored_energy()];
+        self.initial = self.elastic_energy();
     }
 
     /// Writes displacement, friction and slips of clamps to `state`.
@@ -181,13 +181,14 @@ impl MovingNodes {
         0.5 * self.mass_per_metre * self.weighted(|i| self.velocity[i].powi(2))
     }
 
-    /// ½ uᵀ(K + S) u \[J\], clamps that slip as they are now.
+    /// ½ uᵀ(K + S) u + ½ γ Σ w f² \[J\], clamps that slip as they are now: in springs, and in the contact's shear.
     fn elastic_energy(&self) -> f64 {
         let u = &self.displacement;
         let gripped: f64 = self.grips.iter().map(|grip| grip.energy(u[grip.node])).sum();
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let supported: f64 = (0..u.len()).map(|i| self.chain.spring(i) * u[i] * u[i]).sum();
-        0.5 * (self.chain.stiffness * stretched + supported) + gripped
+        let sheared = self.elastic_compliance() * self.weighted(|i| self.friction[i].powi(2));
+        0.5 * (self.chain.stiffness * stretched + supported + sheared) + gripped
     }
 
     /// γ \[m²/N\] of a contact that shears elastically: 0 for Coulomb's law and for laws without memory.
@@ -199,14 +200,8 @@ impl MovingNodes {
         }
     }
 
-    /// ½ γ Σ w f² \[J\]: energy in the contact's elastic shear.
-    fn stored_energy(&self) -> f64 {
-        0.5 * self.elastic_compliance() * self.weighted(|i| self.friction[i].powi(2))
-    }
-
     /// The accounts of the pass that began in `state`, whose duct moves by `peak` \[m\] at most.
     pub fn energy(&self, state: &CableState, peak_kinetic: f64, peak: f64) -> EnergyBalance {
-        let [elastic, stored] = self.initial;
         let moved = self.displacement.iter().zip(&state.displacement);
         let body_work = moved
             .zip(&self.load)
@@ -214,13 +209,12 @@ impl MovingNodes {
         EnergyBalance {
             duct_work: self.work,
             body_work: body_work.sum(),
-            elastic: self.elastic_energy() - elastic,
+            elastic: self.elastic_energy() - self.initial,
             kinetic: self.kinetic_energy(),
-            stored: self.stored_energy() - stored,
             dissipated: self.heat,
             returned: 0.5 * (self.gross - self.heat),
             peak_kinetic,
-            initial: elastic + stored,
+            initial: self.initial,
             reference: self.cable.friction().limit() * self.cable.length() * peak,
         }
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window;
-use crate::step::{Grip, Load, Prediction, StepSolver, Stretch, largest};
+use crate::step::{Contact, Grip, Load, StepSolver, Stretch, largest};
 use crate::tuning::UNBALANCED_SHARE;
 use crate::{CableError, CableState, PassOutcome};
 
@@ -66,8 +66,8 @@ impl QuasiStatic {
         self.supports
             .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
-        let (points, phases) = passage.lattice();
-        self.prediction = Prediction::new(points, phases);
+        self.predicted.clear();
+        self.predicted.resize(passage.points(), Contact::Stuck);
         self.outcome = PassOutcome::at_rest(&self.cable, state)?;
         Ok(())
     }
@@ -123,11 +123,15 @@ impl QuasiStatic {
             let (begun, before) = (*window, self.moving.len());
             let travels = travelling.iter().any(|part| part.overlaps(begun));
             if travels {
-                self.prediction.read(first, begun, &mut self.step.trial.contact);
+                for node in begun.nodes() {
+                    self.step.trial.contact[node] = self.predicted[first + node * self.mesh.phases];
+                }
             }
             *window = self.solve(begun, snapshot)?;
             if travels {
-                self.prediction.write(first, *window, &self.step.trial.contact);
+                for node in window.nodes() {
+                    self.predicted[first + node * self.mesh.phases] = self.step.trial.contact[node];
+                }
             } else {
                 // Around a support nothing travels.
                 self.moving.truncate(before);

@@ -34,7 +34,6 @@ pub struct Passage {
     axial_stiffness: f64,
     friction: Friction,
     least_limit: f64,
-    direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s, with m = phases
     /// per node spacing.
     phases: Vec<Phase>,
@@ -157,7 +156,6 @@ impl Passage {
             axial_stiffness: cable.axial_stiffness(),
             friction: cable.friction(),
             least_limit: cable.least_limit(),
-            direction: course.direction,
             behind: behind as usize,
             positions,
             reach,
@@ -175,22 +173,14 @@ impl Passage {
             && self.least_limit == cable.least_limit()
     }
 
-    /// Which way the vehicle drives.
-    pub fn direction(&self) -> Direction {
-        self.direction
-    }
-
     /// Vehicle positions of one pass.
     pub fn steps(&self) -> usize {
         self.positions.len()
     }
 
-    /// Number of lattice points, and of phases.
-    pub(super) fn lattice(&self) -> (usize, usize) {
-        (
-            self.phases.len() * self.phases[0].adherent.len(),
-            self.phases.len(),
-        )
+    /// Number of lattice points.
+    pub(super) fn points(&self) -> usize {
+        self.phases.len() * self.phases[0].adherent.len()
     }
 
     /// Lattice point in the vehicle's frame at which node 0 stands.

@@ -10,7 +10,6 @@
 mod bisection;
 mod fixed_end_friction;
 mod grip;
-mod prediction;
 mod problem;
 mod response;
 mod solver;
@@ -18,8 +17,7 @@ mod tolerance;
 
 pub(crate) use fixed_end_friction::FixedEndFriction;
 pub(crate) use grip::Grip;
-pub(crate) use prediction::Prediction;
-pub(crate) use problem::{Chain, Load, Stretch, Trial};
+pub(crate) use problem::{Chain, Contact, Load, Stretch, Trial};
 pub(crate) use solver::StepSolver;
 pub(crate) use tolerance::{check_precision, largest};
 

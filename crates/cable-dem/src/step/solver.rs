@@ -247,10 +247,7 @@ impl StepSolver {
 impl Violations {
     fn violate(&mut self, share: f64) {
         // What is not a number is a violation too.
-        self.worst = if share.is_nan() {
-            f64::INFINITY
-        } else {
-            self.worst.max(share)
-        };
+        let share = if share.is_nan() { f64::INFINITY } else { share };
+        self.worst = self.worst.max(share);
     }
 }
