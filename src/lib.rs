@@ -45,44 +45,36 @@
 //!
 //! The parts are crates of their own, handed on here so that their versions fit: [`ground_field`] (the contract), [`boussinesq`] (closed
 //! forms), [`burmister`] (layers by Hankel transform), `layered_fem` (layers by finite elements), [`cable_dem`] (the cable), [`cycle_jump`]
-//! (many passes), `fitting` (the crate `calibrate`: parameters from measurements), `figure` (the crate `plain-figure`: charts as SVG).
+//! (many passes), `fitting` (the crate `calibrate`: parameters from measurements), `figure` (the crate `plain-figure`: charts as SVG). What
+//! needs many runs is in `calibration` (the crate `creepage-fit`), `design` and `sweep` (`creepage-study`), `report` (`creepage-report`).
 //!
 //! # Features
 //!
-//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `plot` (figures and the
-//! report), `sweep`, `xlsx` (workbooks), and `cli`, the command. Without them a scene is read, planned and
-//! run, with 40 crates in all.
+//! `cli`, the command, is on by default with its page, `explore`, and takes all others with it. Without default features a scene is read, planned
+//! and run, with few crates beside these; `calibrate` adds fits, `study` sweeps and designs, `report` (with both) the page
+//! and workbooks, `fem` finite elements, `schema` the JSON Schema of a scene.
 
-#[cfg(feature = "calibrate")]
-pub mod calibration;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
-#[cfg(feature = "design")]
-pub mod design;
-#[cfg(feature = "sweep")]
-pub mod output;
-#[cfg(feature = "calibrate")]
-pub mod readings;
-#[cfg(feature = "plot")]
-pub mod report;
-pub use creepage_scene as scene;
-pub use creepage_scene::presets;
-#[cfg(feature = "sweep")]
-pub mod sweep;
+#[cfg(feature = "cli")]
 mod template;
-#[cfg(any(feature = "cli", feature = "plot"))]
-mod words;
-#[cfg(feature = "xlsx")]
-pub mod workbook;
 
 #[cfg(feature = "calibrate")]
 pub use ::calibrate as fitting;
+pub use creepage_scene as scene;
+pub use creepage_scene::presets;
+#[cfg(feature = "study")]
+pub use creepage_study::{design, output, sweep};
 #[cfg(feature = "fem")]
 pub use layered_fem;
-#[cfg(feature = "plot")]
+#[cfg(feature = "study")]
 pub use plain_figure as figure;
 pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
+#[cfg(feature = "calibrate")]
+pub use {creepage_fit as calibration, creepage_fit::readings};
+#[cfg(feature = "report")]
+pub use {creepage_report as report, creepage_report::workbook};
 
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
@@ -94,14 +86,20 @@ pub use creepage_run::{
     SavedState, SlipRecord, Stage, Units, Verdict, check, occurrence, plan, plan_on, profile, profile_at,
     run, run_plan, run_with, with_causes,
 };
-#[allow(unused_imports, reason = "each feature uses some of them")]
-use creepage_run::{answer, cable, error, finite, ground, shown};
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};
+#[cfg(feature = "cli")]
 pub use template::template;
+#[cfg(feature = "cli")]
+use {
+    creepage_plan::{error, shown},
+    creepage_report::words,
+    creepage_run::answer,
+};
 
-/// The README's example is a test too.
+/// The examples of the README and of the page on the library are tests too.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct ReadmeExamples;
+#[doc = include_str!("../docs/library.md")]
+struct PageExamples;

@@ -221,7 +221,7 @@ fn readings_of_a_run_each_are_judged_together() {
 
 /// 5 % of the readings off by 30 %.
 #[test]
-#[ignore = "a quarter of a minute: see calibration_coverage.rs for the command"]
+#[ignore = "a quarter of a minute: see CONTRIBUTING.md for the command"]
 fn outliers_do_not_move_a_robust_fit() {
     for seed in 0..3 {
         let clean = noisy(series(), 4.0, seed);
@@ -247,7 +247,7 @@ fn outliers_do_not_move_a_robust_fit() {
 
 /// A softer ground and the friction of both cables, from two series and a measured deflection.
 #[test]
-#[ignore = "half a minute: see calibration_coverage.rs for the command"]
+#[ignore = "half a minute: see CONTRIBUTING.md for the command"]
 fn two_series_share_their_ground() {
     let scenes = ["upper", "lower"]
         .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml")).unwrap());
@@ -303,7 +303,7 @@ fn two_series_share_their_ground() {
 
 /// Friction and law of both cables and the ground that they share.
 #[test]
-#[ignore = "half a minute: see calibration_coverage.rs for the command"]
+#[ignore = "half a minute: see CONTRIBUTING.md for the command"]
 fn five_parameters_of_two_series() {
     let scenes = ["upper", "lower"]
         .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml")).unwrap());
@@ -392,7 +392,7 @@ fn what_does_not_fit_is_named() {
 
     let few = calibrate(&upper(), &readings(&series()[..2]), &CalibrateOptions::default()).unwrap_err();
     assert!(
-        few.is_bad_input() && few.to_string().contains("2 readings"),
+        few.is_bad_input() && few.to_string().contains("too few readings: 2"),
         "{few}"
     );
 

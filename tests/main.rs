@@ -11,16 +11,24 @@ mod calibrate_command;
 mod calibration;
 #[path = "cli.rs"]
 mod cli;
+#[path = "command.rs"]
+mod command;
 #[path = "design/main.rs"]
 mod design;
 #[path = "discrepancy.rs"]
 mod discrepancy;
+#[path = "example_scenes.rs"]
+mod example_scenes;
+#[path = "explore/main.rs"]
+mod explore;
 #[path = "faulty_cells.rs"]
 mod faulty_cells;
 #[path = "files/main.rs"]
 mod files;
 #[path = "fuzz/main.rs"]
 mod fuzz;
+#[path = "generated_pages.rs"]
+mod generated_pages;
 #[path = "ground_models/main.rs"]
 mod ground_models;
 #[path = "ground_once.rs"]
@@ -31,12 +39,14 @@ mod heat;
 mod house;
 #[path = "lanes.rs"]
 mod lanes;
+#[path = "messages.rs"]
+mod messages;
 #[path = "methods.rs"]
 mod methods;
-#[path = "mistakes.rs"]
-mod mistakes;
 #[path = "occurrence.rs"]
 mod occurrence;
+#[path = "pages.rs"]
+mod pages;
 #[path = "paper/main.rs"]
 mod paper;
 #[path = "planner/main.rs"]
@@ -51,22 +61,20 @@ mod report;
 mod route;
 #[path = "scene/main.rs"]
 mod scene;
-#[path = "scene_page.rs"]
-mod scene_page;
 #[path = "seldom/main.rs"]
 mod seldom;
 #[path = "several_kinds.rs"]
 mod several_kinds;
 #[path = "slope.rs"]
 mod slope;
+#[path = "studies.rs"]
+mod studies;
 #[path = "sweep.rs"]
 mod sweep;
 #[path = "sweep_rows.rs"]
 mod sweep_rows;
 #[path = "threads.rs"]
 mod threads;
-#[path = "whole_range.rs"]
-mod whole_range;
 #[path = "workbook.rs"]
 mod workbook;
 #[path = "../crates/figure/tests/xml/mod.rs"]

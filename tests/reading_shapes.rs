@@ -1,4 +1,4 @@
-//! Files as load cells, data loggers and spreadsheets write them: each is read right, or refused with the cause named.
+//! Files as load cells, data loggers and spreadsheets write them: each is read right. What is refused stands in messages.rs.
 
 use creepage::readings::{Measured, Place, ReadOptions};
 use creepage::{CableEnd, Reading, Readings};
@@ -6,16 +6,6 @@ use creepage::{CableEnd, Reading, Readings};
 /// The series that every readable shape holds: passes and forces \[N\].
 const PASSES: [u64; 6] = [1, 2, 3, 5, 8, 13];
 const FORCES: [f64; 6] = [94.1, 135.8, 160.25, 198.0, 240.5, 1286.7];
-
-/// A file of the series, one row a reading.
-fn rows(header: &str, row: impl Fn(u64, f64) -> String) -> String {
-    let lines = PASSES.iter().zip(FORCES).map(|(&pass, force)| row(pass, force));
-    header.to_owned() + &lines.collect::<Vec<_>>().join("\n") + "\n"
-}
-
-fn comma(value: f64) -> String {
-    value.to_string().replace('.', ",")
-}
 
 fn utf_16(text: &str, marked: bool, big: bool) -> Vec<u8> {
     let units = marked.then_some(0xFEFF).into_iter().chain(text.encode_utf16());
@@ -37,7 +27,7 @@ fn latin_1(text: &str) -> Vec<u8> {
 }
 
 /// Options from words of the command line.
-fn options(words: &str) -> ReadOptions {
+pub fn options(words: &str) -> ReadOptions {
     let mut options = ReadOptions::default();
     for word in words.split_whitespace() {
         let (key, value) = word.split_once('=').unwrap();
@@ -55,145 +45,133 @@ fn options(words: &str) -> ReadOptions {
     options
 }
 
-/// Shapes of the series: name, bytes, options.
-#[allow(clippy::too_many_lines, reason = "a table")]
-fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
-    let plain = rows("pass,force_n\n", |n, f| format!("{n},{f}"));
-    let german = rows("Überfahrt;Kraft [N]\n", |n, f| format!("{n};{}", comma(f)));
-    let text = |text: &str| text.as_bytes().to_vec();
-    let row = |header: &str, row: &dyn Fn(u64, f64) -> String| rows(header, row).into_bytes();
-    let kilo = |f: f64| format!("{:.5}", f / 1e3);
-    let mut total = 0;
-    let mut between = |n: u64| {
-        let vehicles = n - total;
-        total = n;
-        vehicles
+/// Shapes of the series: name ‖ header ‖ row ‖ options. `¶` ends a line; in a row {n} is the pass, {v} the vehicles since the reading
+/// before, {t} two digits of a time, {f} the force, {c} with a decimal comma, {m} in millinewtons, {k} in kilonewtons, {kc} with a comma.
+const SHAPES: &str = r#"
+plain ‖ pass,force_n¶ ‖ {n},{f} ‖
+semicolons and decimal commas ‖ Überfahrt;Kraft [N]¶ ‖ {n};{c} ‖
+semicolons and points ‖ pass;force_n¶ ‖ {n};{f} ‖
+tabs ‖ pass⇥force_n¶ ‖ {n}⇥{f} ‖
+tabs and decimal commas ‖ pass⇥force_n¶ ‖ {n}⇥{c} ‖
+bars ‖ pass|force_n¶ ‖ {n}|{f} ‖
+spaces ‖ pass  force_n¶ ‖   {n}   {f} ‖
+spaces and decimal commas ‖ pass force_n¶ ‖ {n} {c} ‖ separator=space
+quoted decimal commas ‖ pass,force_n¶ ‖ {n},"{c}" ‖
+quoted cells ‖ "pass","force_n"¶ ‖ "{n}","{f}" ‖
+capitals and spaces ‖  PASS , Force_N ¶ ‖  {n} , {f}  ‖
+no header ‖ ‖ {n},{f} ‖
+no header, decimal commas ‖ ‖ {n};{c} ‖
+passes with decimals ‖ pass,force_n¶ ‖ {n}.0,{f} ‖
+kilonewtons in the name ‖ pass,force_kn¶ ‖ {n},{k} ‖
+kilonewtons in brackets ‖ Pass;Force [kN]¶ ‖ {n};{kc} ‖
+kilonewtons in words ‖ Überfahrten;Kraft in kN¶ ‖ {n};{kc} ‖
+kilonewtons by option ‖ pass,force_n¶ ‖ {n},{k} ‖ unit=kN
+decanewtons ‖ pass,force (daN)¶ ‖ {n},{d} ‖
+units below the names ‖ pass,force¶-,kN¶ ‖ {n},{k} ‖
+units in the cells ‖ pass,force¶ ‖ {n},{f} N ‖
+names of one's own ‖ A,B¶ ‖ {n},{f} ‖ pass=A force=B
+names of one's own among others ‖ Nr;Zeit;Zelle 1¶ ‖ {n};09:{t};{c} ‖ pass=Nr force=Zelle_1
+French ‖ passage;effort (N)¶ ‖ {n};{c} ‖
+Japanese ‖ 通過回数,荷重[N]¶ ‖ {n},{f} ‖
+a data logger's preamble ‖ Logger 7¶Station: duct 4, joint¶Rate;10 Hz¶Überfahrt;Kraft [N]¶ ‖ {n};{c} ‖
+Excel's own separator ‖ sep=;¶Überfahrt;Kraft [N]¶ ‖ {n};{c} ‖
+comments ‖ # load cell 3¶¶pass,force_n¶ ‖ {n},{f} ‖
+times beside passes ‖ time,pass,force_n¶ ‖ 2025-12-24 17:{t},{n},{f} ‖
+vehicles counted between times ‖ timestamp;vehicles;force_n¶ ‖ 24.12.2025 17:{t};{v};{c} ‖
+vehicles by option ‖ t;lorries;force_n¶ ‖ {n};{v};{c} ‖ vehicles=lorries
+tension positive ‖ pass,force_n¶ ‖ {n},-{f} ‖ tension=yes
+the minus of typographers ‖ pass,force_n¶ ‖ {n},−{f} ‖ tension=yes
+notes in a further column ‖ pass,force_n,remark¶ ‖ {n},{f},ok ‖
+TOA5 of Campbell's loggers ‖ "TOA5","duct 4","CR1000X"¶"TIMESTAMP","pass","force"¶"TS","RN","N"¶"","","Avg"¶ ‖ "2025-12-24 17:{t}:00",{n},{f} ‖
+a third row of a header ‖ pass;force¶-;N¶sensor;HBM C9¶ ‖ {n};{f} ‖ skip=2
+tildes before a header of three rows ‖ ~pass;force¶~-;N¶~sensor;HBM C9¶ ‖ {n};{f} ‖ skip=2
+a header of three rows by its line ‖ Logger;7¶Last;Station¶Nr;F¶-;N¶50 Hz;HBM¶ ‖ {n};{f} ‖ header=3 skip=2 pass=Nr force=F
+a header by its line ‖ pass;force¶Nr;F¶ ‖ {n};{f} ‖ header=2 pass=Nr force=F
+X_Value beside passes ‖ X_Value,pass,force_n¶ ‖ {n}0,{n},{f} ‖
+empty columns at the end ‖ pass,force_n,,¶ ‖ {n},{f},, ‖
+millinewtons ‖ pass,Force mN¶ ‖ {n},{m} ‖
+"#;
+
+/// The file of a row of [`SHAPES`]: its name, text and options.
+fn shape(row: &'static str) -> (&'static str, String, &'static str) {
+    let [name, header, row, words] = row.split('‖').collect::<Vec<_>>()[..] else {
+        panic!("{row}")
     };
-    let counted: Vec<u64> = PASSES.iter().map(|&n| between(n)).collect();
-    let counted = |n: u64| counted[PASSES.iter().position(|&other| other == n).unwrap()];
-    vec![
-        ("plain", text(&plain), ""),
-        ("byte order mark", text(&format!("\u{feff}{plain}")), ""),
-        ("line ends of Windows", text(&plain.replace('\n', "\r\n")), ""),
-        ("line ends of old Macs", text(&plain.replace('\n', "\r")), ""),
-        ("semicolons and decimal commas", text(&german), ""),
+    let plain = |text: &str| text.replace('¶', "\n").replace('⇥', "\t");
+    // One blank belongs to the sign between the cells.
+    let inner = |cell: &'static str| {
+        cell.strip_prefix(' ')
+            .and_then(|cell| cell.strip_suffix(' '))
+            .unwrap_or("")
+    };
+    let mut before = 0;
+    let lines = PASSES.iter().zip(FORCES).map(|(&n, f)| {
+        let comma = |value: &str| value.replace('.', ",");
+        let kilo = format!("{:.5}", f / 1e3);
+        let vehicles = n - before;
+        before = n;
+        let line = plain(inner(row))
+            .replace("{n}", &n.to_string())
+            .replace("{v}", &vehicles.to_string());
+        let line = line
+            .replace("{t}", &format!("{n:02}"))
+            .replace("{f}", &f.to_string());
+        let line = line
+            .replace("{c}", &comma(&f.to_string()))
+            .replace("{m}", &(1e3 * f).to_string());
+        let line = line.replace("{d}", &(f / 10.0).to_string()).replace("{k}", &kilo);
+        line.replace("{kc}", &comma(&kilo)) + "\n"
+    });
+    (
+        name.trim(),
+        plain(inner(header)) + &lines.collect::<String>(),
+        words,
+    )
+}
+
+/// All shapes with their bytes: those of the table, and others of their bytes, line ends and signs.
+fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
+    let rows = SHAPES.lines().filter(|row| !row.is_empty()).map(shape);
+    let mut shapes: Vec<_> = rows
+        .map(|(name, text, words)| (name, text.into_bytes(), words))
+        .collect();
+    let of = |name: &str| {
+        let (_, bytes, _) = shapes.iter().find(|shape| shape.0 == name).expect(name);
+        String::from_utf8(bytes.clone()).expect("UTF-8")
+    };
+    let (plain, german, japanese) = (of("plain"), of("semicolons and decimal commas"), of("Japanese"));
+    let (head, rows) = plain.split_once('\n').expect("a header");
+    let turned: Vec<&str> = rows.lines().rev().collect();
+    let shift_jis = encoding_rs::SHIFT_JIS
+        .encode(&japanese.replace("[N]", "［Ｎ］"))
+        .0
+        .into_owned();
+    shapes.extend([
+        ("byte order mark", format!("\u{feff}{plain}").into_bytes(), ""),
         (
-            "semicolons and points",
-            row("pass;force_n\n", &|n, f| format!("{n};{f}")),
-            "",
-        ),
-        ("tabs", row("pass\tforce_n\n", &|n, f| format!("{n}\t{f}")), ""),
-        (
-            "tabs and decimal commas",
-            row("pass\tforce_n\n", &|n, f| format!("{n}\t{}", comma(f))),
-            "",
-        ),
-        ("bars", row("pass|force_n\n", &|n, f| format!("{n}|{f}")), ""),
-        (
-            "spaces",
-            row("pass  force_n\n", &|n, f| format!("  {n:>4}   {f:>9}")),
-            "",
-        ),
-        (
-            "spaces and decimal commas",
-            row("pass force_n\n", &|n, f| format!("{n} {}", comma(f))),
-            "separator=space",
-        ),
-        (
-            "quoted decimal commas",
-            row("pass,force_n\n", &|n, f| format!("{n},\"{}\"", comma(f))),
-            "",
-        ),
-        (
-            "quoted cells",
-            row("\"pass\",\"force_n\"\n", &|n, f| format!("\"{n}\",\"{f}\"")),
-            "",
-        ),
-        (
-            "capitals and spaces",
-            row(" PASS , Force_N \n", &|n, f| format!(" {n} , {f} ")),
-            "",
-        ),
-        ("no header", row("", &|n, f| format!("{n},{f}")), ""),
-        (
-            "no header, decimal commas",
-            row("", &|n, f| format!("{n};{}", comma(f))),
-            "",
-        ),
-        (
-            "passes with decimals",
-            row("pass,force_n\n", &|n, f| format!("{n}.0,{f}")),
-            "",
-        ),
-        (
-            "kilonewtons in the name",
-            row("pass,force_kn\n", &|n, f| format!("{n},{}", kilo(f))),
+            "line ends of Windows",
+            plain.replace('\n', "\r\n").into_bytes(),
             "",
         ),
         (
-            "kilonewtons in brackets",
-            row("Pass;Force [kN]\n", &|n, f| format!("{n};{}", comma(f / 1e3))),
+            "line ends of old Macs",
+            plain.replace('\n', "\r").into_bytes(),
             "",
         ),
+        ("comments at the end", format!("{plain}# end\n").into_bytes(), ""),
         (
-            "kilonewtons in words",
-            row("Überfahrten;Kraft in kN\n", &|n, f| {
-                format!("{n};{}", comma(f / 1e3))
-            }),
-            "",
-        ),
-        (
-            "kilonewtons by option",
-            row("pass,force_n\n", &|n, f| format!("{n},{}", kilo(f))),
-            "unit=kN",
-        ),
-        (
-            "decanewtons",
-            row("pass,force (daN)\n", &|n, f| format!("{n},{}", f / 10.0)),
-            "",
-        ),
-        (
-            "units below the names",
-            row("pass,force\n-,kN\n", &|n, f| format!("{n},{}", kilo(f))),
-            "",
-        ),
-        (
-            "units in the cells",
-            row("pass,force\n", &|n, f| format!("{n},{f} N")),
+            "rows in any order",
+            format!("{head}\n{}", turned.join("\n")).into_bytes(),
             "",
         ),
         (
             "thousands apart",
-            row("pass;force_n\n", &|n, f| {
-                format!("{n};{}", comma(f).replace("1286", "1.286"))
-            }),
+            german.replace("1286", "1.286").into_bytes(),
             "",
         ),
         (
             "thousands by commas",
-            row("pass,force_n\n", &|n, f| {
-                format!("{n},\"{}\"", f.to_string().replace("1286", "1,286"))
-            }),
-            "",
-        ),
-        (
-            "names of one's own",
-            row("A,B\n", &|n, f| format!("{n},{f}")),
-            "pass=A force=B",
-        ),
-        (
-            "names of one's own among others",
-            row("Nr;Zeit;Zelle 1\n", &|n, f| format!("{n};09:{n:02};{}", comma(f))),
-            "pass=Nr force=Zelle_1",
-        ),
-        (
-            "French",
-            row("passage;effort (N)\n", &|n, f| format!("{n};{}", comma(f))),
-            "",
-        ),
-        (
-            "Japanese",
-            row("通過回数,荷重[N]\n", &|n, f| format!("{n},{f}")),
+            plain.replace("1286.7", "\"1,286.7\"").into_bytes(),
             "",
         ),
         ("UTF-16", utf_16(&german, true, false), ""),
@@ -210,115 +188,9 @@ fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ),
         ("Latin-1", latin_1(&german), ""),
         ("Latin-1 by option", latin_1(&german), "encoding=latin-1"),
-        (
-            "a data logger's preamble",
-            text(&format!("Logger 7\nStation: duct 4, joint\nRate;10 Hz\n{german}")),
-            "",
-        ),
-        ("Excel's own separator", text(&format!("sep=;\n{german}")), ""),
-        ("comments", text(&format!("# load cell 3\n\n{plain}# end\n")), ""),
-        (
-            "times beside passes",
-            row("time,pass,force_n\n", &|n, f| {
-                format!("2025-12-24 17:{n:02},{n},{f}")
-            }),
-            "",
-        ),
-        (
-            "vehicles counted between times",
-            row("timestamp;vehicles;force_n\n", &|n, f| {
-                format!("24.12.2025 17:{n:02};{};{}", counted(n), comma(f))
-            }),
-            "",
-        ),
-        (
-            "vehicles by option",
-            row("t;lorries;force_n\n", &|n, f| {
-                format!("{n};{};{}", counted(n), comma(f))
-            }),
-            "vehicles=lorries",
-        ),
-        (
-            "tension positive",
-            row("pass,force_n\n", &|n, f| format!("{n},-{f}")),
-            "tension=yes",
-        ),
-        (
-            "the minus of typographers",
-            row("pass,force_n\n", &|n, f| format!("{n},−{f}")),
-            "tension=yes",
-        ),
-        (
-            "notes in a further column",
-            row("pass,force_n,remark\n", &|n, f| format!("{n},{f},ok")),
-            "",
-        ),
-        (
-            "Shift_JIS",
-            encoding_rs::SHIFT_JIS
-                .encode(&rows("通過回数,荷重［Ｎ］\n", |n, f| format!("{n},{f}")))
-                .0
-                .into_owned(),
-            "",
-        ),
-        (
-            "TOA5 of Campbell's loggers",
-            row(
-                "\"TOA5\",\"duct 4\",\"CR1000X\"\n\"TIMESTAMP\",\"pass\",\"force\"\n\"TS\",\"RN\",\"N\"\n\"\",\"\",\"Avg\"\n",
-                &|n, f| format!("\"2025-12-24 17:{n:02}:00\",{n},{f}"),
-            ),
-            "",
-        ),
-        (
-            "a third row of a header",
-            row("pass;force\n-;N\nsensor;HBM C9\n", &|n, f| format!("{n};{f}")),
-            "skip=2",
-        ),
-        (
-            "tildes before a header of three rows",
-            row("~pass;force\n~-;N\n~sensor;HBM C9\n", &|n, f| format!("{n};{f}")),
-            "skip=2",
-        ),
-        (
-            "a header of three rows by its line",
-            row("Logger;7\nLast;Station\nNr;F\n-;N\n50 Hz;HBM\n", &|n, f| {
-                format!("{n};{f}")
-            }),
-            "header=3 skip=2 pass=Nr force=F",
-        ),
-        (
-            "a header by its line",
-            row("pass;force\nNr;F\n", &|n, f| format!("{n};{f}")),
-            "header=2 pass=Nr force=F",
-        ),
-        (
-            "X_Value beside passes",
-            row("X_Value,pass,force_n\n", &|n, f| format!("{},{n},{f}", 10 * n)),
-            "",
-        ),
-        (
-            "empty columns at the end",
-            row("pass,force_n,,\n", &|n, f| format!("{n},{f},,")),
-            "",
-        ),
-        (
-            "millinewtons",
-            row("pass,Force mN\n", &|n, f| format!("{n},{}", 1e3 * f)),
-            "",
-        ),
-        (
-            "rows in any order",
-            text(
-                &(plain
-                    .lines()
-                    .take(1)
-                    .chain(plain.lines().skip(1).collect::<Vec<_>>().into_iter().rev())
-                    .collect::<Vec<_>>()
-                    .join("\n")),
-            ),
-            "",
-        ),
-    ]
+        ("Shift_JIS", shift_jis, ""),
+    ]);
+    shapes
 }
 
 #[test]
@@ -353,83 +225,6 @@ fn every_shape_of_the_series_is_read_right() {
             "{name}"
         );
     }
-}
-
-/// A file, ¶ for an end of line and ⇥ for a tab ‖ options ‖ parts of the message
-const REFUSED: &str = r#"
-pass,force_n¶1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:2 ‖ 3 cells ‖ decimal comma
-1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:1 ‖ decimal comma
-pass;force_n¶1;94,1¶ ‖ separator=comma ‖ cell.csv:1 ‖ no column pass in "pass;force_n" (read as separated by commas
-pass⇥force_n¶1⇥94.1¶ ‖ separator=semicolon ‖ cell.csv:1 ‖ (read as separated by semicolons
-pass;force_n¶1;94,1¶2;135.8¶ ‖ - ‖ cell.csv:3 ‖ 135.8 ‖ decimals after a comma
-pass;force_n¶1;1,113¶2;2,450¶ ‖ - ‖ cell.csv:2 ‖ 1,113 ‖ --decimal
-Nr;Zelle¶1;94,1¶ ‖ - ‖ no column pass ‖ Nr | Zelle ‖ --column-pass
-pass,cell¶1,94¶ ‖ - ‖ no column force_n ‖ pass | cell ‖ --column-force
-pass,force_n¶1,94¶ ‖ force=Kraft ‖ no column Kraft
-pass,force [V]¶1,94¶ ‖ - ‖ force [V] ‖ `V` ‖ --unit
-pass,force_n¶1,94¶ ‖ unit=kNm ‖ --unit ‖ `kNm`
-pass,force 1 [N],force 2 [N]¶1,94,95¶ ‖ - ‖ second column force 2 ‖ --column-force
-time,force_n¶09:00,94¶09:05,95¶ ‖ - ‖ times ‖ --column-vehicles
-time,vehicles,force_n¶09:00,5,94¶08:55,7,95¶ ‖ - ‖ cell.csv:3 ‖ "08:55" ‖ rows in the order of their times
-vehicles,force_n¶3,1¶5,2¶9,3¶12,4¶20,5¶ ‖ - ‖ running total ‖ --column-pass
-pass,force_n¶1,94¶2,many¶ ‖ - ‖ cell.csv:3 ‖ force_n ‖ many
-pass,force_n¶1,94 m¶ ‖ - ‖ cell.csv:2 ‖ 94 m ‖ unit
-pass,force_n¶1.5,94¶ ‖ - ‖ cell.csv:2 ‖ 1.5 ‖ whole number
-pass,force_n¶0,0.3¶ ‖ - ‖ cell.csv:2 ‖ at least one pass
-pass,force_n¶1,NaN¶2,#N/A¶ ‖ - ‖ cell.csv:2 ‖ NaN ‖ no number anywhere
-pass,force_n,sigma_n¶1,94,4¶2,135,¶ ‖ - ‖ cell.csv:3 ‖ sigma_n is blank
-pass,force_n¶1,113¶2,many¶ ‖ - ‖ cell.csv:3: force_n: found "many"
-pass,force_n¶1,113¶¶-2,150¶ ‖ - ‖ cell.csv:4: pass: found "-2"
-pass,force_n¶0,113¶ ‖ - ‖ cell.csv:2: pass: found "0"
-pass,force_n¶1.5,113¶ ‖ - ‖ cell.csv:2: pass: found "1.5"
-pass,force_n¶,113¶ ‖ - ‖ cell.csv:2: pass: found ""
-pass,force_n¶1,NaN¶ ‖ - ‖ cell.csv:2: force_n: found "NaN"
-pass,force_n¶1,inf¶ ‖ - ‖ cell.csv:2: force_n: found "inf"
-pass,force_n¶1e300,5¶ ‖ - ‖ cell.csv:2: pass: found "1e300"
-pass,force_n,sigma_n¶1,5,0¶ ‖ - ‖ cell.csv:2: sigma_n: found "0"
-pass,force_n,sigma_n¶1,5,-1¶ ‖ - ‖ cell.csv:2: sigma_n: found "-1"
-pass,force_n,sigma_n¶1,5,1¶2,6,¶ ‖ - ‖ cell.csv:3: sigma_n is blank
-number,force¶1,5¶ ‖ - ‖ cell.csv:1: no column pass
-# none¶pass,newtons¶1,5¶ ‖ - ‖ cell.csv:2: no column force_n
-pass,force_n,pass¶1,5,1¶ ‖ - ‖ cell.csv:1: a second column pass
-# only this¶¶ ‖ - ‖ cell.csv: no rows
-pass,force_n¶ ‖ - ‖ cell.csv: no rows
-pass,force_n,position¶1,94,joint¶ ‖ - ‖ cell.csv:2 ‖ position ‖ joint
-pass;force_n¶1;1.140¶2;1.520¶ ‖ - ‖ cell.csv:2 ‖ 1.14 or 1140 ‖ --decimal
-pass;force_n¶1;94¶2¶ ‖ - ‖ cell.csv:3 ‖ 1 cells where the first row has 2
-x,force_n¶1,94¶ ‖ - ‖ no column pass
-Station 4, joint¶number,cell force¶1,94¶ ‖ - ‖ cell.csv:2 ‖ no column pass
-pass,force_n¶1,94¶ ‖ header=7 ‖ cell.csv:7 ‖ nothing
-pass,deflection [um],position [m]¶1,115,3¶ ‖ - ‖ cell.csv:2 ‖ a place beside a deflection ‖ under the first vehicle
-pass,force_n¶1,3000-3999¶ ‖ - ‖ cell.csv:2: force_n: found "3000-3999"
-pass,force_n¶Total,3000¶ ‖ - ‖ cell.csv:2: pass: found "Total"
-pass,A,A¶1,94,95¶ ‖ force=A ‖ second column A
-pass;force_n¶1;0,113¶2;1.5¶ ‖ - ‖ cell.csv:3 ‖ 1.5 ‖ decimals after a comma
-"#;
-
-/// What is wrong is named: the file, words that the message holds.
-#[test]
-fn what_cannot_be_read_is_refused_with_its_cause() {
-    for row in REFUSED.lines().filter(|row| !row.is_empty()) {
-        let [text, words, ref parts @ ..] = row.split(" ‖ ").collect::<Vec<_>>()[..] else {
-            panic!("{row}")
-        };
-        let text = text.replace('¶', "\n").replace('⇥', "\t");
-        let error = Readings::from_bytes(
-            "cell.csv",
-            text.as_bytes(),
-            &options(words.trim_start_matches('-')),
-        )
-        .expect_err(&text)
-        .to_string();
-        for part in parts {
-            assert!(error.contains(part), "{text:?}: no {part:?} in {error}");
-        }
-    }
-    let no_text = Readings::from_csv("photo.jpg", &[0xFF, 0xD8, 0xFF, 0xE0, 0, 16, 1, 2]).unwrap_err();
-    assert!(no_text.to_string().contains("no text"), "{no_text}");
-    let archive = Readings::from_csv("notes.docx", b"PK\x03\x04 and more").unwrap_err();
-    assert!(archive.to_string().contains("cannot be read"), "{archive}");
 }
 
 fn read(text: &str, words: &str) -> Readings {

@@ -44,7 +44,7 @@ fn too_few_readings_for_the_parameters_are_refused() {
     assert!(
         error
             .to_string()
-            .starts_with("cell.csv:2: 1 readings; allowed: 3 or more"),
+            .starts_with("cell.csv:2: too few readings: 1; allowed: 3 or more"),
         "{error}"
     );
     assert!(read("").unwrap_err().to_string().starts_with("cell.csv: no rows"));

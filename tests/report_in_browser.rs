@@ -6,8 +6,6 @@
 //! A page is shown in a frame as wide as the screen that it is tested for, since a browser's own window is never as narrow as a
 //! phone. The page around the frame looks into it and writes what it measures into itself, which the browser prints.
 
-#![cfg(feature = "plot")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

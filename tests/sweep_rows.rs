@@ -1,7 +1,5 @@
 //! Rows of a sweep: any part can be computed anywhere, samples follow from their row alone, and coarse meshes are as good as they say.
 
-#![cfg(feature = "sweep")]
-
 use std::ops::ControlFlow;
 
 use creepage::sweep::{
@@ -104,7 +102,6 @@ fn rows_are_judged_by_limits() {
 }
 
 /// Limits of clamps are those of every point; one that a point does not have is its error.
-#[cfg(feature = "cli")]
 #[test]
 fn clamps_are_judged_where_they_are() {
     let table = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("clamps.csv");

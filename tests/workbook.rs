@@ -1,10 +1,7 @@
 //! Workbooks: every number is that of the JSON document or the CSV table, in the unit below its name.
 
-#![cfg(all(feature = "cli", feature = "xlsx"))]
-
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use calamine::{Data, Range, Reader, Xlsx, open_workbook};
 use creepage::readings::TableOptions;
@@ -12,26 +9,10 @@ use creepage::scene::Dimension;
 use creepage::sweep::{Samples, Sweep};
 use serde_json::Value;
 
-const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+use crate::command::{UPPER, answered, assert_says, folder, output, table};
+
 /// Ends of the names of fields, by which JSON says its units.
 const ENDS: [&str; 6] = ["", "_n", "_m", "_n_per_m", "_j", "_k"];
-
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("workbook").join(test);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-#[track_caller]
-fn printed(arguments: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
-    let command = command.current_dir(env!("CARGO_MANIFEST_DIR")).args(arguments);
-    let output = command.output().expect("the command");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {errors}");
-    String::from_utf8(output.stdout).expect("UTF-8")
-}
 
 struct Book(Xlsx<std::io::BufReader<fs::File>>);
 
@@ -128,26 +109,10 @@ fn clamps(document: &Value) -> Vec<Value> {
 
 #[test]
 fn a_run_is_its_document_in_the_units_that_were_typed() {
-    let folder = folder("run");
-    let file = folder.join("run.xlsx");
-    let arguments = [
-        "run",
-        UPPER,
-        "--set",
-        "duct.length=98 ft",
-        "--set",
-        "traffic.passes=20000",
-        "--trucks-per-day",
-        "100",
-        "--set",
-        "restraints=[{ position = \"40 ft\", stiffness = \"2 kip/in\" }]",
-        "--set",
-        "title==1+1",
-        "--limit-force",
-        "downstream=0.2 lbf",
-    ];
-    let document = printed(&[&arguments[..], &["--json", "--xlsx", file.to_str().unwrap()]].concat());
-    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let file = folder("run-book").join("run.xlsx");
+    let line = "run UPPER --set 'duct.length=98 ft' --set traffic.passes=20000 --trucks-per-day 100 --set title==1+1 \
+        --set 'restraints=[{ position = \"40 ft\", stiffness = \"2 kip/in\" }]' --limit-force 'downstream=0.2 lbf'";
+    let (document, _) = answered(&format!("{line} --xlsx {}", file.display()));
     let mut book = Book::open(&file);
     let names = ["answer", "passes", "force along", "clamps", "error", "scene"];
     assert_eq!(book.0.sheet_names(), names);
@@ -230,35 +195,16 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
     assert_eq!(row("ground.layers.0.poisson_ratio")[1], Data::Float(0.4));
 
     // What is said at the terminal is in the same units.
-    let said = printed(&arguments);
-    for part in ["lbf", "in,", "clamp at", "40 ft"] {
-        assert!(said.contains(part), "{said}");
-    }
+    assert_says(&output(line).1, &["lbf", "in,", "clamp at", "40 ft"]);
 }
 
 #[test]
 fn days_of_heat_have_sheets_and_the_same_run_is_the_same_file() {
-    let folder = folder("heat");
+    let folder = folder("heat-book");
     let files = ["one.xlsx", "two.xlsx"].map(|name| folder.join(name));
-    let arguments = [
-        "run",
-        UPPER,
-        "--set",
-        "heat={ expansion = \"17e-6 1/K\", daily_swing = \"10 K\" }",
-        "--trucks-per-day",
-        "6",
-        "--set",
-        "traffic.passes=18",
-        "--set",
-        "solver.tolerance=0.1",
-        "--set",
-        "ends.downstream={ spring = \"500 kN/m\" }",
-        "--json",
-        "--xlsx",
-    ];
-    let run = |file: &Path| printed(&[&arguments[..], &[file.to_str().unwrap()]].concat());
-    let document: Value = serde_json::from_str(&run(&files[0])).expect("JSON");
-    run(&files[1]);
+    let line = "run UPPER --set 'heat={ expansion = \"17e-6 1/K\", daily_swing = \"10 K\" }' --trucks-per-day 6 \
+        --set traffic.passes=18 --set solver.tolerance=0.1 --set 'ends.downstream={ spring = \"500 kN/m\" }'";
+    let [document, _] = [0, 1].map(|k: usize| answered(&format!("{line} --xlsx {}", files[k].display())).0);
     let read = |file: &PathBuf| fs::read(file).expect("a file");
     assert!(read(&files[0]) == read(&files[1]), "byte for byte");
     let mut book = Book::open(&files[0]);
@@ -292,28 +238,20 @@ fn sweep(file: &Path) -> (Vec<String>, Vec<String>, Vec<Vec<Data>>) {
 
 #[test]
 fn a_sweep_is_its_table_in_the_units_that_were_typed() {
-    let folder = folder("sweep");
-    let [csv, xlsx] = ["out.csv", "out.xlsx"].map(|name| folder.join(name));
-    fs::write(
-        folder.join("ducts.csv"),
-        "id,duct.depth,ends.downstream.spring,friction.dynamic_coefficient\n007,90 cm,3 kN/m,0.2\n=1+1,120 cm,,\n-,1 m,2 kN/m,-1\n",
-    )
-    .expect("a list");
-    let ducts = folder.join("ducts.csv");
+    let folder = folder("sweep-book");
+    let [csv, xlsx, ducts] = ["out.csv", "out.xlsx", "ducts.csv"].map(|name| folder.join(name));
+    let rows = "007,90 cm,3 kN/m,0.2\n=1+1,120 cm,,\n-,1 m,2 kN/m,-1\n";
+    let head = "id,duct.depth,ends.downstream.spring,friction.dynamic_coefficient";
+    fs::write(&ducts, format!("{head}\n{rows}")).expect("a list");
     for out in [&csv, &xlsx] {
-        let arguments = ["sweep", UPPER, "--set", "traffic.passes=2", "--rows"];
-        let files = [ducts.to_str().unwrap(), "--out", out.to_str().unwrap()];
-        printed(&[&arguments[..], &files].concat());
+        let (ducts, out) = (ducts.display(), out.display());
+        let (status, _, _) = output(&format!(
+            "sweep UPPER --set traffic.passes=2 --rows {ducts} --out {out}"
+        ));
+        assert_eq!(status, 0);
     }
     let (names, units, rows) = sweep(&xlsx);
-    let mut reader = csv::Reader::from_path(&csv).expect("a table");
-    let headers: Vec<String> = reader
-        .headers()
-        .expect("a head")
-        .iter()
-        .map(String::from)
-        .collect();
-    let expected: Vec<csv::StringRecord> = reader.records().map(|row| row.expect("a row")).collect();
+    let (headers, expected) = table(&csv);
     assert_eq!((names.len(), rows.len()), (headers.len(), expected.len()));
     assert_eq!(rows.len(), 3);
     for (name, unit) in [
@@ -349,21 +287,16 @@ fn a_sweep_is_its_table_in_the_units_that_were_typed() {
         }
     }
     // An id is a text, whatever it looks like.
-    let ids: Vec<&Data> = rows.iter().map(|row| &row[0]).collect();
-    assert_eq!(
-        ids,
-        ["007", "=1+1", "-"]
-            .map(|id| Data::String(id.into()))
-            .iter()
-            .collect::<Vec<_>>()
-    );
+    for (row, id) in rows.iter().zip(["007", "=1+1", "-"]) {
+        assert_eq!(row[0], Data::String(id.into()));
+    }
     let failed = rows[2].last().expect("an error").to_string();
     assert!(failed.contains("friction.dynamic_coefficient"), "{failed}");
 }
 
 #[test]
 fn a_list_of_ducts_may_be_a_workbook_with_units_below_its_names() {
-    let folder = folder("rows");
+    let folder = folder("rows-book");
     let ducts = folder.join("ducts.xlsx");
     let mut book = rust_xlsxwriter::Workbook::new();
     let sheet = book.add_worksheet();

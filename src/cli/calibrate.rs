@@ -239,18 +239,21 @@ fn print_quality(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failur
     )?;
     let lack = &answer.lack_of_fit;
     let tests = [
-        Some(lack.p_runs),
-        lack.p_trend,
-        lack.p_offset,
-        lack.p_noise,
-        lack.p_sigma,
+        ("their signs", Some(lack.p_runs)),
+        ("a drift", lack.p_trend),
+        ("a zero offset", lack.p_offset),
+        ("their size", lack.p_noise),
+        ("the sigmas", lack.p_sigma),
     ];
-    let [signs, drift, zero, size, sigmas] =
-        tests.map(|p| p.map_or_else(|| "-".into(), |p| format!("{p:.2}")));
+    let tests = tests
+        .into_iter()
+        .filter_map(|(what, chance)| Some(format!("{what} {:.2}", chance?)));
+    let tests: Vec<String> = tests.collect();
     let verdict = if lack.suspicious { "SUSPICIOUS" } else { "yes" };
     writeln!(
         out,
-        "whether they are noise: by chance signs {signs}, drift {drift}, zero {zero}, size {size}, sigmas {sigmas}: {verdict}"
+        "whether they are noise: {verdict}; the chance that noise shows {}",
+        tests.join(", ")
     )?;
     for assumption in &answer.assumptions {
         writeln!(out, "assumed: {assumption}")?;

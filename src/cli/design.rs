@@ -16,7 +16,7 @@ use crate::shown::exact;
 #[command(
     group = clap::ArgGroup::new("limit").args(["limit_force", "limit_movement"]).multiple(true).required(true),
     after_help = "The answer is found by runs of the scene; force and movement are the largest of all passes and, where the cable is heated, of all \
-hours of all days. A free end's movement is limited only by its name. A number without a unit is SI.
+hours of all days. Without a name a limit is that of both ends, free ones too. A number without a unit is SI.
 
 One spring is as stiff as the force allows, or in the middle of its range where movement is limited too; a clamp is as soft as may be. Two \
 springs at once have the largest margin: the largest share of a limit is the smallest. Where only forces are limited, the ends move least. \

@@ -217,7 +217,7 @@ fn named<'a>(limits: impl IntoIterator<Item = &'a Binding>) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Where the range of stiffness ends and why, or what leaves least room.
+/// Where the range of stiffness ends and why, or which limits decide.
 fn deciding(out: &mut impl Write, design: &Design, answer: &TradeOff, units: &Units) -> Result<(), Failure> {
     if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
         let with = |k| stiffness(units, &Spring::new(spring.place, k));
@@ -238,7 +238,7 @@ fn deciding(out: &mut impl Write, design: &Design, answer: &TradeOff, units: &Un
     let tightest = by(None);
     if !tightest.is_empty() {
         let share = percent(design.excess());
-        writeln!(out, "least room: {tightest}: {share} of the limit")?;
+        writeln!(out, "governing limit: {tightest}, at {share} of it")?;
     }
     Ok(())
 }

@@ -12,7 +12,6 @@ pub enum Failure {
     Analysis(#[from] crate::Error),
     #[error(transparent)]
     Sweep(#[from] crate::sweep::SweepError),
-    #[cfg(feature = "plot")]
     #[error("the figure cannot be drawn")]
     Figure(#[from] crate::figure::FigureError),
     #[error(transparent)]

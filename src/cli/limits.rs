@@ -116,6 +116,19 @@ const MOST_MOVEMENT: f64 = 1.0;
 type Slip = fn(f64) -> Option<String>;
 
 impl LimitArguments {
+    /// Limits of force and of movement that were typed elsewhere, as the options take them; or which one is wrong, and why.
+    #[cfg(feature = "explore")]
+    pub fn typed(force: &[String], movement: &[String]) -> Result<Self, (&'static str, String)> {
+        let limits = |texts: &[String], dimension, option| {
+            let limits = texts.iter().map(|text| limit(text, dimension));
+            limits.collect::<Result<_, String>>().map_err(|why| (option, why))
+        };
+        Ok(Self {
+            limit_force: limits(force, Dimension::Force, "--limit-force")?,
+            limit_movement: limits(movement, Dimension::Length, "--limit-movement")?,
+        })
+    }
+
     /// Both options, each with what was given and with how a bare number that it hardly means would be meant.
     fn options(&self) -> [(&'static str, &[Limit], Slip); 2] {
         let force: Slip =
@@ -156,7 +169,6 @@ impl LimitArguments {
     }
 
     /// The limits of every point of a sweep. A limit of all clamps is none where there is no clamp.
-    #[cfg(feature = "sweep")]
     pub fn of_points(&self) -> crate::sweep::PointLimits {
         let own = self.clone();
         crate::sweep::PointLimits::new(format!("{self:?}"), move |scene| {

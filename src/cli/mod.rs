@@ -6,6 +6,8 @@ mod completions;
 mod design;
 mod design_words;
 mod explain;
+#[cfg(feature = "explore")]
+mod explore;
 mod failure;
 mod limits;
 mod new;
@@ -15,7 +17,6 @@ mod presets;
 mod profile;
 mod progress;
 mod readings;
-#[cfg(feature = "plot")]
 mod report;
 mod run;
 mod shared;
@@ -43,7 +44,8 @@ use failure::Failure;
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --csv forces.csv
   creepage profile my-duct.toml --positions -1.5,0,1.5 --json
   creepage calibrate my-duct.toml --data load-cell.csv --robust
-  creepage report my-duct.toml -o my-duct.html"
+  creepage report my-duct.toml -o my-duct.html
+  creepage explore my-duct.toml"
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -67,8 +69,10 @@ enum Command {
     /// Find the springs or the clamp that stay within limits of force and movement
     Design(Box<design::Arguments>),
     /// Write a self-contained HTML report with figures
-    #[cfg(feature = "plot")]
     Report(Box<report::Arguments>),
+    /// Show a page on this machine with the scene's numbers as sliders, whose answer follows the hand
+    #[cfg(feature = "explore")]
+    Explore(Box<explore::Arguments>),
     /// Write a commented scene to start from
     New(Box<new::Arguments>),
     /// List named values for vehicles, cables, friction and pavements, with their sources
@@ -134,8 +138,9 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
-        #[cfg(feature = "plot")]
         Command::Report(arguments) => report::execute(arguments),
+        #[cfg(feature = "explore")]
+        Command::Explore(arguments) => explore::execute(arguments),
         Command::New(arguments) => new::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::Explain(arguments) => explain::execute(arguments),

@@ -16,11 +16,11 @@ use crate::shown::time;
 const TICK: Duration = Duration::from_millis(25);
 /// What takes no longer is not shown.
 const UNSEEN: Duration = Duration::from_secs(2);
-/// Between two lines: at a terminal, where each takes the place of the one before, and elsewhere.
-const BETWEEN_LINES: [Duration; 2] = [Duration::from_millis(200), Duration::from_secs(5)];
-/// Letters of a line at a terminal.
+/// Between two lines, each of which takes the place of the one before.
+const BETWEEN_LINES: Duration = Duration::from_millis(200);
+/// Letters of a line.
 const LINE: usize = 78;
-/// What clears the line at a terminal.
+/// What clears the line.
 const CLEAR: &str = "\r\x1b[K";
 
 /// A time in whole seconds, minutes or hours.
@@ -42,7 +42,7 @@ fn line(words: &str, share: f64, seconds: f64, left: f64) -> String {
     format!("{words}, {} so far", rounded(seconds))
 }
 
-/// Computes something and shows how far it is: the share that is done with the time that the rest takes at the same speed, and `words` of that share.
+/// Computes something and shows at a terminal how far it is: the share that is done with the time that the rest takes at the same speed, and `words` of that share.
 /// As a rule it is done at the share `usual`.
 pub fn watched<A: Send>(
     usual: f64,
@@ -69,7 +69,7 @@ pub fn watched<A: Send>(
         loop {
             match receive.recv_timeout(TICK) {
                 Ok(answer) => {
-                    if is_terminal && due > UNSEEN {
+                    if due > UNSEEN {
                         let _ = write!(io::stderr(), "{CLEAR}");
                     }
                     return answer;
@@ -81,22 +81,17 @@ pub fn watched<A: Send>(
                 Err(RecvTimeoutError::Timeout) => {}
             }
             let elapsed = begun.elapsed();
-            if elapsed < due {
+            if elapsed < due || !is_terminal {
                 continue;
             }
-            due = elapsed + BETWEEN_LINES[usize::from(!is_terminal)];
+            due = elapsed + BETWEEN_LINES;
             let share = f64::from_bits(share.load(Ordering::Relaxed));
             let begin = first.get().copied().unwrap_or_default();
             let seconds = elapsed.as_secs_f64();
             let left = seconds * (usual - share) / (share - begin);
             let line = terminal::line(&line(&words(share), share / usual, seconds, left));
-            // If nobody reads it, it is lost.
-            let _ = if is_terminal {
-                let line: String = line.chars().take(LINE).collect();
-                write!(io::stderr(), "{CLEAR}{line}")
-            } else {
-                writeln!(terminal::err(), "progress: {line}")
-            };
+            let line: String = line.chars().take(LINE).collect();
+            let _ = write!(io::stderr(), "{CLEAR}{line}");
         }
     })
 }

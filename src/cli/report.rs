@@ -121,7 +121,7 @@ fn sources(input: &Input, read: &[Option<&Path>]) -> Result<Vec<Source>, Failure
 
 /// The time of this page: now, or that of `SOURCE_DATE_EPOCH` \[s since 1970\] for a page that can be made again to the last byte
 /// (reproducible-builds.org/specs/source-date-epoch).
-fn date() -> Result<String, Failure> {
+pub fn date() -> Result<String, Failure> {
     let time = match std::env::var(EPOCH) {
         Err(_) => DateTime::<Utc>::from(SystemTime::now()),
         Ok(text) => {

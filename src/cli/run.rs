@@ -46,7 +46,6 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.json")]
     save_state: Option<PathBuf>,
     /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
-    #[cfg(feature = "xlsx")]
     #[arg(long, value_name = "FILE.xlsx")]
     xlsx: Option<PathBuf>,
     #[command(flatten)]
@@ -55,22 +54,22 @@ pub struct Arguments {
 
 /// The run, and what it makes of the limits, if there are any.
 #[derive(Serialize)]
-struct Judged<'a> {
+pub struct Judged<'a> {
     #[serde(flatten)]
-    run: &'a Run,
+    pub run: &'a Run,
     #[serde(flatten)]
-    judgement: Option<Judgement>,
+    pub judgement: Option<Judgement>,
 }
 
 #[derive(Serialize)]
-struct Judgement {
+pub struct Judgement {
     /// Of the limit that is exceeded first; null where all are kept.
     limit_reached_after: Option<Reached>,
-    limits: Vec<Verdict>,
+    pub limits: Vec<Verdict>,
 }
 
 impl Judgement {
-    fn new(run: &Run, limits: &Limits) -> Self {
+    pub fn new(run: &Run, limits: &Limits) -> Self {
         let limits = limits.verdicts(run);
         let reached = limits.iter().filter_map(|verdict| verdict.reached_after);
         Self {
@@ -95,7 +94,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let start = arguments.start.start()?;
     let (option, path) = ("--save-state", arguments.save_state.as_deref());
     let saved = beside(&mut files, option, path, "json", "a file for --from-state")?;
-    #[cfg(feature = "xlsx")]
     let workbook = {
         let allowed = "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv";
         beside(&mut files, "--xlsx", arguments.xlsx.as_deref(), "xlsx", allowed)?
@@ -131,7 +129,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         run: &run,
         reader,
     };
-    #[cfg(feature = "xlsx")]
     if let Some(output) = &workbook {
         let bytes = crate::workbook::of_run(&run, verdicts, input.file(), &reader.units);
         let bytes = bytes.map_err(|source| output.failed(source))?;
@@ -190,7 +187,7 @@ fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
         let [forward, backward] = [slip.forward_m, slip.backward_m].map(|length| reader.length(length));
         writeln!(
             out,
-            "Length slipping with the vehicle at mid-duct: {forward} forward, {backward} backward"
+            "length of cable that slides under a vehicle at mid-duct: {forward} forward, {backward} backward"
         )?;
     }
     writeln!(out, "{}", solved(&run.plan, reader))?;

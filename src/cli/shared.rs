@@ -152,7 +152,6 @@ impl Input {
     }
 
     /// The text of the scene file.
-    #[cfg(feature = "plot")]
     pub fn text(&self) -> &str {
         self.file.text()
     }

@@ -11,7 +11,6 @@ use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
 use crate::shown::{exact_percent, words_if};
-#[cfg(feature = "plot")]
 use crate::sweep::MapValue;
 use crate::sweep::{
     Axis, Band, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary, ending,
@@ -67,11 +66,9 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// Draw a map over two varied keys to this file (SVG)
-    #[cfg(feature = "plot")]
     #[arg(long, value_name = "FILE.svg", conflicts_with = "rows")]
     map: Option<PathBuf>,
-    /// Quantity shown by the map's colour
-    #[cfg(feature = "plot")]
+    /// Quantity shown by the map's colour: force or movement, the larger of the two ends
     #[arg(long, value_name = "VALUE", default_value = "force", requires = "map")]
     map_of: MapValue,
     #[command(flatten)]
@@ -103,13 +100,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = read.chain(tables.iter().map(PathBuf::as_path));
     let mut files = arguments.force.files(read);
     files.output(&arguments.out, ending(&arguments.out)?)?;
-    #[cfg(feature = "plot")]
     let map = arguments.map.as_ref().map(|file| -> Result<_, Failure> {
         // Whether there can be one is known before anything is computed.
         let _ = sweep.map(&[], arguments.map_of)?;
         Ok(files.output(file, "svg")?)
     });
-    #[cfg(feature = "plot")]
     let map = map.transpose()?;
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
@@ -131,7 +126,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if summary.failed == summary.points {
         return Err(Failure::Nothing);
     }
-    #[cfg(feature = "plot")]
     if let Some(file) = map {
         let svg = sweep.map(&summary.rows, arguments.map_of)?.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
@@ -165,7 +159,15 @@ fn print(
 fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure> {
     let at = band.at.iter().map(|(key, value)| format!("{key} = {value}"));
     writeln!(out, "\n{}", at.collect::<Vec<_>>().join(", "))?;
-    let names = ["mean", "deviation", "5 %", "25 %", "50 %", "75 %", "95 %"];
+    let names = [
+        "mean",
+        "standard deviation",
+        "5 %",
+        "25 %",
+        "50 %",
+        "75 %",
+        "95 %",
+    ];
     let mut names: Vec<String> = names.map(str::to_owned).into();
     names.insert(0, format!("force, {}", units.force.symbol()));
     let forces = [

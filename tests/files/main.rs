@@ -1,7 +1,7 @@
 //! What the commands do to files: an output takes its place as a whole or not at all, and nothing else is touched. And what they
 //! show of texts that are not to be trusted.
 
-#![cfg(all(feature = "cli", feature = "plot", feature = "xlsx", unix))]
+#![cfg(unix)]
 
 mod common;
 mod endings;

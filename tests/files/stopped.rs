@@ -106,33 +106,35 @@ fn a_stopped_sweep_says_what_it_keeps() {
     assert!(!names.iter().any(|name| name == "table.csv"), "{names:?}");
 }
 
-/// What takes long shows its share and the time left.
+/// What takes long shows its share and the time left at a terminal, and nothing elsewhere.
 #[test]
 fn a_long_run_says_how_far_it_is() {
     let folder = Folder::new("progress");
-    let every_pass = ["solver.method=quasi-static", "traffic.passes=900000"];
-    let jumps = ["solver.method=pass-law", "traffic.passes=5844000"];
-    for [method, passes] in [every_pass, jumps] {
+    let every_pass = "solver.method=quasi-static --set traffic.passes=900000";
+    let jumps = "solver.method=pass-law --set traffic.passes=5844000";
+    for scene in [every_pass, jumps] {
         // A fine mesh keeps the jumps busy too.
-        let fine = "solver.node_spacing=0.01";
-        let arguments = [
-            "run",
-            "scene.toml",
-            "--set",
-            method,
-            "--set",
-            passes,
-            "--set",
-            fine,
-        ];
-        let stopped = Stopped::after(Duration::from_secs(3), &folder, &arguments, "INT");
-        let line = stopped.said.lines().find(|line| line.starts_with("progress: "));
-        let line = line.unwrap_or_else(|| panic!("{arguments:?}: {}", stopped.said));
-        let (share, _) = line["progress: ".len()..].split_once(" %").expect("a share");
+        let run = format!("run scene.toml --set solver.node_spacing=0.01 --set {scene}");
+        let stopped = format!("timeout --foreground -s INT 4 '{}' {run}", creepage());
+        let output = folder
+            .command("script", &["-qec", &stopped, "/dev/null"])
+            .output();
+        let output = String::from_utf8(output.expect("a terminal").stdout).expect("UTF-8");
+        let line = output
+            .split("\r\x1b[K")
+            .nth(1)
+            .unwrap_or_else(|| panic!("{run}: {output}"));
+        let (share, _) = line.split_once(" %").expect("a share");
         assert!(
             (0.0..=100.0).contains(&share.parse::<f64>().expect("a number")),
             "{line}"
         );
         assert!(line.ends_with(" left"), "{line}");
     }
+    let arguments: Vec<&str> = ["run", "scene.toml", "--set"]
+        .into_iter()
+        .chain(every_pass.split(' '))
+        .collect();
+    let stopped = Stopped::after(Duration::from_secs(3), &folder, &arguments, "INT");
+    assert!(stopped.said.starts_with("stopped: "), "{}", stopped.said);
 }

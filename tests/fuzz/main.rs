@@ -1,8 +1,6 @@
 //! Whatever is read: scene files, overrides, readings, quantities and varied keys. Good inputs are changed at random, and what
 //! comes of each is an answer that keeps its own rules or an error that says where, never a panic.
 
-#![cfg(feature = "sweep")]
-
 mod mutate;
 
 use std::fs;
@@ -88,6 +86,8 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
 /// The examples, difficult grounds, and new scenes with every preset.
 fn scenes() -> Vec<String> {
     let mut scenes = files("examples/scenes", "toml");
+    // A text has no folder in which a table of axles could lie.
+    scenes.retain(|text| !text.contains("histogram"));
     scenes.extend(files("tests/data/difficult", "toml"));
     for preset in presets::all() {
         let key = match preset.kind {

@@ -208,7 +208,6 @@ fn designs_fits_and_reports_refuse_an_edited_scene_too() {
     let readings = Readings::from_csv("a.csv", table).expect("readings");
     let fit = creepage::calibrate(&scene, &readings, &CalibrateOptions::default());
     assert!(fit.expect_err("no vehicles").is_bad_input());
-    #[cfg(feature = "plot")]
     {
         use creepage::report::{Report, ReportOptions};
         let report = Report::new(&scene, &ReportOptions::default());

@@ -116,7 +116,11 @@ fn ordinary_scenes_have_no_warnings() {
     for name in std::fs::read_dir("examples/scenes").expect("the examples") {
         let path = name.expect("a file").path();
         let scene = Scene::from_file(&path).expect("a scene");
-        let found = creepage::plan(&scene).expect("a plan").report().warnings;
+        let mut found = creepage::plan(&scene).expect("a plan").report().warnings;
+        // What is said of every scene with heat.
+        found.retain(|warning| {
+            scene.heat.is_none() || !warning.starts_with("forces of heat are upper bounds")
+        });
         assert_eq!(found, [""; 0], "{}", path.display());
     }
 }

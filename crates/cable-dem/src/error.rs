@@ -1,7 +1,5 @@
 //! What can go wrong in the cable.
 
-use crate::StepLimits;
-
 /// Error of a cable model or of a solver.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -106,15 +104,15 @@ pub enum CableError {
     #[error(
         "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {:.3e} s ({:.3e} s for the springs \
          and {:.3e} s for friction)",
-        .limits.together(),
-        .limits.elastic,
-        .limits.friction
+        .longest[0],
+        .longest[1],
+        .longest[2]
     )]
     UnstableStep {
         /// The step asked for \[s\].
         time_step: f64,
-        /// The longest stable step.
-        limits: StepLimits,
+        /// The longest stable step \[s\], and those of springs alone and of friction alone.
+        longest: [f64; 3],
     },
     /// A pass would take more work than allowed.
     #[error(

@@ -237,6 +237,16 @@ impl CableState {
         }))
     }
 
+    /// The largest friction \[N/m\] that every node can bear with the force in `cable` as it is; it depends on that in bends alone.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn friction_limits(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
+        let nodes = self.pressing(cable)?.nodes;
+        Ok(nodes.iter().map(|node| node.limit).collect())
+    }
+
     /// Lengths of `cable` whose friction is at the limit that its force makes; none without friction.
     ///
     /// # Errors

@@ -4,8 +4,8 @@ use ground_field::GroundError;
 use serde::Serialize;
 
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::ground::Ground;
-use crate::{Error, Scene, finite};
+use creepage_plan::{Error, finite, ground::Ground};
+use creepage_scene::Scene;
 
 /// Farthest position from the vehicle \[m\].
 const FARTHEST: f64 = 1e6;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
-use crate::Error;
+use creepage_plan::Error;
 
 /// What is called with the share of the work done so far, in \[0, 1\].
 type Callback<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;

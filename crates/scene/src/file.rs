@@ -54,7 +54,7 @@ impl SceneFile {
             );
             SceneError::Syntax {
                 location: Location::new(&file, &text, valid..valid, true),
-                message: "found text that is not UTF-8".to_owned(),
+                message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
             }
         })?;
         Self::from_toml(&file, &text)

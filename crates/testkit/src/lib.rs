@@ -2,6 +2,7 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a test may panic")]
 
+pub mod house;
 pub mod tridiagonal;
 
 use ground_field::{

@@ -142,7 +142,8 @@ impl Explicit {
             // Written so that NaN fails.
             let is_stable = time_step <= limits.together();
             if options.check_limits && !is_stable {
-                return Err(CableError::UnstableStep { time_step, limits });
+                let longest = [limits.together(), limits.elastic, limits.friction];
+                return Err(CableError::UnstableStep { time_step, longest });
             }
         }
         Ok(Self {

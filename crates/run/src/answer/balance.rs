@@ -9,8 +9,8 @@ use cable_dem::{CableState, DuctedCable};
 
 use super::differences::larger;
 use super::record::{PassRecord, RestraintRecord};
-use crate::Error;
-use crate::scene::{Scene, Section};
+use creepage_plan::Error;
+use creepage_scene::{Scene, Section};
 
 /// Share of what friction can carry by which rounding and interpolation may exceed it.
 pub const MARGIN: f64 = 0.01;

@@ -1,6 +1,6 @@
 //! Passes as days and years, where the vehicles a day are known.
 
-use crate::scene::{DAYS_PER_YEAR, Traffic};
+use creepage_scene::{DAYS_PER_YEAR, Traffic};
 
 /// Days of a month, on average.
 const MONTH: f64 = DAYS_PER_YEAR / 12.0;
@@ -59,7 +59,8 @@ mod tests {
 
     #[test]
     fn days_months_and_years_have_their_passes() {
-        let scene = crate::Scene::from_file("../../examples/scenes/full-scale-upper.toml").expect("a scene");
+        let scene =
+            creepage_scene::Scene::from_file("../../examples/scenes/full-scale-upper.toml").expect("a scene");
         let traffic = |passes, per_day| Traffic {
             passes,
             per_day,

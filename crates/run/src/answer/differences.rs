@@ -12,8 +12,8 @@ use cable_dem::PassOutcome;
 use cycle_jump::Record;
 use ground_field::DuctMotion;
 
-use crate::ground::peak;
-use crate::scene::Scene;
+use creepage_plan::ground::peak;
+use creepage_scene::Scene;
 
 /// Forces below this share of the largest one of the run are compared with that share of it,
 /// and movements of an end below this share of the duct's largest.

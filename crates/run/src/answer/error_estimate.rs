@@ -9,10 +9,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::differences::Shares;
-use crate::Error;
-use crate::error_source::ErrorSource;
-use crate::shown::percent;
 use crate::tuning::meshes::{MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
+use creepage_plan::{Error, ErrorSource, shown::percent};
 
 /// How wrong the forces may be: how well the equations are solved, not how well they describe a
 /// duct.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::along_cable::ForceProfile;
 use super::differences::larger;
-use crate::scene::CableEnd;
+use creepage_scene::CableEnd;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and
 /// every change of temperature.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::place::{Limited, Place};
 use super::record::Run;
 use super::units::{FORCE_DIGIT, MOVEMENT_DIGIT, Units, in_unit};
-use crate::scene::{CableEnd, Unit};
+use creepage_scene::{CableEnd, Unit};
 
 /// What must not be exceeded at one place; of either sign.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! Which passes an answer lists.
 
 use super::calendar::calendar;
-use crate::scene::Traffic;
+use creepage_scene::Traffic;
 
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;

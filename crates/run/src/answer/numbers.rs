@@ -7,7 +7,7 @@ use super::record::{
     DuctMotionSummary, ExtremePass, ForceRange, PassRecord, PlanSummary, Quantiles, RandomSpread,
     RestraintRecord, Run, Saturation,
 };
-use crate::finite;
+use creepage_plan::finite;
 
 finite::numbers! {
     Run: plan duct_motion passes saturation range random extremes days heat force_profile restraints stages slip_lengths error_estimate;
@@ -40,8 +40,9 @@ mod tests {
 
     use serde_json::Value;
 
-    use crate::finite::{Numbers, check};
-    use crate::{Error, SceneFile};
+    use creepage_plan::Error;
+    use creepage_plan::finite::{Numbers, check};
+    use creepage_scene::SceneFile;
 
     /// The names of the fields that hold numbers with a point, in a JSON document.
     fn names<'v>(value: &'v Value, field: &'v str, found: &mut BTreeSet<&'v str>) {

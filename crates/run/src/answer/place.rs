@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::differences::{SMALL, larger};
 use super::record::{PassRecord, Run};
 use super::units::Units;
-use crate::scene::{CableEnd, Scene};
-use crate::shown::exact;
+use creepage_plan::shown::exact;
+use creepage_scene::{CableEnd, Scene};
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
@@ -278,7 +278,8 @@ impl PassRecord {
 
 #[cfg(test)]
 mod tests {
-    use crate::{CableEnd, Limited, Limits, Place, Scene, run};
+    use crate::{Limited, Limits, Place, run};
+    use creepage_scene::{CableEnd, Scene};
 
     /// The error of the force on an end that bears little is a share of a tenth of the largest
     /// force of all: limits that are nearer than that are doubtful.

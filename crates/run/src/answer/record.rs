@@ -8,8 +8,8 @@ use super::along_cable::{ForceProfile, SlipRecord, Stage};
 use super::differences::larger;
 use super::error_estimate::ErrorEstimate;
 use super::heat::{DayExtremes, HeatRecord};
-use crate::SavedState;
-use crate::scene::{CableEnd, Traffic};
+use creepage_plan::SavedState;
+use creepage_scene::{CableEnd, Traffic};
 
 /// Forces that differ by a smaller share are the same to a reader.
 const NOTICEABLE: f64 = 0.01;

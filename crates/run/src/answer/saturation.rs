@@ -13,10 +13,9 @@ use cycle_jump::{Beyond, Record};
 use super::balance;
 use super::differences::{larger, largest_force};
 use super::record::{ForceRange, Saturation};
-use crate::Scene;
-use crate::plan::Period;
-use crate::scene::{CableEnd, End};
 use crate::tuning::saturation::{LARGEST_RATIO, LARGEST_REMAINDER, TELLS};
+use creepage_plan::Period;
+use creepage_scene::{CableEnd, End, Scene};
 
 /// Fewest passes from which anything can be said.
 const FEWEST_PASSES: usize = 12;

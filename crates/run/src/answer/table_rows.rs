@@ -4,10 +4,12 @@ use super::calendar::calendar;
 use super::heat::DayExtremes;
 use super::listed::ROUND;
 use super::record::PassRecord;
-use crate::cable::{known_order, traffic};
-use crate::plan::Period;
-use crate::scene::{Scene, Traffic};
-use crate::shown::ROWS;
+use creepage_plan::{
+    Period,
+    cable::{known_order, traffic},
+    shown::ROWS,
+};
+use creepage_scene::{Scene, Traffic};
 
 /// Few enough of `passes` for a short table: all, or round numbers and the last. Where the vehicles
 /// a day are known, those from the first day on are round times.

@@ -1,7 +1,7 @@
 //! The units in which answers are shown to a reader. What other programs read stays SI.
 
-use crate::scene::{Dimension, SceneFile, Unit};
-use crate::shown::rounded;
+use creepage_plan::shown::rounded;
+use creepage_scene::{Dimension, SceneFile, Unit};
 
 /// The last digit that is shown of a force \[N\] and of a movement \[m\].
 pub(super) const FORCE_DIGIT: f64 = 0.1;

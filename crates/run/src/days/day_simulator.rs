@@ -5,15 +5,14 @@ use cycle_jump::days::{DailyHeat, Day, DaysRequest, Extremes, evolve_days};
 use cycle_jump::{Guide, Jumps, Next};
 
 use super::locked_law::locked_law;
+use crate::Progress;
 use crate::answer::differences::{Scale, Shares};
 use crate::answer::listed;
-use crate::cable::traffic;
 use crate::passes::{Passes, Simulation, Task, listed_passes};
-use crate::plan::Plan;
 use crate::refine::OnMeshes;
-use crate::scene::{Heat, Scene};
 use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
-use crate::{Error, Progress};
+use creepage_plan::{Error, Plan, cable::traffic};
+use creepage_scene::{Heat, Scene};
 
 /// Days simulated after the first one, before any is jumped over.
 const FIRST_DAYS: u64 = 3;
@@ -139,7 +138,7 @@ impl OnMeshes for DaySimulator<'_> {
         let mesh = plan.levels.mesh(level)?;
         let task = Task {
             progress,
-            ..plan.task(scene, mesh)
+            ..Task::of(plan, scene, mesh)
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day()?;

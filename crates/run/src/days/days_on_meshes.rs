@@ -9,15 +9,16 @@
 use cable_dem::Statistics;
 
 use super::day_simulator::DaySimulator;
+use crate::Progress;
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::ErrorParts;
 use crate::passes::{Passes, RunOptions};
-use crate::plan::Plan;
 use crate::refine::{MeshLoop, OnMeshes, Solved, on_coarse_level};
-use crate::scene::{Heat, SolverMethod};
 use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, SHARE, TYPICAL};
-use crate::tuning::meshes::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST};
-use crate::{Error, Progress};
+use crate::tuning::meshes::{FINDING, REFINEMENT_COST};
+use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
+use creepage_plan::{Error, Plan};
+use creepage_scene::{Heat, SolverMethod};
 
 /// Carries `plan`, whose scene has `heat`, out, where `error` has what no mesh makes smaller.
 pub fn solve(

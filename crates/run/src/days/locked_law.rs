@@ -5,12 +5,14 @@ use cable_dem::{CableState, DuctedCable, Mesh, QuasiStatic, Statistics};
 use cycle_jump::days::LockedLaw;
 use ground_field::DuctMotion;
 
-use crate::Error;
-use crate::cable::cable;
-use crate::ground::{length_scale, road};
 use crate::passes::Task;
 use crate::tuning::days::FINEST;
-use crate::tuning::ground::LAW_LENGTH;
+use creepage_plan::tuning::ground::LAW_LENGTH;
+use creepage_plan::{
+    Error,
+    cable::cable,
+    ground::{length_scale, road},
+};
 
 /// Periods that it takes: the first one brings the cable into the state that lasts.
 const PERIODS: usize = 2;

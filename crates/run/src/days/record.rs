@@ -4,10 +4,10 @@ use cable_dem::Mesh;
 use cycle_jump::days::Days;
 
 use super::day_simulator::{DaySimulator, a_day};
-use crate::Error;
 use crate::answer::{DayExtremes, DayPoint, ForceProfile, HeatRecord};
-use crate::scene::DAYS_PER_YEAR;
-use crate::shown::words_if;
+use crate::passes::Task;
+use creepage_plan::{Error, shown::words_if};
+use creepage_scene::DAYS_PER_YEAR;
 
 impl DaySimulator<'_> {
     /// How many days were simulated, and how.
@@ -30,7 +30,7 @@ impl DaySimulator<'_> {
 
     /// The extremes of the listed days and of all.
     pub fn record(&self, mesh: Mesh, days: &Days) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
-        let cable = self.plan.task(self.plan.scene, mesh).cable()?;
+        let cable = Task::of(self.plan, self.plan.scene, mesh).cable()?;
         let passes_per_day = a_day(self.plan.scene);
         let of_day = |(day, extremes): &(u64, _)| DayExtremes::new(*day, extremes);
         let per_kelvin = self.per_kelvin();

@@ -7,15 +7,16 @@ use cable_dem::Statistics;
 use cycle_jump::{Guide, Record};
 
 use super::draws::Draws;
+use crate::Progress;
 use crate::answer::differences::{Scale, Shares, difference, extremes_difference};
 use crate::passes::{JumpSize, Jumping, KnownJumps, Passes, Task};
-use crate::plan::{Period, Plan};
 use crate::refine::on_coarse_level;
 use crate::tuning::jumps::{
     FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, SHARE, SHORT,
 };
-use crate::tuning::meshes::{MAX_NODE_UPDATES, REFINEMENT_COST};
-use crate::{Error, Progress};
+use crate::tuning::meshes::REFINEMENT_COST;
+use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
+use creepage_plan::{Error, Period, Plan};
 
 const FINEST: usize = 8;
 /// Draws of a random order at least, at most, and as long as they take no more nodes than this.
@@ -107,7 +108,7 @@ impl Search<'_> {
         };
         let task = Task {
             progress: (self.parts)(),
-            ..plan.task(plan.scene, plan.levels.mesh(level)?)
+            ..Task::of(plan, plan.scene, plan.levels.mesh(level)?)
         };
         let passes = task.carry_out(Some(&jumping))?;
         self.statistics += passes.statistics;
@@ -228,7 +229,8 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Scene, run};
+    use crate::run;
+    use creepage_scene::Scene;
 
     /// A short duct between springs, whose cable lies still after ten passes: the first jump goes
     /// to the end, whatever error is asked for.

@@ -5,14 +5,14 @@ use cycle_jump::Guide;
 
 use super::jump_search::{self, Found};
 use super::random_spread;
+use crate::Progress;
 use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::{ErrorParts, mesh_error};
 use crate::passes::{FixedMesh, Jumping, KnownJumps, Passes, RunOptions, Task};
-use crate::plan::{Levels, Plan};
 use crate::refine::{MeshLoop, OnMeshes, Solved};
-use crate::scene::SolverMethod;
 use crate::tuning::meshes::FINDING;
-use crate::{Error, Progress, Scene};
+use creepage_plan::{Error, Levels, Plan};
+use creepage_scene::{Scene, SolverMethod};
 
 /// A plan's passes, on whatever level.
 struct PassesOnMeshes<'a> {
@@ -69,7 +69,7 @@ pub fn solve(
         if let Some(draws) = &found.draws {
             draws.correct(&mut solved.passes);
         }
-        let task = plan.task(plan.scene, plan.levels.mesh(found.level)?);
+        let task = Task::of(plan, plan.scene, plan.levels.mesh(found.level)?);
         let (spread, work) = random_spread::spread(&task, &found.passes.state, &solved.passes)?;
         solved.random = spread;
         solved.statistics += found.statistics;
@@ -92,7 +92,7 @@ impl OnMeshes for PassesOnMeshes<'_> {
         let task = Task {
             stages,
             progress,
-            ..self.plan.task(scene, levels.mesh(level)?)
+            ..Task::of(self.plan, scene, levels.mesh(level)?)
         };
         let jumping = self.known.map(|known| Jumping {
             period,

@@ -7,10 +7,9 @@
 
 use cable_dem::{CableState, Order, Statistics};
 
-use crate::Error;
 use crate::answer::{Quantiles, RandomSpread, larger};
-use crate::cable::traffic;
 use crate::passes::{Passes, Simulation, Task};
+use creepage_plan::{Error, cable::traffic};
 
 /// Random runs, their passes, and how many of these forget the order before.
 const RUNS: u64 = 8;

@@ -6,8 +6,8 @@ use cable_dem::PassOutcome;
 use cycle_jump::Record;
 
 use crate::answer::simulated;
-use crate::plan::Period;
-use crate::scene::Scene;
+use creepage_plan::Period;
+use creepage_scene::Scene;
 
 /// The passes that a run lists whose traffic has this `period`: where it is the traffic's own, all
 /// of the last period among them.

@@ -3,9 +3,9 @@
 use cycle_jump::Guide;
 use ground_field::GroundField;
 
+use crate::Progress;
 use crate::answer::differences::Shares;
-use crate::plan::Period;
-use crate::{Progress, SavedState};
+use creepage_plan::{Period, SavedState};
 
 /// How to run.
 #[derive(Default, Clone, Copy)]

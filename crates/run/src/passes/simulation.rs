@@ -10,12 +10,10 @@ use super::listing::{Listing, listed_passes};
 use super::options::Jumping;
 use super::solver::PassSolver;
 use super::task::Task;
-use crate::Error;
 use crate::answer::differences::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
-use crate::cable::traffic;
-use crate::ground::length_scale;
 use crate::tuning::jumps::PATIENCE;
+use creepage_plan::{Error, cable::traffic, ground::length_scale};
 
 /// What the passes did, how the cable is left, and what they cost together.
 #[derive(Clone)]

@@ -6,11 +6,9 @@ use cable_dem::{
 };
 
 use super::task::Task;
-use crate::Error;
 use crate::answer::FrictionProfile;
-use crate::cable::mass;
-use crate::ground::road::approach;
-use crate::scene::SolverMethod;
+use creepage_plan::{Error, cable::mass, ground::road::approach};
+use creepage_scene::SolverMethod;
 
 /// A solver with the scene's vehicles, ready to let them pass.
 pub enum PassSolver {

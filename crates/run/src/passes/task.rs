@@ -3,10 +3,9 @@
 use cable_dem::{CableError, CableState, DuctedCable, Mesh};
 use ground_field::DuctMotion;
 
-use crate::cable::cable;
-use crate::plan::Plan;
-use crate::scene::{Scene, SolverMethod};
-use crate::{Progress, SavedState};
+use crate::Progress;
+use creepage_plan::{Plan, SavedState, cable::cable};
+use creepage_scene::{Scene, SolverMethod};
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -22,7 +21,21 @@ pub struct Task<'a> {
     pub progress: Progress<'a>,
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and
+    /// progress.
+    pub fn of(plan: &'a Plan<'_>, scene: &'a Scene, mesh: Mesh) -> Self {
+        Self {
+            scene,
+            method: plan.method,
+            motions: &plan.ground.motions,
+            mesh,
+            start: plan.start,
+            stages: &[],
+            progress: Progress::default(),
+        }
+    }
+
     /// The cable, held where the passes begin.
     pub fn cable(&self) -> Result<DuctedCable, CableError> {
         self.start
@@ -34,21 +47,5 @@ impl Task<'_> {
         self.start
             .map(|start| start.on(self.scene, &self.mesh))
             .transpose()
-    }
-}
-
-impl Plan<'_> {
-    /// All passes of `scene`, whose ground is that of the plan, on `mesh`, without stages and
-    /// progress.
-    pub fn task<'a>(&'a self, scene: &'a Scene, mesh: Mesh) -> Task<'a> {
-        Task {
-            scene,
-            method: self.method,
-            motions: &self.ground.motions,
-            mesh,
-            start: self.start,
-            stages: &[],
-            progress: Progress::default(),
-        }
     }
 }

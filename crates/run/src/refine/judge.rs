@@ -5,9 +5,10 @@ use cable_dem::Mesh;
 
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::plan::{MOST_PASSES, Plan};
-use crate::shown::{exact_percent, percent};
-use crate::{Error, ErrorSource};
+use creepage_plan::{
+    Error, ErrorSource, MOST_PASSES, Plan,
+    shown::{exact_percent, percent},
+};
 
 /// Refuses an answer that is none, and warns of one that is not as good as asked.
 pub fn judge(error: &ErrorParts, plan: &Plan<'_>, warnings: &mut Vec<String>) -> Result<(), Error> {
@@ -53,7 +54,7 @@ pub fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
     let why = if levels.named {
         "as the scene asks".to_owned()
     } else {
-        format!("for the requested {}", exact_percent(scene.solver.tolerance))
+        format!("for a tolerance of {}", exact_percent(scene.solver.tolerance))
     };
     let of = if scale > depth {
         format!("per {scale:.1} m, over which the duct's motion changes")

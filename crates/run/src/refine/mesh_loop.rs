@@ -4,14 +4,15 @@
 use cable_dem::{CableError, Mesh, Statistics};
 
 use super::judge::mesh_reason;
+use crate::Progress;
 use crate::answer::differences::{Scale, Shares};
 use crate::answer::error_estimate::{self, ErrorParts};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread};
-use crate::ground::road;
 use crate::passes::{FixedMesh, Passes, RunOptions};
-use crate::plan::{Levels, Plan};
-use crate::tuning::meshes::{LEAST_SHARE, MAX_NODE_UPDATES, REFINEMENT_COST, SHARP};
-use crate::{Error, Progress, Scene};
+use crate::tuning::meshes::{LEAST_SHARE, REFINEMENT_COST, SHARP};
+use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
+use creepage_plan::{Error, Levels, Plan, ground::road};
+use creepage_scene::Scene;
 
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;

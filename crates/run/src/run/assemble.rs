@@ -3,23 +3,21 @@
 use cable_dem::{CableState, DuctedCable, PassOutcome, Restraint};
 use cycle_jump::{Record, peaks};
 
-use crate::Error;
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ExtremePass, ForceProfile, PassRecord, PlanSummary,
     RestraintRecord, Run, Stage, Start, balance, larger, listed, saturation,
 };
-use crate::passes::{Passes, Simulation, listed_passes};
-use crate::plan::Plan;
+use crate::passes::{Passes, Simulation, Task, listed_passes};
 use crate::refine::Solved;
-use crate::saved_state::{PastPass, SavedState};
-use crate::scene::{CableEnd, End, Scene, SolverMethod};
+use creepage_plan::{Error, PastPass, Plan, SavedState};
+use creepage_scene::{CableEnd, End, Scene, SolverMethod};
 
 /// The answer from passes that were simulated by `method`, for a `reason`.
 pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &Solved) -> Result<Run, Error> {
     let Plan { scene, ground, .. } = plan;
     let found = &solved.passes;
-    let cable = plan.task(scene, solved.mesh).cable()?;
+    let cable = Task::of(plan, scene, solved.mesh).cable()?;
     let shown = shown(plan, found);
     let restraints = restraints(plan, &cable, &found.state, &shown)?;
     let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
@@ -107,7 +105,7 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
             format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
         };
         reasons.push(format!(
-            "{of}; between them the answer follows jumps, from pass {} on",
+            "{of}; from pass {} on, passes between these are interpolated",
             first.pass
         ));
     }
@@ -134,7 +132,7 @@ fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Ve
     });
     let mut extremes: Vec<ExtremePass> = of_period.collect();
     if method == SolverMethod::PassLaw {
-        let task = plan.task(scene, solved.mesh);
+        let task = Task::of(plan, scene, solved.mesh);
         let mut simulation = Simulation::new(&task)?;
         for &vehicle in &period.absent {
             let outcome = simulation.pass(vehicle, None, &mut solved.passes.state.clone())?;
@@ -154,8 +152,8 @@ pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error
     let mesh = plan.levels.mesh(plan.levels.first)?;
     let mut scene = plan.scene.clone();
     let count = std::mem::replace(&mut scene.traffic.passes, 1);
-    let mut passes = plan.task(&scene, mesh).every_pass()?;
-    let force_profile = ForceProfile::new(&plan.task(&scene, mesh).cable()?, &passes.state)?;
+    let mut passes = Task::of(plan, &scene, mesh).every_pass()?;
+    let force_profile = ForceProfile::new(&Task::of(plan, &scene, mesh).cable()?, &passes.state)?;
     let stage = |&pass| Stage {
         pass,
         force_profile: force_profile.clone(),

@@ -5,13 +5,16 @@ mod assemble;
 use std::sync::Arc;
 
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::ground::{Ground, road};
-use crate::passes::{FixedMesh, PassSolver, RunOptions};
-use crate::plan::{Plan, plan, plan_over};
+use crate::passes::{FixedMesh, PassSolver, RunOptions, Task};
 use crate::refine::{Solved, judge};
-use crate::scene::SolverMethod;
-use crate::{Error, Run, Scene, days, finite, jumps};
+use crate::{Run, days, jumps};
 use assemble::{assemble, without_friction};
+use creepage_plan::{
+    Error, Plan, finite,
+    ground::{Ground, road},
+    plan, plan_over,
+};
+use creepage_scene::{Scene, SolverMethod};
 
 /// Computes all passes of `scene`.
 ///
@@ -82,7 +85,7 @@ const LARGEST_LEAK: f64 = 0.9;
 /// Says what limits the time step of an explicit solver; warns of a friction law that loses some of
 /// the stored force, and refuses one that loses too much.
 fn time_steps(plan: &Plan<'_>, solved: &mut Solved) -> Result<(), Error> {
-    let solver = PassSolver::new(&plan.task(plan.scene, solved.mesh))?;
+    let solver = PassSolver::new(&Task::of(plan, plan.scene, solved.mesh))?;
     let Some((limits, leaks)) = solver.time_steps() else {
         return Ok(());
     };

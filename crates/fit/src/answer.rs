@@ -1,0 +1,191 @@
+//! From the final fit to what the user reads.
+
+use cable_dem::Mesh;
+use calibrate::{Estimate, Fit, Loss};
+
+use super::diagnosis::{LEFT_OUT, diagnose};
+use super::ground;
+use super::meshes::Final;
+use super::model::{MeshOf, SeriesModel};
+use super::problem::Problem;
+use super::result::{
+    Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
+};
+use super::row::Row;
+use crate::readings::Measured;
+use creepage_plan::finite;
+use creepage_run::Error;
+use creepage_scene::four_digits;
+
+/// Shift of a parameter by the mesh, in standard errors, which an interval does not hide.
+const MESH_SHIFT: f64 = 0.8;
+
+pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
+    let fit = &found.fit;
+    let readings = readings(problem, found);
+    let r_squared = explained(&readings);
+    let diagnosis = diagnose(problem, found, mistakes, r_squared)?;
+    let suspicious = diagnosis.lack_of_fit.suspicious;
+    let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
+    let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
+    let parameters = fit.estimates.iter().zip(units);
+    let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
+    let residuals = residuals(&readings);
+    let forces = residuals.iter().find(|size| size.unit == "N");
+    let model_error = model_error(found);
+    let answer = Calibrated {
+        titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
+        parameters: parameters
+            .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
+            .collect(),
+        correlation: fit.correlation.clone(),
+        residual_rms_n: forces.map_or(0.0, |forces| forces.rms),
+        residuals,
+        r_squared,
+        evaluations: found.evaluations,
+        warnings: warnings(problem, fit, &model_error, diagnosis.warnings),
+        lack_of_fit: diagnosis.lack_of_fit,
+        assumptions: ground::assumption(problem, found)?.into_iter().collect(),
+        // Where readings have their own sigmas, there is no single noise.
+        noise_n: (!own_sigmas).then_some(fit.noise),
+        degrees_of_freedom: fit.degrees_of_freedom,
+        method: method(problem, fit)?,
+        model_error,
+        fit: readings,
+    };
+    finite::check(&answer)?;
+    Ok(answer)
+}
+
+/// Half the difference to a mesh twice as fine.
+fn model_error(found: &Final) -> ModelErrorEstimate {
+    let most = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let (error, largest) = (0.5 * most(&found.difference), most(&found.fit.fitted));
+    ModelErrorEstimate {
+        relative: if largest > 0.0 { error / largest } else { 0.0 },
+        standard_errors: found.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
+    }
+}
+
+fn warnings(
+    problem: &Problem<'_>,
+    fit: &Fit,
+    error: &ModelErrorEstimate,
+    mut warnings: Vec<String>,
+) -> Vec<String> {
+    warnings.extend(fit.warnings.iter().map(ToString::to_string));
+    for (Estimate { name, .. }, error) in fit.estimates.iter().zip(&error.standard_errors) {
+        if *error > MESH_SHIFT {
+            let words = "standard errors: its interval is too narrow";
+            warnings.push(format!("the mesh may move {name} by {error:.1} {words}"));
+        }
+    }
+    warnings.extend(
+        problem
+            .series
+            .iter()
+            .flat_map(|one| one.readings.notes())
+            .cloned(),
+    );
+    warnings
+}
+
+fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> FittedParameter {
+    let profile = estimate.profile.iter();
+    FittedParameter {
+        name: estimate.name.clone(),
+        unit,
+        value: estimate.value,
+        standard_error: estimate.standard_error,
+        interval_95: [estimate.interval.lower, estimate.interval.upper],
+        identifiable: estimate.identifiable && !suspicious,
+        profile: profile
+            .map(|&(value, rise)| ProfilePoint { value, rise })
+            .collect(),
+    }
+}
+
+fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
+    let mesh = |model: &SeriesModel| model.levels.mesh(MeshOf::Answer.level(model));
+    let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
+    let places = problem.models.iter().map(|model| model.observed[0].1.place());
+    let freedom = four_digits(fit.degrees_of_freedom);
+    let noise = if fit.noise_estimated {
+        format!(", Student's t with {freedom} degrees of freedom")
+    } else {
+        " with the given sigmas".into()
+    };
+    let error = problem.options.discrepancy.map_or_else(String::new, |share| {
+        let percent = four_digits(100.0 * share);
+        format!(", beside a smooth error of the model of {percent} % of the largest reading")
+    });
+    Ok(FitMethod {
+        cable: problem.models[0].method().to_string(),
+        load_cell: places.collect(),
+        node_spacing_m: meshes.iter().map(Mesh::spacing).collect(),
+        vehicle_step_m: meshes.iter().map(Mesh::vehicle_step).collect(),
+        loss: if problem.options.loss == Loss::Squares {
+            "squares"
+        } else {
+            "tukey"
+        },
+        intervals: format!("profile likelihood{noise}{error}"),
+    })
+}
+
+fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
+    let fit = &found.fit;
+    let fitted = |(k, row): (usize, &Row<'_>)| {
+        let (reading, measured) = (row.reading, row.reading.measured);
+        let force = |value: f64| matches!(measured, Measured::Force(_)).then_some(value);
+        let (fitted, residual) = (fit.fitted[k] + found.difference[k], fit.residuals[k]);
+        FittedReading {
+            series: row.series + 1,
+            pass: reading.pass,
+            force_n: force(reading.value),
+            fitted_n: force(fitted),
+            residual_n: force(residual),
+            weight: fit.weights[k],
+            run: problem.series[row.series].readings.runs()[reading.run].clone(),
+            line: reading.line,
+            measured: measured.name(),
+            at: row.observed.place(),
+            value: reading.value,
+            fitted,
+            residual,
+            unit: measured.unit(),
+        }
+    };
+    problem.rows.iter().enumerate().map(fitted).collect()
+}
+
+/// The share of the variance of the readings that are kept which the model explains; `None` where they do not vary.
+fn explained(readings: &[FittedReading]) -> Option<f64> {
+    let kept = || readings.iter().filter(|reading| reading.weight >= LEFT_OUT);
+    let mean = kept().map(|reading| reading.value).sum::<f64>() / kept().count().max(1) as f64;
+    let variation: f64 = kept().map(|reading| (reading.value - mean).powi(2)).sum();
+    let left: f64 = kept().map(|reading| reading.residual.powi(2)).sum();
+    (variation > 0.0).then(|| 1.0 - left / variation)
+}
+
+/// By kind of reading, in the order of the file.
+fn residuals(readings: &[FittedReading]) -> Vec<ResidualSize> {
+    let mut sizes: Vec<ResidualSize> = Vec::new();
+    for reading in readings {
+        if sizes.iter().any(|size| size.measured == reading.measured) {
+            continue;
+        }
+        let (measured, unit) = (reading.measured, reading.unit);
+        let all = readings.iter().filter(|other| other.measured == measured);
+        let (kept, left): (Vec<_>, Vec<_>) = all.partition(|other| other.weight >= LEFT_OUT);
+        let squares: f64 = kept.iter().map(|other| other.residual * other.residual).sum();
+        sizes.push(ResidualSize {
+            measured,
+            rms: (squares / kept.len().max(1) as f64).sqrt(),
+            unit,
+            readings: kept.len(),
+            left_out: left.len(),
+        });
+    }
+    sizes
+}

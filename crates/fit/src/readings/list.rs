@@ -1,0 +1,100 @@
+//! Readings, in the order of their file.
+
+use super::DataError;
+use super::reading::Reading;
+
+/// Readings of one scene, in the order of the file.
+///
+/// ```
+/// use creepage_fit::readings::Readings;
+///
+/// let readings = Readings::from_csv("cell.csv", b"pass,force_n\n1,113.4\n2,152.5\n")?;
+/// assert_eq!(readings.values(), [113.4, 152.5]);
+/// assert_eq!(readings.last_pass(), 2);
+/// # Ok::<(), creepage_fit::readings::DataError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Readings {
+    pub(super) file: String,
+    pub(super) list: Vec<Reading>,
+    pub(super) runs: Vec<String>,
+    pub(super) skipped: usize,
+    pub(super) notes: Vec<String>,
+}
+
+impl Readings {
+    /// Makes sure that there are at least `needed` readings for this number of parameters.
+    ///
+    /// # Errors
+    ///
+    /// [`DataError::Line`].
+    pub fn check_count(&self, parameters: usize, needed: usize) -> Result<(), DataError> {
+        if self.list.len() >= needed {
+            return Ok(());
+        }
+        let line = self.list.last().map_or(0, |reading| reading.line);
+        let allowed = format!(
+            "{needed} or more to fit this ({parameters} parameters); the zero before the first pass counts, as pass 0"
+        );
+        Err(DataError::line(
+            &self.file,
+            line,
+            format!("too few readings: {}", self.list.len()),
+            allowed,
+        ))
+    }
+
+    /// The readings, in the order of the file.
+    pub fn readings(&self) -> &[Reading] {
+        &self.list
+    }
+
+    /// Those of the readings that are to be kept.
+    #[must_use]
+    pub fn keep(&self, keep: impl Fn(&Reading) -> bool) -> Self {
+        let mut kept = self.clone();
+        kept.list.retain(keep);
+        kept
+    }
+
+    /// Names of the runs; one without a name where the file tells none apart.
+    pub fn runs(&self) -> &[String] {
+        &self.runs
+    }
+
+    /// Rows or cells without a value.
+    pub fn skipped(&self) -> usize {
+        self.skipped
+    }
+
+    /// What the user should know of how the file was read.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Passes from a cable at rest to the last reading.
+    pub fn last_pass(&self) -> u64 {
+        self.list.iter().map(|reading| reading.passes).max().unwrap_or(0)
+    }
+
+    /// The values, forces in newtons.
+    pub fn values(&self) -> Vec<f64> {
+        self.list.iter().map(|reading| reading.value).collect()
+    }
+
+    /// The standard deviations, where the file gives them.
+    pub fn sigmas(&self) -> Option<Vec<f64>> {
+        self.list.iter().map(|reading| reading.sigma).collect()
+    }
+}
+
+impl FromIterator<Reading> for Readings {
+    fn from_iter<I: IntoIterator<Item = Reading>>(readings: I) -> Self {
+        Self {
+            file: "readings".into(),
+            list: readings.into_iter().collect(),
+            runs: vec![String::new()],
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! What can be fitted, and between which bounds.
+
+use std::fmt;
+use std::str::FromStr;
+
+use calibrate::{CalibrationError, Parameter, Prior, Scale};
+
+use creepage_scene::Scene;
+
+/// A quantity that can be fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// μ_d, dynamic friction coefficient.
+    DynamicCoefficient,
+    /// b \[1/m\], how steeply friction builds up before the cable slips. From about 1e9 1/m on no force tells it from Coulomb's
+    /// law, which is the upper bound's meaning.
+    ShapeFactor,
+    /// How many times stiffer the ground is than the scene says: the duct's motion is divided by it.
+    GroundStiffness,
+    /// What a load cell reads too much of any force \[N\].
+    ZeroOffset,
+    /// How much more it reads too much with every pass \[N\].
+    Drift,
+    /// μ_d of the section of the route with this index.
+    SectionCoefficient(usize),
+}
+
+const NAMES: [(&str, Quantity); 5] = [
+    ("dynamic_coefficient", Quantity::DynamicCoefficient),
+    ("shape_factor", Quantity::ShapeFactor),
+    ("ground_stiffness", Quantity::GroundStiffness),
+    ("zero_offset", Quantity::ZeroOffset),
+    ("drift", Quantity::Drift),
+];
+
+/// Its name; of a section its key, `route.1.dynamic_coefficient`.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self, NAMES.iter().find(|(_, quantity)| quantity == self)) {
+            (Self::SectionCoefficient(index), _) => write!(f, "route.{index}.dynamic_coefficient"),
+            (_, name) => f.pad(name.map_or("", |(name, _)| name)),
+        }
+    }
+}
+
+impl FromStr for Quantity {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some((_, quantity)) = NAMES.iter().find(|(name, _)| *name == text) {
+            return Ok(*quantity);
+        }
+        let section = text
+            .strip_prefix("route.")
+            .and_then(|rest| rest.strip_suffix(".dynamic_coefficient"));
+        section
+            .and_then(|index| index.parse().ok())
+            .map(Self::SectionCoefficient)
+            .ok_or_else(|| {
+                let names = NAMES.map(|(name, _)| name).join(", ");
+                format!("found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient")
+            })
+    }
+}
+
+impl Quantity {
+    /// Its unit; 1 for a number.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::ShapeFactor => "1/m",
+            Self::DynamicCoefficient | Self::SectionCoefficient(_) | Self::GroundStiffness => "1",
+            Self::ZeroOffset => "N",
+            Self::Drift => "N/pass",
+        }
+    }
+
+    /// Whether it is an error of a load cell, not a property of cable or ground.
+    pub fn is_of_cell(self) -> bool {
+        matches!(self, Self::ZeroOffset | Self::Drift)
+    }
+
+    /// Least and largest value that a fit considers; those of a cell's errors follow from its readings.
+    pub fn bounds(self) -> (f64, f64) {
+        match self {
+            Self::DynamicCoefficient | Self::SectionCoefficient(_) => (0.03, 1.0),
+            Self::ShapeFactor => (1e5, 1e9),
+            Self::GroundStiffness => (0.1, 10.0),
+            Self::ZeroOffset | Self::Drift => (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
+    /// Its value in a scene.
+    pub(super) fn value(self, scene: &Scene) -> f64 {
+        match self {
+            Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
+            Self::ShapeFactor => scene.friction.law().shape_factor(),
+            Self::SectionCoefficient(index) => {
+                let own = scene
+                    .route
+                    .get(index)
+                    .and_then(|section| section.dynamic_coefficient);
+                own.unwrap_or(scene.friction.dynamic_coefficient)
+            }
+            Self::GroundStiffness => 1.0,
+            Self::ZeroOffset | Self::Drift => 0.0,
+        }
+    }
+
+    /// Sets its value in a scene; the ground's stiffness acts on the motion instead.
+    pub(super) fn set(self, scene: &mut Scene, value: f64) {
+        match self {
+            Self::DynamicCoefficient => scene.friction.dynamic_coefficient = value,
+            Self::ShapeFactor => scene.friction.shape_factor = Some(value),
+            Self::SectionCoefficient(index) => scene.route[index].dynamic_coefficient = Some(value),
+            Self::GroundStiffness | Self::ZeroOffset | Self::Drift => {}
+        }
+    }
+}
+
+/// A quantity to be fitted, of one series or of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Unknown {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// Index of the series that it belongs to; `None` where all share one value.
+    pub series: Option<usize>,
+}
+
+impl Unknown {
+    /// One value for all series.
+    pub fn shared(quantity: Quantity) -> Self {
+        Self {
+            quantity,
+            series: None,
+        }
+    }
+
+    /// A value of one series alone.
+    pub fn of(quantity: Quantity, series: usize) -> Self {
+        Self {
+            quantity,
+            series: Some(series),
+        }
+    }
+
+    /// Whether it acts on the series of this index.
+    pub(super) fn acts_on(self, series: usize) -> bool {
+        self.series.is_none_or(|own| own == series)
+    }
+
+    pub(super) fn parameter(self, prior: Option<Prior>) -> Result<Parameter, CalibrationError> {
+        let (lower, upper) = self.quantity.bounds();
+        let parameter = Parameter::new(&self.to_string(), lower, upper, Scale::Logarithmic)?;
+        match prior {
+            Some(prior) => parameter.with_prior(prior),
+            None => Ok(parameter),
+        }
+    }
+}
+
+/// As it is printed: a quantity's name, or one with the number of its series, from 1.
+impl FromStr for Unknown {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some((quantity, number)) = text.rsplit_once('_')
+            && let (Ok(quantity), Ok(number @ 1..)) = (quantity.parse(), number.parse::<usize>())
+        {
+            return Ok(Self::of(quantity, number - 1));
+        }
+        text.parse().map(Self::shared)
+    }
+}
+
+/// The quantity's name, with the number of its series, from 1, where it has one.
+impl fmt::Display for Unknown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.series {
+            None => write!(f, "{}", self.quantity),
+            Some(series) => write!(f, "{}_{}", self.quantity, series + 1),
+        }
+    }
+}

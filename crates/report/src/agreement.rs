@@ -1,0 +1,85 @@
+//! Computed force against readings of a load cell.
+
+use creepage_fit::{
+    Series, force_ends, held_end, of_forces,
+    readings::{Reading, Readings},
+    within_reach,
+};
+use creepage_run::{Error, PassRecord, Run};
+use creepage_scene::{CableEnd, Scene};
+
+/// Readings beside the force computed at the same passes.
+#[derive(Debug)]
+pub struct Agreement {
+    /// The end that pressed on the load cell.
+    pub end: CableEnd,
+    pub readings: Vec<Reading>,
+    /// Number of readings whose pass was computed.
+    pub compared: usize,
+    /// Root of the mean square of measured minus computed force over these \[N\].
+    pub rms_n: f64,
+    /// Mean of measured minus computed force \[N\].
+    pub mean_n: f64,
+    /// Largest measured force \[N\].
+    pub largest_n: f64,
+    /// What looks mistaken: sign or unit.
+    pub mistakes: Vec<String>,
+}
+
+impl Agreement {
+    /// Compares the readings with the run.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] where no end of the cable is held.
+    pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
+        let (readings, beyond) = within_reach(&Series { scene, readings });
+        let ends = force_ends(scene, &readings)?;
+        // One cell is drawn: of two, the one that the scene holds.
+        let end = held_end(scene)?;
+        let of_end = readings
+            .readings()
+            .iter()
+            .zip(ends)
+            .filter(|(_, cell)| *cell == Some(end));
+        let readings: Vec<Reading> = of_end.map(|(reading, _)| *reading).collect();
+        let computed = |reading: &Reading| Some((*reading, force_at(&run.passes, end, reading.passes)?));
+        let compared: Vec<(Reading, f64)> = readings.iter().filter_map(computed).collect();
+        let differences: Vec<f64> = compared.iter().map(|(read, force)| read.value - force).collect();
+        // The zero reading has no sign and no size.
+        let loaded = compared.iter().filter(|(reading, _)| reading.passes > 0);
+        let both: Vec<(f64, f64)> = loaded.map(|(read, force)| (read.value, *force)).collect();
+        let mistakes = of_forces(end.name(), &both).into_iter().chain(beyond).collect();
+        let mean = |of: fn(f64) -> f64| {
+            differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
+        };
+        Ok(Self {
+            end,
+            compared: differences.len(),
+            rms_n: mean(|d| d * d).sqrt(),
+            mean_n: mean(|d| d),
+            largest_n: readings
+                .iter()
+                .map(|reading| reading.value.abs())
+                .fold(0.0, f64::max),
+            mistakes,
+            readings,
+        })
+    }
+}
+
+/// Force on the end after `pass` \[N\]; between listed passes along a straight line, `None` beyond the last.
+fn force_at(passes: &[PassRecord], end: CableEnd, pass: u64) -> Option<f64> {
+    if pass == 0 {
+        return Some(0.0);
+    }
+    let force = |record: &PassRecord| end.of([record.upstream_force_n, record.downstream_force_n]);
+    let next = passes.partition_point(|record| record.pass < pass);
+    let after = passes.get(next)?;
+    if after.pass == pass || next == 0 {
+        return Some(force(after));
+    }
+    let before = &passes[next - 1];
+    let share = (pass - before.pass) as f64 / (after.pass - before.pass) as f64;
+    Some(force(before) + share * (force(after) - force(before)))
+}

@@ -1,0 +1,181 @@
+//! The page, from its head to its end.
+
+use super::cause::cause;
+use super::content::Report;
+use super::force::force;
+use super::heat::heat;
+use super::holding::holding;
+use super::html::{Html, escaped};
+use super::route::route;
+use super::section::section;
+use crate::words::{Table, candidates, error_parts, solved};
+use creepage_plan::shown::{percent, words_if};
+use creepage_run::Verdict;
+use creepage_study::design::Place;
+use plain_figure::dark_style;
+
+/// Writes a part of the page.
+type Section = fn(&mut Html, &Report);
+
+impl Report {
+    /// The page.
+    pub fn to_html(&self) -> String {
+        let mut html = Html::default();
+        html.raw(&format!(
+            include_str!("head.html"),
+            version = env!("CARGO_PKG_VERSION"),
+            title = escaped(&self.scene.title),
+            style = include_str!("style.css"),
+            dark = dark_style(),
+        ));
+        self.answer_and_verdicts(&mut html);
+        let sections: [(bool, &str, Section); 9] = [
+            (!self.warnings.is_empty(), "Warnings", warnings),
+            (true, "Scene", scene),
+            (true, "Force and movement", force),
+            (self.run.heat.is_some(), "Heat, day by day", heat),
+            (true, "Why the cable creeps", cause),
+            (self.measures.is_some(), "Ways to hold the cable", holding),
+            (true, "How it was computed", computed),
+            (true, "What is left out", left_out),
+            (true, "Where this page comes from", record),
+        ];
+        for (_, title, write) in sections.iter().filter(|(is_there, ..)| *is_there) {
+            html.raw("<section>");
+            html.element("h2", title);
+            write(&mut html, self);
+            html.raw("</section>");
+        }
+        html.raw("</main>\n</body>\n</html>");
+        html.finish()
+    }
+
+    /// Title, answer in words, verdicts, and the most important numbers.
+    fn answer_and_verdicts(&self, html: &mut Html) {
+        let answer = self.answer();
+        html.element("h1", &self.scene.title);
+        let warnings = words_if(self.warnings.is_empty(), " No warnings.");
+        let made = self.made();
+        html.paragraph(&format!(
+            "Creepage of the cable in its duct under traffic, {made}.{warnings}"
+        ));
+        html.raw("<div class=\"answer\">");
+        html.paragraph(&answer.sentences());
+        html.raw("</div>");
+        if !self.verdicts.is_empty() {
+            html.raw("<ul class=\"verdicts\">");
+        }
+        for verdict in &self.verdicts {
+            let is_kept = !verdict.is_exceeded() && verdict.levels_off_above.is_none();
+            let class = if is_kept { "kept" } else { "exceeded" };
+            html.element(&format!("li class=\"{class}\""), &answer.verdict(verdict));
+        }
+        if !self.verdicts.is_empty() {
+            html.raw("</ul>");
+        }
+        if self.verdicts.len() > 1 {
+            html.paragraph(&format!("Together: {}.", Verdict::summary(&self.verdicts)));
+        }
+        let is_of_clamp = |verdict: &Verdict| matches!(verdict.end, Place::Clamp(_));
+        let has_clamps = !self.verdicts.is_empty() && !self.scene.restraints.is_empty();
+        if has_clamps && !self.verdicts.iter().any(is_of_clamp) {
+            html.paragraph("The clamps are not judged, as no limit names them (--limit-force clamp=FORCE).");
+        }
+        html.raw("<dl class=\"headlines\">");
+        for fact in answer.facts() {
+            html.raw("<div>");
+            html.element("dt", fact.name);
+            html.element("dd class=\"value\"", &fact.value);
+            html.element("dd", &fact.note);
+            html.raw("</div>");
+        }
+        html.raw("</dl>");
+    }
+
+    /// When, by which program and from which file the page was made.
+    fn made(&self) -> String {
+        let date = self
+            .date
+            .as_ref()
+            .map_or(String::new(), |date| format!(" on {date}"));
+        let file = self.sources.first().filter(|_| self.is_from_file);
+        let from = file.map_or(String::new(), |source| format!(" from {}", source.name));
+        format!("computed{date} by creepage {}{from}", env!("CARGO_PKG_VERSION"))
+    }
+}
+
+fn warnings(html: &mut Html, report: &Report) {
+    html.list(&report.warnings);
+}
+
+fn scene(html: &mut Html, report: &Report) {
+    html.raw("<div class=\"figures\">");
+    for (svg, caption) in [section(report), route(report)] {
+        html.figure(&svg, &caption);
+    }
+    html.raw("</div>");
+    let words = report.scene_words();
+    let compression = report.run.passes.iter().map(|pass| pass.max_compression_n.abs());
+    html.list(&words.points(compression.fold(0.0, f64::max)));
+    if let Some(ground) = words.ground() {
+        html.table(&ground);
+    }
+    if let Some(scaling) = words.scaling() {
+        html.paragraph(&scaling);
+    }
+    html.table(&words.vehicles());
+}
+
+fn computed(html: &mut Html, report: &Report) {
+    let (run, error) = (&report.run, &report.run.error_estimate);
+    html.paragraph(&format!(
+        "The estimated error of the forces is {}. It says how well the equations are solved, not how well they describe a duct.",
+        percent(error.relative)
+    ));
+    let summary = "Technical detail: method, mesh, what was considered, parts of the error";
+    html.details(summary, |html| {
+        html.paragraph(&solved(&run.plan, &report.reader));
+        html.list(&run.plan.reasons);
+        html.element("h3", "What was considered");
+        html.table(&candidates(&report.plan.candidates));
+        html.element("h3", "Error of the forces");
+        html.paragraph(&format!("{} in all, {}.", percent(error.relative), error.method));
+        html.table(&error_parts(run));
+    });
+}
+
+fn left_out(html: &mut Html, report: &Report) {
+    let heat = match report.run.heat {
+        Some(_) => "A swing of temperature over the seasons",
+        None => {
+            "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does; the scene has no [heat])"
+        }
+    };
+    html.paragraph(&format!(
+        "{heat}, vehicles near the speed of the ground’s waves, and any change of the ground with time."
+    ));
+    html.paragraph(
+        "Method: K. Kashiro, K. Iwamura, T. Kamibayashi, T. Nagayama, H. Nishikubo, “Development of an Analysis Method for Power \
+         Cable Creepage Phenomenon in the Duct”, Furukawa Review.",
+    );
+}
+
+/// The record by which the page can be checked later.
+fn record(html: &mut Html, report: &Report) {
+    html.paragraph(&format!("This page was {}.", report.made()));
+    if !report.overrides.is_empty() {
+        html.paragraph("Set on top of the scene’s file:");
+        html.list(&report.overrides);
+    }
+    let rows = report
+        .sources
+        .iter()
+        .map(|source| vec![source.name.clone(), source.sha256.clone()]);
+    html.raw("<div class=\"digests\">");
+    html.table(&Table {
+        head: ["read", "SHA-256"].map(str::to_owned).into(),
+        rows: rows.collect(),
+        words: 2,
+    });
+    html.raw("</div>");
+}

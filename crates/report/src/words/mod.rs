@@ -1,0 +1,14 @@
+//! What readers read, on the terminal, on the page and in a workbook: the one place that knows digits, units of a reader, times, tables
+//! and sentences.
+
+mod answer;
+mod number;
+mod reader;
+mod scene;
+mod table;
+
+pub use answer::{Answer, Fact, pressed_end};
+pub use number::{count, round_below, significant};
+pub use reader::Reader;
+pub use scene::{SceneWords, held_by, middle};
+pub use table::{Table, after_pass, candidates, error_parts, narrow_name, over_day, solved};

@@ -1,0 +1,183 @@
+//! The search for a design.
+
+use std::sync::Arc;
+
+use super::answer::{ACCURACY, Design};
+use super::error::DesignError;
+use super::options::DesignOptions;
+use super::pair_map;
+use super::runs::{Runs, springs};
+use super::trade_off::{Binding, Limit, Side, Spring, TradeOff, with_duct};
+use creepage_plan::ground::{Ground, road};
+use creepage_run::{Error, Place};
+use creepage_scene::Scene;
+
+/// The curve of one spring has points in half decades.
+const POINTS_PER_DECADE: i32 = 2;
+/// Runs that halve half a decade to that width, at two ends: only the progress depends on it.
+const HALVINGS: usize = 14;
+
+/// Finds the stiffnesses within the limits.
+///
+/// ```
+/// use creepage_scene::Scene;
+/// use creepage_study::design::{DesignOptions, Limits, Place, design};
+///
+/// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
+/// scene.traffic.passes = 2;
+/// let limits = Limits::both(Some(100.0), None);
+/// let design = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
+/// assert!(design.answer.is_some_and(|answer| answer.force_n <= 100.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`DesignError`] where limits or places have no meaning, a run fails, or the limits of one spring
+/// are kept in several ranges of stiffness.
+pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
+    options.check(scene)?;
+    scene.validate().map_err(Error::from)?;
+    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
+    let limits = &options.limits;
+    let (runs, rough_runs, chosen) = match options.places[..] {
+        [one, other] => pair_map::search(scene, &ground, [one, other], options)?,
+        _ => one_spring(scene, &ground, options)?,
+    };
+    let curve = runs.points();
+    // Between two stiffnesses that keep a limit every other does; the run has the last word.
+    let answer = chosen.filter(|answer| answer.within_limits);
+    let answer = answer.map(|answer| runs.judged(answer)).transpose()?;
+    let by_excess = |a: &&TradeOff, b: &&TradeOff| a.excess(limits).total_cmp(&b.excess(limits));
+    let nearest = curve.iter().filter(|_| answer.is_none()).min_by(by_excess);
+    let nearest = nearest.map(|nearest| runs.judged(nearest.clone())).transpose()?;
+    let kept = kept(&curve).filter(|_| options.places.len() == 1);
+    let binding = match (&answer, &nearest, kept) {
+        (Some(answer), _, Some(kept)) => binding(answer, &curve, kept, &with_duct(limits, scene)),
+        (Some(found), ..) | (None, Some(found), _) => found.tightest(limits),
+        (None, None, _) => Vec::new(),
+    };
+    Ok(Design {
+        title: scene.title.clone(),
+        place: options.places[0],
+        places: options.places.clone(),
+        passes: scene.traffic.passes,
+        limits: limits.clone(),
+        range_n_per_m: kept
+            .map(|kept| stiffnesses(&curve, kept))
+            .filter(|(from, _)| from.is_finite())
+            .map(|(from, to)| (from, to.is_finite().then_some(to))),
+        answer,
+        nearest,
+        binding,
+        // Those of the mesh and of the answer too.
+        runs: rough_runs + curve.len() + 2,
+        curve,
+    })
+}
+
+/// The runs of the scene, none of them rough, with one spring and with what to take of those within
+/// all limits. Where the curve shows none, the stiffness is halved in on at which the worst limit of
+/// softer springs is as far exceeded as that of stiffer ones.
+fn one_spring<'a>(
+    scene: &Scene,
+    ground: &Arc<Ground>,
+    options: &'a DesignOptions<'a>,
+) -> Result<(Runs<'a>, usize, Option<TradeOff>), DesignError> {
+    let (place, limits) = (options.places[0], &options.limits);
+    let springs = springs(scene, place, limits, POINTS_PER_DECADE);
+    let expected = springs.len() + HALVINGS;
+    let runs = Runs::new(scene, ground, &options.places, limits, options.progress, expected)?;
+    let curve = runs.run_all(springs.into_iter().map(|spring| vec![spring]).collect())?;
+    let pieces = curve.chunk_by(|a, b| a.within_limits == b.within_limits);
+    match pieces.filter(|piece| piece[0].within_limits).count() {
+        0 => approach(&runs, &curve, &with_duct(limits, scene))?,
+        1 => {}
+        ranges => return Err(DesignError::NotMonotone(ranges)),
+    }
+    for pair in runs.points().windows(2) {
+        let is_upper = |point: &TradeOff| point.within_limits == pair[1].within_limits;
+        if !is_upper(&pair[0]) {
+            halve(&runs, [&pair[0], &pair[1]], is_upper)?;
+        }
+    }
+    let points = runs.points();
+    let chosen = kept(&points).map(|kept| choice(place, stiffnesses(&points, kept)));
+    let chosen = chosen.map(|chosen| runs.run(&[Spring::new(place, chosen)]));
+    let chosen = chosen.transpose()?;
+    Ok((runs, 0, chosen))
+}
+
+/// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
+/// worst limit of softer springs is as far exceeded as that of stiffer ones.
+fn approach(runs: &Runs<'_>, curve: &[TradeOff], limits: &[Limit]) -> Result<(), DesignError> {
+    let worst = |point: &TradeOff| {
+        let by_share = |a: &&Limit, b: &&Limit| point.share(**a).total_cmp(&point.share(**b));
+        limits.iter().max_by(by_share).copied()
+    };
+    let excess = |i: &usize| worst(&curve[*i]).map_or(0.0, |limit| curve[*i].share(limit));
+    let best = (0..curve.len()).min_by(|a, b| excess(a).total_cmp(&excess(b)));
+    let best = best.unwrap_or(0);
+    let around = [best.saturating_sub(1), (best + 1).min(curve.len() - 1)].map(|at| &curve[at]);
+    halve(runs, around, |point| {
+        worst(point).is_none_or(|limit| around[1].share(limit) > around[0].share(limit))
+    })
+}
+
+/// Bisection in ln k between two runs, of which the stiffer one `is_upper`, until they differ by
+/// [`ACCURACY`]. Beyond the ends of the curve a stiffness means as little as none, or as much as a
+/// fixed end.
+fn halve(
+    runs: &Runs<'_>,
+    ends: [&TradeOff; 2],
+    is_upper: impl Fn(&TradeOff) -> bool,
+) -> Result<(), DesignError> {
+    let place = ends[0].springs[0].place;
+    let [mut softer, mut stiffer] = ends.map(TradeOff::stiffness);
+    while softer > 0.0 && stiffer.is_finite() && stiffer > (1.0 + ACCURACY) * softer {
+        let middle = (softer * stiffer).sqrt();
+        if is_upper(&runs.run(&[Spring::new(place, middle)])?) {
+            stiffer = middle;
+        } else {
+            softer = middle;
+        }
+    }
+    Ok(())
+}
+
+/// The first and the last point within the limits.
+fn kept(curve: &[TradeOff]) -> Option<[usize; 2]> {
+    let is_kept = |point: &TradeOff| point.within_limits;
+    Some([curve.iter().position(is_kept)?, curve.iter().rposition(is_kept)?])
+}
+
+/// The stiffnesses from the first to the last point that is kept \[N/m\]; to infinity where the
+/// stiffest is.
+fn stiffnesses(curve: &[TradeOff], [first, last]: [usize; 2]) -> (f64, f64) {
+    let beyond = curve.get(last + 1);
+    let to = beyond.map_or(f64::INFINITY, |_| curve[last].stiffness());
+    (curve[first].stiffness(), to)
+}
+
+/// The limits that springs beside those that are kept exceed.
+fn binding(answer: &TradeOff, curve: &[TradeOff], kept: [usize; 2], limits: &[Limit]) -> Vec<Binding> {
+    let softer = curve[..kept[0]].last().map(|point| (point, Side::Softer));
+    let stiffer = curve.get(kept[1] + 1).map(|point| (point, Side::Stiffer));
+    let mut binding = Vec::new();
+    for (point, side) in softer.into_iter().chain(stiffer) {
+        let exceeded = limits.iter().filter(|limit| point.share(**limit) > 1.0);
+        binding.extend(exceeded.map(|limit| answer.binding(*limit, Some(side))));
+    }
+    binding
+}
+
+/// What to take of the stiffnesses that keep the limits. An end that may be fixed is fixed, and a
+/// clamp that is not needed is left out; an end is held as stiffly as the force allows, or in the
+/// middle of the range where movement is limited too; a clamp is as soft as may be.
+fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
+    match place {
+        Place::Clamp(_) => from,
+        _ if to.is_infinite() || from == 0.0 => to,
+        _ => (from * to).sqrt(),
+    }
+}

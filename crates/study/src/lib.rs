@@ -1,0 +1,8 @@
+#![doc = include_str!("../README.md")]
+
+#[doc(hidden)]
+pub mod book;
+pub mod design;
+#[doc(hidden)]
+pub mod output;
+pub mod sweep;

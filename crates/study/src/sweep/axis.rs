@@ -1,0 +1,270 @@
+//! One varied key: the values that it takes.
+
+use super::distribution::drawn;
+use super::error::SweepError;
+use super::numbers::{number, numbers, unit};
+use creepage_scene::Unit;
+
+/// Most values of a range.
+const MOST_VALUES: f64 = 1e6;
+/// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
+const DIGITS: usize = 12;
+
+/// A key and the values it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The scene's key.
+    pub key: String,
+    /// Its values, as they would stand after `--set KEY=`, or [distributions](super::Distribution)
+    /// to draw from.
+    pub values: Vec<String>,
+}
+
+/// What was found, and what is allowed in its place.
+type Refusal = (String, String);
+
+impl Axis {
+    /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a
+    /// [distribution](super::Distribution::parse). Numbers may have a unit: `0.6m:2m:0.2m`.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Invalid`] with what is allowed.
+    pub fn parse(text: &str) -> Result<Self, SweepError> {
+        Self::read(text).map_err(|(found, allowed)| SweepError::Invalid {
+            argument: format!("--vary {text}: "),
+            found,
+            allowed,
+        })
+    }
+
+    fn read(text: &str) -> Result<Self, Refusal> {
+        let (key, written) = text.split_once('=').unwrap_or_default();
+        let (key, written) = (key.trim(), written.trim());
+        if key.is_empty() || written.is_empty() {
+            let allowed = "KEY=A:B:STEP, KEY=V1,V2,… or KEY=normal(MEAN, SD), with a key such as duct.depth";
+            return Err(("no key or no value".into(), allowed.into()));
+        }
+        let refused = |allowed: &str| (written.to_owned(), allowed.to_owned());
+        let values = if let Some(distribution) = drawn(key, written) {
+            distribution.map_err(refused)?;
+            vec![written.to_owned()]
+        } else if let Some(range) = range(written) {
+            range.map_err(refused)?
+        } else {
+            list(written)?
+        };
+        Ok(Self {
+            key: key.to_owned(),
+            values,
+        })
+    }
+
+    /// The unit of all its values, where they have one.
+    pub(super) fn unit(&self) -> Option<Unit> {
+        let of = |value: &String| match drawn(&self.key, value) {
+            Some(distribution) => unit(&distribution.ok()?.quantile(0.5).1),
+            None => unit(value),
+        };
+        let mut units = self.values.iter().filter(|value| !value.is_empty()).map(of);
+        let first = units.next()?;
+        first.filter(|_| units.all(|unit| unit == first))
+    }
+}
+
+/// The parts of a list; commas inside brackets and quotes part nothing.
+fn split(text: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let (mut start, mut depth, mut quote) = (0, 0_usize, None);
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (Some(open), _) => quote = Some(open).filter(|&open| c != open),
+            (None, '"' | '\'') => quote = Some(c),
+            (None, '{' | '[' | '(') => depth += 1,
+            (None, '}' | ']' | ')') => depth = depth.saturating_sub(1),
+            (None, ',') if depth == 0 => {
+                parts.push(&text[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[start..]);
+    parts
+}
+
+/// The values of V1,V2,….
+fn list(text: &str) -> Result<Vec<String>, Refusal> {
+    let list: Vec<&str> = split(text).into_iter().map(str::trim).collect();
+    let units = list.iter().filter_map(|value| Some(number(value)?.1));
+    let units: Vec<&str> = units.collect();
+    let last = units.last().copied().unwrap_or_default();
+    if list.contains(&"") {
+        return Err(("an empty value".into(), "values between commas".into()));
+    }
+    if let ([first, second], Some(one)) = (&list[..], decimal_comma(text)) {
+        let space = if last.is_empty() { " " } else { "" };
+        return Err((
+            format!("{first} and {second}, or {one}?"),
+            format!("`{first}{last},{space}{second}` for two values, `{one}` for one"),
+        ));
+    }
+    if let [one] = list[..]
+        && let Some((first, last)) = one.split_once("..").or_else(|| one.split_once('-'))
+        && let (Some(_), Some(_), None) = (number(first), number(last), number(one))
+    {
+        let range = format!("A:B:STEP for a range, such as {first}:{last}:STEP");
+        return Err((one.to_owned(), range));
+    }
+    if units.contains(&"") && units.iter().any(|unit| !unit.is_empty()) {
+        return Err((
+            "values with a unit and without one".into(),
+            format!("the unit at every value, such as {}{last}", list[0]),
+        ));
+    }
+    Ok(list.into_iter().map(str::to_owned).collect())
+}
+
+/// Two values that may be one with a decimal comma, as it would be written with a point: `1,5m`,
+/// `0,25`, `1,05`.
+fn decimal_comma(text: &str) -> Option<String> {
+    let (whole, rest) = text.split_once(',')?;
+    let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
+    let (digits, unit) = rest.split_at(rest.bytes().take_while(u8::is_ascii_digit).count());
+    let whole_numbers =
+        !unsigned.is_empty() && !digits.is_empty() && unsigned.bytes().all(|b| b.is_ascii_digit());
+    if !whole_numbers || number(rest)?.1 != unit.trim() {
+        return None;
+    }
+    let like_one = !unit.is_empty() || unsigned == "0" || (digits.len() > 1 && digits.starts_with('0'));
+    like_one.then(|| format!("{whole}.{rest}"))
+}
+
+/// The values of A:B:STEP, both ends included, or what is allowed; `None` for what does not begin
+/// so.
+fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
+    let parts: Vec<&str> = text.split(':').collect();
+    number(parts[0]).filter(|_| parts.len() > 1)?;
+    if parts.len() == 2 {
+        return Some(Err("A:B:STEP, which needs a step, such as 1:2:0.5"));
+    }
+    let Some(([first, last, step], unit)) = numbers(&parts) else {
+        return Some(Err("A:B:STEP, three numbers in one unit"));
+    };
+    let steps = (last - first) / step;
+    let is_bare = |part: &&str| number(part).is_some_and(|(_, unit)| unit.is_empty());
+    let counts = parts.iter().map(is_bare).eq([false, false, true]);
+    if !(0.0..=MOST_VALUES).contains(&steps) || counts || (steps < 1.0 - 1e-9 && first != last) {
+        return Some(Err(
+            "A:B:STEP with a STEP that leads from A to B, a distance in their unit and no number of values, to a million values at most",
+        ));
+    }
+    // The end counts where rounding alone keeps a step from it.
+    let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
+    let value = |i: u64| {
+        let value = first + i as f64 * step;
+        let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+        // Next to the steps themselves, zero is zero.
+        let is_zero = rounded.abs() < 1e-9 * step.abs();
+        let value = if is_zero { 0.0 } else { rounded };
+        format!("{value} {unit}").trim_end().to_owned()
+    };
+    Some(Ok((0..=count).map(value).collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn listed(text: &str) -> Vec<String> {
+        Axis::parse(text).expect("an axis").values
+    }
+
+    #[test]
+    fn ranges_hold_both_ends_as_they_would_be_written() {
+        assert_eq!(listed("a=0.1:0.5:0.1"), ["0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(listed("a = 1:2:0.4"), ["1", "1.4", "1.8"]);
+        assert_eq!(listed("a=-0.2:0.2:0.1"), ["-0.2", "-0.1", "0", "0.1", "0.2"]);
+        assert_eq!(listed("a=2m:1m:-0.5m"), ["2 m", "1.5 m", "1 m"]);
+        assert_eq!(listed("a=1:3:1 MN/m"), ["1 MN/m", "2 MN/m", "3 MN/m"]);
+        assert_eq!(
+            listed("a=1e6 N:2e6 N:5e5 N"),
+            ["1000000 N", "1500000 N", "2000000 N"]
+        );
+        assert_eq!(listed("a=5:5:1"), ["5"]);
+        assert_eq!(listed("a=0:0.3:0.1").len(), 4);
+        assert_eq!(listed("a=0:1:0.001").len(), 1001);
+    }
+
+    #[test]
+    fn lists_keep_what_stands_in_brackets_together() {
+        assert_eq!(listed("a=1,2, 3"), ["1", "2", "3"]);
+        assert_eq!(
+            listed("ends.downstream={ spring = \"3 MN/m\", x = 1 },fixed"),
+            ["{ spring = \"3 MN/m\", x = 1 }", "fixed"]
+        );
+        assert_eq!(listed("title=\"a,b\",c"), ["\"a,b\"", "c"]);
+        assert_eq!(listed("v=t-25"), ["t-25"]);
+    }
+
+    #[test]
+    fn what_is_no_axis_is_refused() {
+        for text in [
+            "a",
+            "=1",
+            "a=",
+            "a=1,,2",
+            "a=1:2:0",
+            "a=1:2:-1",
+            "a=1m:2km:1m",
+            "a=0:1:1e-9",
+            "a=0:8000000:1",
+            "a=1:10000001:1.2.3",
+            "a=1:2:3:4",
+            "a=1:x:2",
+            "a=normal(1)",
+            "a=normal(1, 0)",
+            "a=normal(1, -1)",
+            "a=normal(1, nan)",
+            "a=lognormal(-1, 1)",
+            "a=lognormal(1, 1 m)",
+            "a=uniform(2, 1)",
+            "a=triangle(1, 2)",
+            "a=uniform(1 m, 2 N)",
+        ] {
+            assert!(Axis::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_may_be_a_decimal_comma_is_told_with_both_readings() {
+        let told = |text: &str| Axis::parse(text).expect_err(text).to_string();
+        for (text, readings) in [
+            ("duct.depth=1,5m", "1 and 5m, or 1.5m?"),
+            ("duct.depth=1,5 m", "1 and 5 m, or 1.5 m?"),
+            ("friction.dynamic_coefficient=0,25", "0 and 25, or 0.25?"),
+            ("a=-0,3", "-0 and 3, or -0.3?"),
+            ("a=1,05", "1 and 05, or 1.05?"),
+        ] {
+            assert!(told(text).contains(readings), "{}", told(text));
+        }
+        // What is proposed is taken.
+        assert!(told("a=1,5m").contains("`1m,5m` for two values, `1.5m` for one"));
+        assert!(told("a=0,25").contains("`0, 25` for two values, `0.25` for one"));
+        assert!(told("a=0.5,1,2m").contains("the unit at every value, such as 0.5m"));
+        for range in ["a=0.1-0.5", "a=0.1..0.5"] {
+            assert!(told(range).contains("A:B:STEP for a range, such as 0.1:0.5:STEP"));
+        }
+        assert_eq!(listed("a=1e-5"), ["1e-5"]);
+        assert!(told("duct.depth=1m:2m").contains("A:B:STEP, which needs a step"));
+        // Lists that are none.
+        assert_eq!(listed("traffic.passes=10,100"), ["10", "100"]);
+        assert_eq!(listed("a=0, 1"), ["0", "1"]);
+        assert_eq!(listed("a=0,0.5"), ["0", "0.5"]);
+        assert_eq!(listed("a=1,5e3"), ["1", "5e3"]);
+        assert_eq!(listed("a=1m,5m"), ["1m", "5m"]);
+        assert_eq!(listed("a=0.2,0.3"), ["0.2", "0.3"]);
+        assert_eq!(listed("ends.downstream=fixed,free"), ["fixed", "free"]);
+    }
+}

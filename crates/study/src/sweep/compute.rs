@@ -1,0 +1,109 @@
+//! Computing the points of a sweep, each in one thread.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::columns::{Answer, AnswerColumn, Row};
+use super::error::SweepError;
+use super::grid::Sweep;
+use super::run::SweepOptions;
+use creepage_plan::{
+    error::with_causes,
+    finite,
+    ground::{Ground, road},
+};
+use creepage_run::{Error, Progress, Run, RunOptions, run::run_over};
+use creepage_scene::Scene;
+
+impl Sweep {
+    /// Computes the points of these numbers, and gives their rows to `keep` as they are finished.
+    pub(super) fn compute(
+        &self,
+        points: &[usize],
+        columns: &[AnswerColumn],
+        options: &SweepOptions<'_>,
+        keep: impl FnMut(usize, Row) -> Result<(), SweepError> + Send,
+    ) -> Result<(), SweepError> {
+        let count = self.count();
+        let (begun, done) = (AtomicUsize::new(0), AtomicUsize::new(count - points.len()));
+        let report = || options.progress.report(done.load(Relaxed) as f64 / count as f64);
+        report().map_err(|_| SweepError::Stopped)?;
+        // A point that takes long can be stopped too.
+        let within = |_| report().map_or(ControlFlow::Break(()), ControlFlow::Continue);
+        let keep = Mutex::new(keep);
+        let work = || -> Result<(), SweepError> {
+            let mut known = None;
+            let run_options = RunOptions {
+                progress: Progress::new(&within),
+                ..RunOptions::default()
+            };
+            let mut run = |scene: &Scene| match options.evaluate {
+                Some(evaluate) => evaluate(scene),
+                None => run_over(scene, ground_of(scene, &mut known)?, &run_options),
+            };
+            while let Some(&index) = points.get(begun.fetch_add(1, Relaxed)) {
+                let row = self.computed(index, columns, &mut run)?;
+                keep.lock().unwrap_or_else(PoisonError::into_inner)(index, row)?;
+                done.fetch_add(1, Relaxed);
+                report().map_err(|_| SweepError::Stopped)?;
+            }
+            Ok(())
+        };
+        let ends = rayon::broadcast(|_| {
+            // Where one thread fails, no other begins another point.
+            work().inspect_err(|_| begun.store(points.len(), Relaxed))
+        });
+        ends.into_iter().collect()
+    }
+
+    /// The row of one point. Whatever goes wrong there is its answer, in one line: what follows it
+    /// shows the place in the file again.
+    fn computed(
+        &self,
+        index: usize,
+        columns: &[AnswerColumn],
+        run: &mut impl FnMut(&Scene) -> Result<Run, Error>,
+    ) -> Result<Row, SweepError> {
+        let compute = || -> Result<Row, Error> {
+            let scene = self.scene(index)?;
+            let run = &run(&scene)?;
+            finite::check(run)?;
+            let limits = self.limits.as_ref();
+            let verdicts = limits.map_or(Ok(Vec::new()), |limits| limits.verdicts(run, &scene))?;
+            let answer = Answer {
+                run,
+                last: run.passes.last().ok_or(Error::NoPass)?,
+                verdicts: &verdicts,
+            };
+            Ok(self.row(index, Ok(answer), columns))
+        };
+        let error = match catch_unwind(AssertUnwindSafe(compute)) {
+            Ok(Ok(row)) => return Ok(row),
+            Ok(Err(Error::Stopped)) => return Err(SweepError::Stopped),
+            Ok(Err(error)) => with_causes(&error),
+            Err(_) => "the computation broke off".into(),
+        };
+        let line = error.lines().next().unwrap_or_default();
+        Ok(self.row(index, Err(&line.replace(char::is_control, " ")), columns))
+    }
+}
+
+/// The ground of `scene`: that of the scene before, which is `known`, where nothing differs that the
+/// motion of the duct depends on.
+fn ground_of(scene: &Scene, known: &mut Option<(Scene, Arc<Ground>)>) -> Result<Arc<Ground>, Error> {
+    let numbers = |scene: &Scene| {
+        let (duct, tolerance) = (&scene.duct, scene.solver.tolerance);
+        [duct.depth, duct.lateral_offset, road::reach(scene), tolerance]
+    };
+    if let Some((last, ground)) = known
+        && (&last.ground, &last.vehicles) == (&scene.ground, &scene.vehicles)
+        && numbers(last) == numbers(scene)
+    {
+        return Ok(Arc::clone(ground));
+    }
+    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
+    *known = Some((scene.clone(), Arc::clone(&ground)));
+    Ok(ground)
+}

@@ -1,0 +1,78 @@
+//! A list of ducts: one row a duct, columns named as scene keys.
+
+use std::path::Path;
+
+use creepage_tables::{Layout, Name, Options, Row, Table};
+
+use super::distribution::{ID, TEXTS};
+use super::error::SweepError;
+use super::grid::Sweep;
+use super::samples::Samples;
+use super::table;
+use creepage_scene::{Dimension, SceneFile};
+
+type Result<T> = std::result::Result<T, SweepError>;
+
+const LAYOUT: Layout = Layout {
+    kinds: &[],
+    measured: None,
+    // Above its names a table may say of what it is.
+    missing: |names| {
+        let is_key = |name: &Name| {
+            let is_word = name.text.starts_with(char::is_alphabetic) && !name.bare.contains(' ');
+            name.bare == ID || is_word && name.text.contains('.')
+        };
+        (!names.iter().any(is_key)).then_some("named as a key")
+    },
+    is_number: |name| !TEXTS.contains(&name.bare.rsplit('.').next().unwrap_or("")),
+    unnamed: &[],
+    unit: |word| {
+        let units = Dimension::ALL.iter().flat_map(|dimension| dimension.units());
+        units.into_iter().find(|unit| *unit == word)
+    },
+    si: |_, _, _| Err("text".into()),
+    most: 256 << 20,
+    allowed: "columns named as keys of a scene, such as `duct.length [m]`, and `id`",
+};
+
+impl Sweep {
+    /// The ducts of a table, `.csv` or `.xlsx`, read as `options` say, as [`Sweep::of_table`] takes
+    /// them.
+    ///
+    /// # Errors
+    ///
+    /// As for [`read`] and [`Sweep::of_table`].
+    pub fn of_rows(file: SceneFile, table: &Path, options: &Options, samples: Samples) -> Result<Self> {
+        Self::of_table(file, read(table, options)?, samples)
+    }
+}
+
+/// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, read as `options` say, each with
+/// a value a row; empty where the row has none. Numbers have a decimal point, and the unit of their
+/// column if they have none.
+///
+/// # Errors
+///
+/// [`SweepError::Rows`] where there is no such table, [`SweepError::Invalid`] where the name ends
+/// otherwise.
+pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>> {
+    table::ending(file)?;
+    let table = Table::from_file(file, options, &LAYOUT)?;
+    let value = |row: &Row, column: usize| -> Result<String> {
+        let is_number = (LAYOUT.is_number)(&table.names[column]);
+        let number = is_number.then(|| table.quantity(row, column, column));
+        let number = number.transpose()?.flatten();
+        let written = number.map(|(digits, unit)| format!("{digits} {unit}").trim_end().to_owned());
+        Ok(written.unwrap_or_else(|| row.cell(column).to_owned()))
+    };
+    let values = |column| {
+        table
+            .rows
+            .iter()
+            .map(|row| value(row, column))
+            .collect::<Result<_>>()
+    };
+    let columns = table.names.iter().enumerate();
+    let columns = columns.map(|(column, name)| Ok((name.bare.clone(), values(column)?)));
+    columns.collect()
+}

@@ -1,0 +1,88 @@
+//! One computation at a time, of scenes that are alike: the newest question stops the others, and what is known of the ground is used again.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use creepage_plan::ground::{Ground, road};
+
+use crate::scene::{self, TrafficVehicle};
+use crate::{Error, Progress, Run, RunOptions, SavedState, Scene};
+
+/// Grounds that are kept: those of drafts and of answers, each before and after the last change.
+const GROUNDS: usize = 4;
+
+/// What a ground follows from: layers, vehicles; depth, offset and reach \[m\], and the tolerance.
+type Site = (scene::Ground, Vec<TrafficVehicle>, [f64; 4]);
+
+#[derive(Default)]
+pub struct Bench {
+    grounds: Vec<(Site, Arc<Ground>)>,
+    /// The scene that was run last, and the cable as that leaves it.
+    last: Option<(Scene, Arc<SavedState>)>,
+}
+
+impl Bench {
+    /// The ground of `scene`: of two layers and two lanes it takes longer than the passes of a draft.
+    pub fn ground(&mut self, scene: &Scene) -> Result<Arc<Ground>, Error> {
+        let (duct, reach) = (&scene.duct, road::reach(scene));
+        let numbers = [duct.depth, duct.lateral_offset, reach, scene.solver.tolerance];
+        let site = (scene.ground.clone(), scene.vehicles.clone(), numbers);
+        if let Some((_, ground)) = self.grounds.iter().find(|(known, _)| *known == site) {
+            return Ok(Arc::clone(ground));
+        }
+        let ground = Arc::new(Ground::new(scene, None, reach)?);
+        self.grounds.insert(0, (site, Arc::clone(&ground)));
+        self.grounds.truncate(GROUNDS);
+        Ok(ground)
+    }
+
+    /// Runs a valid `scene`, as [`crate::run_with`] does.
+    pub fn run(&mut self, scene: &Scene, progress: Progress<'_>) -> Result<Run, Error> {
+        let options = RunOptions {
+            progress,
+            ..RunOptions::default()
+        };
+        let run = creepage_run::run::run_over(scene, self.ground(scene)?, &options)?;
+        self.last = run.state.clone().map(|state| (scene.clone(), Arc::new(state)));
+        Ok(run)
+    }
+
+    /// The cable as the passes of `scene` leave it, on whatever mesh.
+    pub fn state(&mut self, scene: &Scene, progress: Progress<'_>) -> Result<Option<Arc<SavedState>>, Error> {
+        let is_it = |last: &(Scene, _)| {
+            let mut last = last.0.clone();
+            last.solver = scene.solver;
+            last == *scene
+        };
+        if !self.last.as_ref().is_some_and(is_it) {
+            self.run(scene, progress)?;
+        }
+        Ok(self.last.as_ref().map(|(_, state)| Arc::clone(state)))
+    }
+}
+
+#[derive(Default)]
+pub struct Desk {
+    newest: AtomicU64,
+    bench: Mutex<Bench>,
+}
+
+impl Desk {
+    /// Computes in rayon's threads, until something newer is asked.
+    pub fn compute<A: Send>(
+        &self,
+        work: impl FnOnce(&mut Bench, Progress<'_>) -> Result<A, Error> + Send,
+    ) -> Result<A, Error> {
+        let own = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
+        let go_on = |_| match self.newest.load(Ordering::Relaxed) {
+            newest if newest == own => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        let progress = Progress::new(&go_on);
+        let mut bench = self.bench.lock().unwrap_or_else(PoisonError::into_inner);
+        progress.report(0.0)?;
+        let bench = &mut *bench;
+        rayon::scope(|_| work(bench, progress))
+    }
+}

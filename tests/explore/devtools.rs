@@ -1,0 +1,224 @@
+//! Chromium over its DevTools protocol: messages of JSON in frames of a WebSocket (RFC 6455).
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+const PATIENCE: Duration = Duration::from_secs(60);
+/// A key for the handshake; any 16 bytes will do.
+const KEY: &str = "AAAAAAAAAAAAAAAAAAAAAA==";
+
+pub struct Browser {
+    child: Child,
+    stream: TcpStream,
+    /// Of the page; none before it is found.
+    session: String,
+    count: u64,
+    events: Vec<Value>,
+}
+
+impl Browser {
+    /// A browser with one empty page, whose profile lies in `folder`.
+    pub fn start(folder: &Path) -> Self {
+        let program = std::env::var("CHROMIUM").unwrap_or_else(|_| "chromium".into());
+        let mut child = Command::new(&program)
+            .args([
+                "--headless=new",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--no-first-run",
+                "--remote-debugging-port=0",
+            ])
+            .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+            .arg("about:blank")
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap_or_else(|error| panic!("{program} does not start: {error}"));
+        let mut errors = BufReader::new(child.stderr.take().expect("its errors")).lines();
+        let address = errors.find_map(|line| {
+            let line = line.ok()?;
+            line.split_once("ws://127.0.0.1:")
+                .map(|(_, address)| address.to_owned())
+        });
+        // It waits for no reader of what it says later.
+        std::thread::spawn(move || errors.for_each(drop));
+        let address = address.expect("an address of the browser");
+        let (port, path) = address.split_once('/').expect("a path");
+        let port: u16 = port.parse().expect("a port");
+        let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("a connection");
+        stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
+        let head = format!(
+            "GET /{path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+             Sec-WebSocket-Key: {KEY}\r\nSec-WebSocket-Version: 13\r\n\r\n"
+        );
+        stream.write_all(head.as_bytes()).expect("a handshake");
+        let mut reply = Vec::new();
+        while !reply.ends_with(b"\r\n\r\n") {
+            reply.extend_from_slice(&bytes(&mut stream, 1));
+        }
+        let session = String::new();
+        let mut browser = Self {
+            child,
+            stream,
+            session,
+            count: 0,
+            events: Vec::new(),
+        };
+        let targets = browser.call("Target.getTargets", &json!({}));
+        let mut targets = targets["targetInfos"].as_array().expect("a list").iter();
+        let page = targets.find(|target| target["type"] == "page").expect("a page");
+        let page = json!({ "targetId": page["targetId"], "flatten": true });
+        let attached = browser.call("Target.attachToTarget", &page);
+        attached["sessionId"]
+            .as_str()
+            .expect("a session")
+            .clone_into(&mut browser.session);
+        for domain in ["Page", "Runtime", "Log"] {
+            browser.call(&format!("{domain}.enable"), &json!({}));
+        }
+        browser
+    }
+
+    /// Calls a method of the protocol; its result.
+    pub fn call(&mut self, method: &str, parameters: &Value) -> Value {
+        self.count += 1;
+        let mut message = json!({ "id": self.count, "method": method, "params": parameters });
+        // Downloads are the browser's.
+        if !self.session.is_empty() && !method.starts_with("Browser.") {
+            message["sessionId"] = self.session.as_str().into();
+        }
+        let message = message.to_string();
+        let length = message.len();
+        // One frame of text, masked with zeros.
+        let mut frame = vec![0x81, 0x80 | 127];
+        frame.extend_from_slice(&(length as u64).to_be_bytes());
+        frame.extend_from_slice(&[0; 4]);
+        frame.extend_from_slice(message.as_bytes());
+        self.stream.write_all(&frame).expect("a message");
+        loop {
+            let message = self.message();
+            if message["id"] == self.count {
+                assert!(message["error"].is_null(), "{method}: {message}");
+                return message["result"].clone();
+            }
+            self.events.push(message);
+        }
+    }
+
+    fn message(&mut self) -> Value {
+        let mut text = Vec::new();
+        loop {
+            let head = bytes(&mut self.stream, 2);
+            let length = match head[1] & 127 {
+                126 => u64::from(u16::from_be_bytes(
+                    bytes(&mut self.stream, 2).try_into().expect("two bytes"),
+                )),
+                127 => u64::from_be_bytes(bytes(&mut self.stream, 8).try_into().expect("eight bytes")),
+                short => u64::from(short),
+            };
+            text.extend_from_slice(&bytes(&mut self.stream, length as usize));
+            if head[0] & 0x80 != 0 {
+                return serde_json::from_slice(&text).expect("JSON");
+            }
+        }
+    }
+
+    /// The value of an expression of JavaScript in the page.
+    pub fn value(&mut self, expression: &str) -> Value {
+        let parameters = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let found = self.call("Runtime.evaluate", &parameters);
+        assert!(
+            found["exceptionDetails"].is_null(),
+            "{expression}: {}",
+            found["exceptionDetails"]
+        );
+        found["result"]["value"].clone()
+    }
+
+    /// Presses a key and lets it go.
+    pub fn key(&mut self, key: &str) {
+        let (code, text) = match key {
+            "ArrowLeft" => (37, ""),
+            "ArrowRight" => (39, ""),
+            "Enter" => (13, "\r"),
+            _ => panic!("a key without a code: {key}"),
+        };
+        for kind in ["keyDown", "keyUp"] {
+            let text = if kind == "keyDown" { text } else { "" };
+            let event =
+                json!({ "type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code, "text": text });
+            self.call("Input.dispatchKeyEvent", &event);
+        }
+    }
+
+    pub fn size(&mut self, width: u32, height: u32) {
+        let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", &size);
+    }
+
+    /// What a reader prefers.
+    pub fn media(&mut self, name: &str, value: &str) {
+        let feature = json!({ "features": [{ "name": name, "value": value }] });
+        self.call("Emulation.setEmulatedMedia", &feature);
+    }
+
+    /// Errors that were thrown, and what stands on the console.
+    pub fn complaints(&self) -> Vec<Value> {
+        let kinds = [
+            "Runtime.exceptionThrown",
+            "Runtime.consoleAPICalled",
+            "Log.entryAdded",
+        ];
+        let is_complaint = |event: &&Value| kinds.iter().any(|kind| event["method"] == *kind);
+        // That a question is refused is what a page is told.
+        let is_refusal = |event: &&Value| event.to_string().contains("422");
+        let complaints = self.events.iter().filter(is_complaint);
+        complaints.filter(|event| !is_refusal(event)).cloned().collect()
+    }
+
+    /// The whole page as a PNG.
+    pub fn screenshot(&mut self) -> Vec<u8> {
+        let shot = self.call(
+            "Page.captureScreenshot",
+            &json!({ "captureBeyondViewport": true }),
+        );
+        base64(shot["data"].as_str().expect("a picture"))
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn bytes(stream: &mut TcpStream, count: usize) -> Vec<u8> {
+    let mut bytes = vec![0; count];
+    stream.read_exact(&mut bytes).expect("an answer of the browser");
+    bytes
+}
+
+/// The bytes of a text in base 64 (RFC 4648).
+fn base64(text: &str) -> Vec<u8> {
+    let digit = |letter: u8| match letter {
+        b'A'..=b'Z' => u32::from(letter - b'A'),
+        b'a'..=b'z' => u32::from(letter - b'a') + 26,
+        b'0'..=b'9' => u32::from(letter - b'0') + 52,
+        b'+' => 62,
+        _ => 63,
+    };
+    let letters: Vec<u8> = text.bytes().filter(|letter| *letter != b'=').collect();
+    let group = |letters: &[u8]| -> Vec<u8> {
+        let bits =
+            letters.iter().fold(0, |bits, letter| bits << 6 | digit(*letter)) << (6 * (4 - letters.len()));
+        bits.to_be_bytes()[1..letters.len()].to_vec()
+    };
+    letters.chunks(4).flat_map(group).collect()
+}

@@ -1,0 +1,461 @@
+//! `creepage explore`: its answers are those of `run`, and no request that is not the page's stops it from answering.
+
+#![cfg(all(feature = "explore", unix))]
+
+mod server;
+
+use std::fs;
+use std::io::{Read, Write};
+use std::net::{Shutdown, TcpStream};
+use std::path::Path;
+use std::process::Command;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use creepage::SceneFile;
+use serde_json::{Value, json};
+
+use server::{Explored, PATIENCE, UPPER, creepage, output};
+
+impl Explored {
+    fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(("127.0.0.1", self.port)).expect("a connection");
+        stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
+        stream
+    }
+
+    /// Sends `bytes` and reads status, head and body of the reply.
+    fn raw(&self, bytes: &[u8]) -> (u16, String, String) {
+        let mut stream = self.connect();
+        // A server that refuses a request may close before all of it is sent.
+        let _ = stream.write_all(bytes);
+        replied(stream)
+    }
+
+    fn request(&self, method: &str, path: &str, headers: &[String], body: &str) -> (u16, String, String) {
+        let host = format!("Host: 127.0.0.1:{}", self.port);
+        let headers = if headers.is_empty() { &[host][..] } else { headers };
+        let (headers, length) = (headers.join("\r\n"), body.len());
+        let head = format!(
+            "{method} {path} HTTP/1.1\r\n{headers}\r\nConnection: close\r\nContent-Length: {length}\r\n\r\n"
+        );
+        self.raw(&[head.as_bytes(), body.as_bytes()].concat())
+    }
+
+    fn post(&self, path: &str, question: &Value) -> (u16, String) {
+        let path = format!("{path}?token={}", self.token);
+        let (status, _, body) = self.request("POST", &path, &[], &question.to_string());
+        (status, body)
+    }
+
+    /// The answer to a question that has one.
+    fn answer(&self, question: &Value) -> Value {
+        let (status, body) = self.post("/answer", question);
+        assert_eq!(status, 200, "{question}: {body}");
+        serde_json::from_str(&body).expect("JSON")
+    }
+
+    /// Asserts that it still answers a small question.
+    fn still_answers(&self, after: &str) {
+        let (begun, few) = (
+            Instant::now(),
+            json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 }),
+        );
+        let answer = self.answer(&few);
+        assert_eq!(
+            answer["passes"].as_array().map(Vec::len),
+            Some(2),
+            "after {after}"
+        );
+        assert!(begun.elapsed() < PATIENCE, "after {after}: {:?}", begun.elapsed());
+    }
+}
+
+fn replied(mut stream: TcpStream) -> (u16, String, String) {
+    let mut bytes = Vec::new();
+    let _ = stream.read_to_end(&mut bytes);
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let (head, body) = text.split_once("\r\n\r\n").unwrap_or((&text, ""));
+    let status = head.split(' ').nth(1).and_then(|status| status.parse().ok());
+    (status.unwrap_or(0), head.to_owned(), body.to_owned())
+}
+
+#[test]
+fn an_answer_is_that_of_run_with_figures_and_words() {
+    let explored = Explored::new(&["--set", "traffic.passes=20"]);
+    let set = json!({ "friction.dynamic_coefficient": 0.3, "ends.upstream.spring": "2 MN/m", "duct.depth": "1.5 m" });
+    let limits = json!({ "force": ["downstream=100 N"], "movement": ["5 mm"] });
+    let answer = explored.answer(&json!({ "set": set, "tolerance": 0.05, "limits": limits }));
+    let run = output(&[
+        "run",
+        UPPER,
+        "--json",
+        "--set=traffic.passes=20",
+        "--set=friction.dynamic_coefficient=0.3",
+        "--set=ends.upstream.spring=2 MN/m",
+        "--set=duct.depth=1.5 m",
+        "--set=solver.tolerance=0.05",
+        "--limit-force=downstream=100 N",
+        "--limit-movement=5 mm",
+    ]);
+    let run: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    for (field, value) in run.as_object().expect("an object") {
+        assert_eq!(answer[field], *value, "{field}");
+    }
+    for figure in ["force", "movement", "along"] {
+        let svg = answer["figures"][figure].as_str().expect("a figure");
+        assert!(svg.starts_with("<svg") && svg.contains("polyline"), "{figure}");
+    }
+    let verdicts = answer["headline"]["verdicts"].as_array().expect("verdicts");
+    let kept: Vec<_> = verdicts.iter().map(|verdict| verdict[1].as_bool()).collect();
+    assert_eq!(kept, [Some(true), Some(false), Some(true)], "{verdicts:?}");
+    let sentences = answer["headline"]["sentences"].as_str().expect("sentences");
+    assert!(sentences.contains("downstream end"), "{sentences}");
+}
+
+#[test]
+fn what_is_refused_has_the_words_of_the_command_line_and_its_key() {
+    let explored = Explored::new(&[]);
+    for (key, value) in [
+        ("duct.depth", "1 mm"),
+        ("duct.depth", "NaN m"),
+        ("friction.dynamic_coefficient", "inf"),
+        ("duct.depht", "1 m"),
+        ("restraints", "[{ position = \"40 m\", stiffness = \"1 MN/m\" }]"),
+        ("ground.model", "burmester"),
+        ("solver.method", "dynamic"),
+        ("duct.length", "1 m\nduct.depth"),
+        ("heat", "{ expansion = \"17e-6 1/K\", daily_swing = \"20 K\" }"),
+    ] {
+        let (status, body) = explored.post("/answer", &json!({ "set": { key: value } }));
+        let refusal: Value = serde_json::from_str(&body).expect("JSON");
+        let run = output(&["run", UPPER, &format!("--set={key}={value}")]);
+        assert_eq!(
+            (status, run.status.code()),
+            (422, Some(2)),
+            "{key}={value}: {body}"
+        );
+        let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+        let message = refusal["message"]
+            .as_str()
+            .expect("a message")
+            .replace(['\u{1b}', '\r'], "\u{fffd}");
+        assert!(
+            printed.trim_end().ends_with(message.trim_end()),
+            "{key}={value}: {message}\n{printed}"
+        );
+        let found = refusal["key"].as_str().expect("a key");
+        assert!(found.starts_with(key) || key == "heat", "{key}: {found}");
+    }
+    // A file of the user's is not for the page to choose.
+    let (status, body) = explored.post(
+        "/answer",
+        &json!({ "set": { "traffic.histogram": "/etc/passwd" } }),
+    );
+    assert!(status == 422 && !body.contains("root:"), "{body}");
+    explored.still_answers("refusals");
+}
+
+/// Asks for two passes.
+const FEW: &str = r#"{"set":{"traffic.passes":2},"tolerance":0.05}"#;
+
+#[test]
+fn only_this_page_with_its_token_is_answered() {
+    let explored = Explored::new(&[]);
+    let (port, token) = (explored.port, &explored.token);
+    let own = format!("Host: 127.0.0.1:{port}");
+    let path = format!("/answer?token={token}");
+    let asks = |path: &str, headers: &[&str]| {
+        let headers: Vec<String> = headers.iter().map(|header| (*header).to_owned()).collect();
+        explored.request("POST", path, &headers, FEW).0
+    };
+    let origin = |of: &str| asks(&path, &[&own, &format!("Origin: {of}")]);
+    assert_eq!(asks(&path, &[&own]), 200);
+    assert_eq!(asks(&path, &[&format!("Host: localhost:{port}")]), 200);
+    assert_eq!(origin(&format!("http://127.0.0.1:{port}")), 200);
+    for host in [
+        "example.org",
+        &format!("127.0.0.1.example.org:{port}"),
+        "127.0.0.1:1",
+        "",
+    ] {
+        assert_eq!(asks(&path, &[&format!("Host: {host}")]), 403, "{host}");
+    }
+    assert_eq!(asks(&path, &["X-Host: none"]), 403);
+    assert_eq!(asks(&path, &[&own, &own]), 403);
+    for of in [
+        "https://example.org",
+        "null",
+        "http://127.0.0.1",
+        &format!("https://127.0.0.1:{port}"),
+    ] {
+        assert_eq!(origin(of), 403, "{of}");
+    }
+    let wrong = "0123456789abcdef0123456789abcdef";
+    for query in [
+        "",
+        "?token=",
+        &format!("?token={wrong}"),
+        &format!("?token={token}0"),
+        &format!("?token={token}&token={token}"),
+    ] {
+        assert_eq!(asks(&format!("/answer{query}"), &[&own]), 403, "{query}");
+        assert_eq!(
+            explored.request("GET", &format!("/{query}"), &[], "").0,
+            403,
+            "{query}"
+        );
+    }
+    explored.still_answers("others");
+}
+
+#[test]
+fn hostile_requests_are_refused_and_leave_it_answering() {
+    let explored = Explored::new(&[]);
+    let (port, token) = (explored.port, &explored.token);
+    let path = format!("/answer?token={token}");
+    for (method, path) in [
+        ("GET", "/../../etc/passwd"),
+        ("GET", "/%2e%2e/%2e%2e/etc/passwd"),
+        ("GET", "//etc/passwd"),
+        ("GET", "/answer"),
+        ("POST", "/"),
+        ("DELETE", "/"),
+    ] {
+        let (status, head, body) = explored.request(method, &format!("{path}?token={token}"), &[], "");
+        assert!(
+            status == 404 && !body.contains("root:"),
+            "{method} {path}: {status} {body}"
+        );
+        assert!(head.to_lowercase().contains("x-frame-options: deny"), "{head}");
+    }
+    let nested = "[".repeat(100_000);
+    for (body, expected) in [
+        ("", 400),
+        ("{", 400),
+        (r#"{"set": {"duct.depth": NaN}}"#, 400),
+        (r#"{"tolerance": 1e999}"#, 400),
+        (r#"{"files": []}"#, 400),
+        (r#"{"set": [1]}"#, 400),
+        ("\u{0}", 400),
+        (&nested, 400),
+        (r#"{"set": {"duct": [1, {"a": 2}]}}"#, 422),
+        (r#"{"set": {"": 1}}"#, 422),
+        (r#"{"tolerance": -1}"#, 422),
+        (r#"{"limits": {"force": ["2 m"]}}"#, 422),
+        (r#"{"limits": {"force": ["20 m=2 kN"]}}"#, 422),
+    ] {
+        assert_eq!(
+            explored.request("POST", &path, &[], body).0,
+            expected,
+            "{body:.80}"
+        );
+    }
+    // No HTTP, headers without end, a body of 10 MB with and without its length.
+    let headers = format!("GET / HTTP/1.1\r\n{}", "X: y\r\n".repeat(10_000));
+    for bytes in [
+        &b"\x16\x03\x01 hello\r\n\r\n"[..],
+        b"GET\r\n\r\n",
+        b"\r\n\r\n",
+        b"POST / HTTP/9.9\r\n\r\n",
+        headers.as_bytes(),
+    ] {
+        let mut stream = explored.connect();
+        stream.write_all(bytes).expect("something to refuse");
+        let _ = stream.shutdown(Shutdown::Write);
+        assert_ne!(replied(stream).0, 200);
+    }
+    let large = " ".repeat(10 << 20);
+    assert_eq!(explored.request("POST", &path, &[], &large).0, 413);
+    let head = format!("POST {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close");
+    let (chunked, length) = (
+        format!("{head}\r\nTransfer-Encoding: chunked\r\n\r\n"),
+        large.len(),
+    );
+    let (status, ..) = explored.raw(format!("{chunked}{length:x}\r\n{large}\r\n0\r\n\r\n").as_bytes());
+    assert_eq!(status, 413);
+    explored.still_answers("hostile requests");
+}
+
+#[test]
+fn two_hundred_slow_ones_and_two_hundred_at_once_leave_it_answering() {
+    let explored = Explored::new(&[]);
+    // Bodies that never come, with and without the token, and heads that never end.
+    let path = format!("/answer?token={}", explored.token);
+    let heads = ["/answer", &path].map(|path| {
+        let host = format!("Host: 127.0.0.1:{}", explored.port);
+        format!("POST {path} HTTP/1.1\r\n{host}\r\nContent-Length: 900000\r\n\r\n{{")
+    });
+    let slow: Vec<TcpStream> = (0..200)
+        .map(|k| {
+            let mut stream = explored.connect();
+            let head = &heads[k % 2];
+            let sent = if k % 3 == 0 { &head[..20] } else { head };
+            stream.write_all(sent.as_bytes()).expect("a beginning");
+            stream
+        })
+        .collect();
+    explored.still_answers("slow bodies");
+    thread::scope(|scope| {
+        for _ in 0..200 {
+            scope.spawn(|| {
+                let (status, _) = explored.post(
+                    "/answer",
+                    &json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 }),
+                );
+                // The newest stops the others.
+                assert!([200, 409].contains(&status), "{status}");
+            });
+        }
+    });
+    explored.still_answers("two hundred at once");
+    drop(slow);
+    explored.still_answers("slow ones that leave");
+}
+
+#[test]
+fn a_newer_question_stops_the_one_under_way() {
+    let explored = Explored::new(&[]);
+    let long = json!({ "set": { "traffic.passes": 1_000_000, "solver.method": "quasi-static" } });
+    thread::scope(|scope| {
+        let older = scope.spawn(|| explored.post("/answer", &long).0);
+        thread::sleep(Duration::from_millis(300));
+        assert!(!older.is_finished());
+        explored.still_answers("a newer question");
+        assert_eq!(older.join().expect("a status"), 409);
+    });
+}
+
+#[test]
+fn a_saved_scene_is_the_one_that_was_asked_about() {
+    let explored = Explored::new(&["--set", "traffic.passes=30"]);
+    let set = [
+        "duct.depth=0.9 m",
+        "ends.downstream.spring=3 MN/m",
+        "friction.dynamic_coefficient=0.31",
+    ];
+    let clamps = "restraints=[{ position = \"12 m\", stiffness = \"1 MN/m\", holds = \"2 kN\" }]";
+    let overrides = [&["traffic.passes=30"], &set[..], &[clamps]].concat();
+    let expected = SceneFile::read(UPPER)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene");
+    let asked: serde_json::Map<String, Value> = overrides[1..]
+        .iter()
+        .filter_map(|set| set.split_once('='))
+        .map(|(key, value)| (key.to_owned(), value.into()))
+        .collect();
+    let (status, text) = explored.post("/scene", &json!({ "set": asked }));
+    assert_eq!(status, 200, "{text}");
+    assert_eq!(
+        creepage::Scene::from_toml("saved.toml", &text).expect("a scene"),
+        expected
+    );
+    // What stands in the comments at its head cannot end them.
+    let (_, text) = explored.post("/scene", &json!({ "set": { "title": "\"a\\nduct = 1\"" } }));
+    assert!(
+        text.lines().take_while(|line| line.starts_with('#')).count() >= 3,
+        "{text}"
+    );
+    creepage::Scene::from_toml("saved.toml", &text).expect("a scene");
+}
+
+/// The first pass against an independent computation (102.08 N on the fixed end), friction within its limits, and the duct slipping
+/// forward over a longer stretch than backward while the vehicle is above it (Kashiro et al., section 2.3).
+#[test]
+fn the_pass_that_is_shown_is_the_one_that_is_computed() {
+    let explored = Explored::new(&[]);
+    let numbers = |list: &Value| -> Vec<f64> {
+        list.as_array()
+            .expect("a list")
+            .iter()
+            .map(|number| number.as_f64().expect("a number"))
+            .collect()
+    };
+    let pass = |first: bool| -> Value {
+        let (status, body) = explored.post("/pass", &json!({ "tolerance": 0.05, "first": first }));
+        assert_eq!(status, 200, "{body}");
+        serde_json::from_str(&body).expect("JSON")
+    };
+    let first = pass(true);
+    let force = 0.1 * numbers(&first["after_decinewtons"]).last().expect("a force");
+    assert!((force / 102.08 - 1.0).abs() < 0.02, "{force} N");
+    assert!(
+        numbers(&first["before_decinewtons"])
+            .iter()
+            .all(|force| *force == 0.0)
+    );
+    let later = pass(false);
+    assert_eq!(
+        (first["pass"].as_u64(), later["pass"].as_u64()),
+        (Some(1), Some(201))
+    );
+    // Levelled off: the pass leaves what it found.
+    let ends = ["before_decinewtons", "after_decinewtons"]
+        .map(|when| *numbers(&later[when]).last().expect("a force"));
+    assert!((ends[1] / ends[0] - 1.0).abs() < 0.01, "{ends:?}");
+    for film in [&first, &later] {
+        let pictures = film["pictures"].as_array().expect("pictures");
+        assert!(pictures.len() > 100);
+        let all = pictures
+            .iter()
+            .flat_map(|picture| numbers(&picture["friction_percent"]));
+        assert!(all.map(f64::abs).all(|share| share <= 100.0));
+        let places = numbers(&json!(
+            pictures
+                .iter()
+                .map(|picture| &picture["vehicle_m"])
+                .collect::<Vec<_>>()
+        ));
+        assert!(places.windows(2).all(|pair| pair[0] < pair[1]));
+    }
+    let middle = |picture: &&Value| (picture["vehicle_m"].as_f64().expect("a place") - 15.0).abs() < 0.2;
+    let picture = later["pictures"]
+        .as_array()
+        .and_then(|pictures| pictures.iter().find(middle))
+        .expect("a picture");
+    let slips = |at: f64| {
+        numbers(&picture["friction_percent"])
+            .iter()
+            .filter(|share| **share == at)
+            .count()
+    };
+    assert!(
+        slips(100.0) > 2 * slips(-100.0) && slips(-100.0) > 5,
+        "{} {}",
+        slips(100.0),
+        slips(-100.0)
+    );
+}
+
+#[test]
+fn it_ends_by_its_button_or_by_ctrl_c_and_leaves_no_file() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explore");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER);
+    fs::copy(scene, folder.join("scene.toml")).expect("a scene");
+    let mut explored = Explored::new(&[]);
+    explored.still_answers("its beginning");
+    assert_eq!(explored.post("/end", &json!({})).0, 205);
+    assert_eq!(explored.ended().code(), Some(0));
+
+    let mut explored = Explored::new(&[]);
+    let sent = Command::new("kill")
+        .args(["-INT", &explored.child.id().to_string()])
+        .status();
+    assert!(sent.expect("kill").success());
+    assert_eq!(explored.ended().code(), Some(130));
+
+    // A port that is taken.
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = format!("--port={}", taken.local_addr().expect("its address").port());
+    let mut refused = creepage(&["explore", "scene.toml", "--no-browser", &port]);
+    let refused = refused.current_dir(&folder).output().expect("the command starts");
+    let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        refused.status.code() == Some(2) && words.contains("--port: found"),
+        "{words}"
+    );
+    let left: Vec<_> = fs::read_dir(&folder).expect("the folder").collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
