@@ -1,6 +1,6 @@
 //! What a load cell at an end of the cable reads.
 
-use crate::step::Grip;
+use crate::clamps::ClampShares;
 use crate::{DuctedCable, End, Mesh};
 
 /// Forces at both ends \[N\], compression positive: what load cells there read.
@@ -59,11 +59,11 @@ pub(crate) struct EndReader {
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
-        let grips = Grip::of(cable, mesh);
+        let clamps = ClampShares::new(cable, mesh).clamps(&[]);
         let body = cable.body_loads(mesh);
         let reading = |node: usize, end: End| match end {
             End::Free | End::Spring(0.0) => Reading::Nothing,
-            End::Spring(spring) if grips.iter().any(|grip| grip.node == node) => Reading::Spring(spring),
+            End::Spring(spring) if clamps.iter().any(|clamp| clamp.node == node) => Reading::Spring(spring),
             _ => Reading::Chain,
         };
         Self {

@@ -1,5 +1,7 @@
 //! What can go wrong in the cable.
 
+use friction_chain::ChainError;
+
 /// Error of a cable model or of a solver.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -35,6 +37,9 @@ pub enum CableError {
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,
     },
+    /// The cable makes no chain of nodes.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
     /// Nothing holds a cable that its own weight draws down the duct.
     #[error(
         "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it",
@@ -136,6 +141,19 @@ pub enum CableError {
         /// Work that friction returned, as a share of its heat.
         returned: f64,
     },
+}
+
+impl CableError {
+    /// That of a step with the vehicle at `vehicle_position` \[m\], infinite where none is near.
+    pub(crate) fn of_step(error: ChainError, vehicle_position: f64) -> Self {
+        match error {
+            ChainError::NoEquilibrium { violation } => Self::NoConvergence {
+                vehicle_position,
+                violation,
+            },
+            error => Self::Chain(error),
+        }
+    }
 }
 
 /// Where the vehicle is, in words.

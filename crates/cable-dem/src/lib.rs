@@ -3,11 +3,14 @@
 mod approach;
 mod cable;
 mod carried;
+mod chain;
+mod clamps;
 mod course;
 mod ends;
 mod error;
 mod explicit;
 mod extremes;
+mod fixed_end_friction;
 mod friction;
 mod inertia;
 mod laid;
@@ -18,9 +21,7 @@ mod resting;
 mod section;
 mod state;
 mod statistics;
-mod step;
 mod traffic;
-mod tridiagonal;
 mod tuning;
 
 pub use approach::approach;

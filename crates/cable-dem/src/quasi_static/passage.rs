@@ -2,9 +2,10 @@
 
 use ground_field::{Direction, DuctMotion};
 
+use friction_chain::tridiagonal::{self, Row};
+
 use super::schedule::schedule;
 use crate::course::{Course, as_driven, of_shape};
-use crate::tridiagonal::{self, Row};
 use crate::tuning::{UNBALANCED_SHARE, WATCHED_SHARE};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 

@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use crate::step::Stretch;
+use friction_chain::Stretch;
+
 use crate::tuning::{BLOCK, GAP};
 
 /// Where windows may lie, and how far beyond a disturbance they reach.
