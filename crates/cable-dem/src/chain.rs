@@ -12,13 +12,10 @@ const MAX_ROUNDING: f64 = 1e-3;
 pub(crate) fn chain(cable: &DuctedCable, mesh: &Mesh, clamps: Vec<Clamp>) -> Result<Chain, CableError> {
     let limit = |node| limit_of(shares(cable.sections(), mesh, node), 0.0);
     let limits: Vec<f64> = (0..mesh.nodes()).map(limit).collect();
-    let (ends, compliance) = (
-        [cable.upstream(), cable.downstream()],
-        cable.friction().compliance(),
-    );
-    let ends = ends.map(End::stiffness);
+    let ends = [cable.upstream(), cable.downstream()].map(End::stiffness);
+    let (stiffness, compliance) = (cable.axial_stiffness(), cable.friction().compliance());
     Ok(Chain::new(
-        cable.axial_stiffness(),
+        stiffness,
         mesh.spacing(),
         compliance,
         &limits,
@@ -57,15 +54,12 @@ impl Bends {
     /// Those of `cable` on `mesh`.
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let sections = cable.sections();
-        let any = |shares: &[(f64, Section)]| shares.iter().any(|(_, section)| section.bend > 0.0);
-        let of_node = |node| shares(sections, mesh, node).map(|(share, section)| (share, *section));
-        let nodes = 0..if sections.iter().any(|section| section.bend > 0.0) {
-            mesh.nodes()
-        } else {
-            0
-        };
-        let bends = nodes.map(|node| (node, of_node(node).collect::<Vec<_>>()));
-        Self(bends.filter(|(_, shares)| any(shares)).collect())
+        if sections.iter().all(|section| section.bend == 0.0) {
+            return Self(Vec::new());
+        }
+        let shares = |node| shares(sections, mesh, node).map(|(share, section)| (share, *section));
+        let nodes = (0..mesh.nodes()).filter(|&node| shares(node).any(|(_, section)| section.bend > 0.0));
+        Self(nodes.map(|node| (node, shares(node).collect())).collect())
     }
 
     /// Whether the duct is straight.

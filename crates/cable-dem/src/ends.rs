@@ -59,7 +59,7 @@ pub(crate) struct EndReader {
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
-        let clamps = ClampShares::new(cable, mesh).clamps(&[]);
+        let clamps = ClampShares::new(cable, mesh).stuck(&[]);
         let body = cable.body_loads(mesh);
         let reading = |node: usize, end: End| match end {
             End::Free | End::Spring(0.0) => Reading::Nothing,

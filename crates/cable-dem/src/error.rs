@@ -165,6 +165,16 @@ fn vehicle(position: f64) -> String {
     }
 }
 
+/// `value` if it is finite and positive.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, CableError> {
+    checked(name, value, "finite and positive", |v| v > 0.0)
+}
+
+/// `value` if it is finite and not negative.
+pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<f64, CableError> {
+    checked(name, value, "finite and not negative", |v| v >= 0.0)
+}
+
 /// `value` if it is a number for which `holds`, or the error that says what is allowed.
 pub(crate) fn checked(
     name: &'static str,

@@ -36,7 +36,7 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         return Ok(state);
     }
     mesh.check_length(cable.length())?;
-    let chain = chain(cable, mesh, ClampShares::new(cable, mesh).clamps(&[]))?;
+    let chain = chain(cable, mesh, ClampShares::new(cable, mesh).stuck(&[]))?;
     let mean = |of: fn(&Section) -> f64| {
         let whole: f64 = sections.iter().map(|section| of(section) * section.length).sum();
         whole / cable.length()

@@ -1,7 +1,7 @@
 //! The cable between two passes, when duct and cable are at rest.
 
 use friction_chain::tridiagonal::Row;
-use friction_chain::{ChainError, ImplicitStep, Load};
+use friction_chain::{Chain, ChainError, Clamp, ImplicitStep, Load};
 
 use crate::chain::{Bends, chain};
 use crate::clamps::ClampShares;
@@ -48,8 +48,8 @@ pub struct RestingCable {
     /// Body force w p of every node \[N\]; and with what heat does to the ends.
     body: Vec<f64>,
     load: Vec<f64>,
-    /// Slips of the clamps before and after the change by which they were released \[m\].
-    released: [Vec<f64>; 2],
+    /// Clamps as the last change released them.
+    released: Vec<Clamp>,
     mesh: Mesh,
 }
 
@@ -73,15 +73,15 @@ impl RestingCable {
         let clamps = ClampShares::new(&cable, mesh);
         let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {
-            step: ImplicitStep::new(chain(&cable, mesh, clamps.clamps(&[]))?),
+            step: ImplicitStep::new(chain(&cable, mesh, clamps.stuck(&[]))?),
             bends: Bends::new(&cable, mesh),
-            clamps,
             held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
             body: cable.loads(mesh, 0.0),
             load: cable.loads(mesh, 0.0),
-            released: [Vec::new(), Vec::new()],
+            released: clamps.stuck(&[]),
+            clamps,
             mesh: *mesh,
             cable,
         })
@@ -92,31 +92,21 @@ impl RestingCable {
         &self.cable
     }
 
-    /// Nodes that can move: all but fixed ends.
-    pub fn free(&self) -> std::ops::RangeInclusive<usize> {
-        self.step.chain.free().nodes()
-    }
-
-    /// Length of cable \[m\] that belongs to `node`.
-    pub fn tributary(&self, node: usize) -> f64 {
-        self.step.chain.nodes()[node].tributary
-    }
-
-    /// Friction limit of `node` \[N/m\] under the force that the cable had in its last step.
-    pub fn limit(&self, node: usize) -> f64 {
-        self.step.chain.nodes()[node].limit
+    /// Its nodes: which are free, their lengths of cable, their friction limits under the force that the cable had in its last step, and
+    /// whether an end spring, a clamp or a fixed end holds them: otherwise the cable may be moved as a whole.
+    pub fn chain(&self) -> &Chain {
+        &self.step.chain
     }
 
     /// Takes clamps that slip and have slid from `before` to `after` as ones that bear a force and are no springs, and the others as
     /// springs: what the cable answers to a small change then. It holds until the next call, whatever comes to rest in between.
     pub fn release(&mut self, before: &CableState, after: &CableState) {
-        self.released = [before, after].map(|state| self.clamps.slips(&state.clamp_slips));
+        self.released = self.clamps.slid(&before.clamp_slips, &after.clamp_slips);
         self.release_again();
     }
 
     fn release_again(&mut self) {
-        let [before, after] = &self.released;
-        self.step.chain.release(before, after);
+        self.step.chain.set_clamps(&self.released);
     }
 
     /// The cable of `state` with its nodes displaced by `displacement` \[m\] and clamps that slide ([`RestingCable::release`]) taken along;
@@ -130,42 +120,30 @@ impl RestingCable {
         let mut moved = CableState::from_parts(&self.mesh, displacement, friction)?;
         moved.thermal_force = state.thermal_force;
         moved.clamp_slips.clone_from(&state.clamp_slips);
-        let slips = self.clamps.slips(&state.clamp_slips);
-        for (index, node) in self.sliding() {
-            let advance = moved.displacement[node] - state.displacement[node];
-            self.clamps
-                .store(index, slips[index] + advance, &mut moved.clamp_slips);
-        }
+        let clamps = self.step.chain.clamps();
+        self.clamps
+            .update(clamps, &mut moved.clamp_slips, |_, clamp, slip| {
+                let advance = moved.displacement[clamp.node] - state.displacement[clamp.node];
+                (!clamp.is_stuck()).then_some(slip + advance)
+            });
         Ok(moved)
     }
 
     /// Lets the clamps of `state` that slide ([`RestingCable::release`]) slip until they bear these `forces` \[N\], in the order of
     /// [`DuctedCable::restraints`].
     pub fn bear(&self, state: &mut CableState, forces: &[f64]) {
-        for (index, node) in self.sliding() {
-            let slip =
-                self.clamps
-                    .slip_under(index, forces, self.cable.restraints(), state.displacement[node]);
-            self.clamps.store(index, slip, &mut state.clamp_slips);
-        }
-    }
-
-    /// The clamps of the chain that slide, and their nodes.
-    fn sliding(&self) -> impl Iterator<Item = (usize, usize)> {
-        let clamps = self.step.chain.clamps().iter().enumerate();
-        let sliding = clamps.filter(|(_, clamp)| !clamp.is_stuck());
-        sliding.map(|(index, clamp)| (index, clamp.node))
-    }
-
-    /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
-    pub fn is_held(&self) -> bool {
-        self.step.chain.is_held()
+        let (clamps, restraints) = (self.step.chain.clamps(), self.cable.restraints());
+        self.clamps
+            .update(clamps, &mut state.clamp_slips, |restraint, clamp, _| {
+                let strain = forces[restraint] / restraints[restraint].stiffness;
+                (!clamp.is_stuck()).then_some(state.displacement[clamp.node] - strain)
+            });
     }
 
     /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, beside that which balances the body force, at every
     /// node that can move; the others are left.
     pub fn balance(&self, u: &[f64], friction: &mut [f64]) {
-        for i in self.free() {
+        for i in self.step.chain.free().nodes() {
             friction[i] = self.step.chain.balancing_friction(u, &self.nothing, i);
         }
     }
@@ -174,7 +152,7 @@ impl RestingCable {
     /// others are left.
     pub fn needed(&mut self, u: &[f64], thermal_force: f64, friction: &mut [f64]) {
         self.heat(thermal_force);
-        for i in self.free() {
+        for i in self.step.chain.free().nodes() {
             friction[i] = self.step.chain.balancing_friction(u, &self.load, i);
         }
     }
@@ -214,7 +192,7 @@ impl RestingCable {
     /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
-        self.step.chain.stick(&self.clamps.slips(&state.clamp_slips));
+        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
         self.heat(state.thermal_force);
         self.press(state, state.thermal_force);
         let chain = &self.step.chain;
@@ -272,9 +250,7 @@ impl RestingCable {
     /// Heat pushes the two ends apart and nothing between them; clamps that slip bear their part.
     fn heat(&mut self, thermal_force: f64) {
         let (body, load, last) = (&self.body, &mut self.load, self.body.len() - 1);
-        for clamp in self.step.chain.clamps() {
-            load[clamp.node] = body[clamp.node];
-        }
+        load.copy_from_slice(body);
         (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
         self.step.chain.add_clamp_loads(load, |_| 0.0);
     }
@@ -295,7 +271,7 @@ impl RestingCable {
         thermal_force: f64,
         movement: f64,
     ) -> Result<f64, CableError> {
-        self.step.chain.stick(&self.clamps.slips(&state.clamp_slips));
+        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
         self.heat(thermal_force);
         self.press(state, thermal_force);
         let moved = |i: usize| duct.map_or(0.0, |duct| duct[i]);
@@ -311,7 +287,7 @@ impl RestingCable {
         }
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let mut heat = chain.settle_clamps(chain.free(), |i| trial.r[i]);
-        self.clamps.store_all(chain.clamps(), &mut state.clamp_slips);
+        self.clamps.store(chain.clamps(), &mut state.clamp_slips);
         let (u, f) = (&mut state.displacement, &mut state.friction);
         for (i, node) in chain.nodes().iter().enumerate() {
             let is_free = chain.free().nodes().contains(&i);
@@ -382,7 +358,7 @@ mod tests {
             resting.diffuse(slope, &mut y);
             let mut friction = vec![0.0; mesh.nodes()];
             resting.balance(&y, &mut friction);
-            let free = resting.free();
+            let free = resting.chain().free().nodes();
             assert!((0..mesh.nodes()).all(|i| free.contains(&i) || y[i] == 0.0));
             for i in free {
                 let missed = y[i] + slope(i) * friction[i] - b[i];

@@ -232,7 +232,7 @@ impl CableState {
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
         let shares = ClampShares::new(cable, &self.mesh);
-        let clamps = shares.clamps(&self.clamp_slips);
+        let clamps = shares.stuck(&self.clamp_slips);
         Ok(shares.forces(&clamps, cable.restraints(), |node| self.displacement[node]))
     }
 
@@ -291,7 +291,7 @@ impl CableState {
     /// The chain of `cable` as this state presses on its bends.
     fn pressing(&self, cable: &DuctedCable) -> Result<Chain, CableError> {
         self.mesh.check_length(cable.length())?;
-        let clamps = ClampShares::new(cable, &self.mesh).clamps(&self.clamp_slips);
+        let clamps = ClampShares::new(cable, &self.mesh).stuck(&self.clamp_slips);
         let mut chain = chain(cable, &self.mesh, clamps)?;
         Bends::new(cable, &self.mesh).press(&mut chain, |i| self.displacement[i], self.thermal_force);
         Ok(chain)

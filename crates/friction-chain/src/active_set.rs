@@ -41,15 +41,6 @@ pub struct Work {
     pub cycles: usize,
 }
 
-/// What does not hold after a linear solve.
-#[derive(Debug, Clone, Copy, Default)]
-struct Violations {
-    /// The largest, as a share of the friction limit.
-    worst: f64,
-    /// Contact states that were corrected.
-    corrected: usize,
-}
-
 impl ImplicitStep {
     /// Steps on `chain`, which is at rest and sticks.
     pub fn new(chain: Chain) -> Self {
@@ -94,41 +85,29 @@ impl ImplicitStep {
 
     /// Corrects contact states until they hold. On failure, the largest violation as a share of the friction limit.
     fn iterate(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
-        let mut found = Violations::default();
+        let mut worst = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             self.stop(load, stretch)?;
             self.displace(load, stretch);
-            found = self.correct(load, stretch);
-            if found.corrected == 0 {
+            let corrected;
+            (worst, corrected) = self.correct(load, stretch);
+            if !corrected {
                 break;
             }
             self.advance(load, stretch);
         }
-        if found.worst <= ROUNDED {
-            Ok(())
-        } else {
-            Err(found.worst)
-        }
+        if worst <= ROUNDED { Ok(()) } else { Err(worst) }
     }
 
     /// One linear solve with the trial's contact states.
     fn displace(&mut self, load: &Load<'_>, stretch: Stretch) {
         let (per_stiffness, Trial { r, contact, .. }) = (self.chain.per_stiffness, &mut self.trial);
         let held = stretch.neighbours(r).map(Option::unwrap_or_default);
-        let (nodes, contact, load) = (
-            stretch.of(&self.chain.nodes),
-            stretch.of(contact),
-            load.on(stretch),
-        );
+        let (nodes, contact) = (stretch.of(&self.chain.nodes), stretch.of(contact));
+        let load = load.on(stretch);
         let row = |i: usize| {
-            let support = load.support[i] * per_stiffness;
-            nodes[i].row(
-                contact[i],
-                support,
-                load.adhesion[i],
-                load.anchor[i],
-                per_stiffness,
-            )
+            let load = [load.support[i] * per_stiffness, load.adhesion[i], load.anchor[i]];
+            nodes[i].row(contact[i], load, per_stiffness)
         };
         tridiagonal::solve(held, row, &mut self.factors, stretch.of_mut(r));
         self.work.solves += 1;
@@ -161,13 +140,17 @@ impl ImplicitStep {
         Ok(())
     }
 
-    /// Sets the friction of the solved displacements and corrects contact states that do not hold.
-    fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> Violations {
+    /// Sets the friction of the solved displacements and corrects contact states that do not hold. Returned: the largest violation, as a
+    /// share of the friction limit, and whether a contact state was corrected.
+    fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> (f64, bool) {
         let (chain, tolerance, load) = (&self.chain, self.tolerance, load.on(stretch));
         let Trial { r, g, contact } = &mut self.trial;
         let [mut left, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
         let (nodes, r, g) = (stretch.of(&chain.nodes), stretch.of(r), stretch.of_mut(g));
-        let (contact, mut found) = (stretch.of_mut(contact), Violations::default());
+        let contact = stretch.of_mut(contact);
+        let (mut worst, mut corrected) = (0.0_f64, false);
+        // What is not a number is a violation too.
+        let mut violate = |share: f64| worst = worst.max(if share.is_nan() { f64::INFINITY } else { share });
         for i in 0..stretch.count() {
             let (node, here, adhesion) = (&nodes[i], r[i], load.adhesion[i]);
             let right = r.get(i + 1).copied().unwrap_or(after);
@@ -186,8 +169,8 @@ impl ImplicitStep {
                     g[i] = node.limit.copysign(total) - adhesion;
                     continue;
                 }
-                found.violate(excess / node.limit);
-                found.corrected += 1;
+                violate(excess / node.limit);
+                corrected = true;
                 contact[i] = if total < 0.0 {
                     Contact::Backward
                 } else {
@@ -198,7 +181,7 @@ impl ImplicitStep {
                 let residual = (balancing - g[i]).abs();
                 let is_balanced = residual <= tolerance.friction;
                 if !is_balanced {
-                    found.violate(residual / node.limit);
+                    violate(residual / node.limit);
                 }
                 let slip = load.anchor[i] - here - chain.compliance * g[i];
                 let along = if contact[i] == Contact::Forward {
@@ -208,13 +191,13 @@ impl ImplicitStep {
                 };
                 let slips_along = along >= -tolerance.slip;
                 if !slips_along {
-                    found.violate(1.0);
-                    found.corrected += 1;
+                    violate(1.0);
+                    corrected = true;
                     contact[i] = Contact::Stuck;
                 }
             }
         }
-        found
+        (worst, corrected)
     }
 
     /// Lets nodes beside those that slip slip too, as many as it takes to bear the force on the first of them. A stuck node shields those
@@ -247,13 +230,5 @@ impl ImplicitStep {
                 let _ = (k + 1..=stretch.hi).all(|k| yields(contact, k));
             }
         }
-    }
-}
-
-impl Violations {
-    fn violate(&mut self, share: f64) {
-        // What is not a number is a violation too.
-        let share = if share.is_nan() { f64::INFINITY } else { share };
-        self.worst = self.worst.max(share);
     }
 }

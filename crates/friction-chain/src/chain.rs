@@ -33,7 +33,7 @@ impl Chain {
     /// # Errors
     ///
     /// [`ChainError::InvalidParameter`] unless stiffness and spacing are positive, limits, compliance, springs and what clamps hold not
-    /// negative, clamps on nodes of the chain, and there are at least two nodes, and one that is not fixed.
+    /// negative, clamps on nodes of the chain, and there are two nodes or more, and one that is not fixed.
     pub fn new(
         axial_stiffness: f64,
         spacing: f64,
@@ -46,38 +46,18 @@ impl Chain {
         let fixed = ends.map(|end| usize::from(end.is_none()));
         let ends = ends.map(Option::unwrap_or_default);
         let enough = count >= 2 && count > fixed[0] + fixed[1];
-        checked(
-            "nodes",
-            count as f64,
-            "at least two, and one that is not fixed",
-            enough,
-        )?;
+        checked("nodes", count as f64, "two or more, and one of them free", enough)?;
         for (name, value) in [("axial stiffness", axial_stiffness), ("spacing", spacing)] {
             checked(name, value, "positive", value > 0.0)?;
         }
-        let limited = limits.iter().map(|&limit| ("friction limit", limit));
-        let held = ends.into_iter().map(|spring| ("spring at an end", spring));
-        let of_clamp = |clamp: &Clamp| {
-            [
-                ("stiffness of a clamp", clamp.stiffness),
-                ("holding force", clamp.holds),
-            ]
-        };
-        let clamped = clamps.iter().flat_map(of_clamp);
-        for (name, value) in limited
-            .chain(held)
-            .chain(clamped)
-            .chain([("compliance", compliance)])
-        {
+        let name = "spring, holding force, limit or compliance";
+        let of_clamps = clamps.iter().flat_map(|clamp| [clamp.stiffness, clamp.holds]);
+        let of_ends = ends.into_iter().chain([compliance]);
+        for value in limits.iter().copied().chain(of_ends).chain(of_clamps) {
             checked(name, value, "not negative", value >= 0.0)?;
         }
-        for clamp in &clamps {
-            checked(
-                "node of a clamp",
-                clamp.node as f64,
-                "one of the chain",
-                clamp.node < count,
-            )?;
+        for node in clamps.iter().map(|clamp| clamp.node) {
+            checked("node of a clamp", node as f64, "one of the chain", node < count)?;
         }
         let node = |&limit: &f64| Node::new(2.0, spacing, limit, stiffness, compliance);
         let mut chain = Self {
@@ -172,33 +152,13 @@ impl Chain {
         self.nodes[i].limit = limit;
     }
 
-    /// Lets all clamps stick that have slipped by these `slips` \[m\], one for each; those that are missing have not.
-    pub fn stick(&mut self, slips: &[f64]) {
-        for index in 0..self.clamps.len() {
-            let Clamp {
-                node,
-                stiffness,
-                holds,
-                ..
-            } = self.clamps[index];
-            let slip = slips.get(index).copied().unwrap_or_default();
-            let before = std::mem::replace(&mut self.clamps[index], Clamp::new(node, stiffness, holds, slip));
-            if !before.is_stuck() {
-                self.hang(node);
-            }
-        }
-    }
-
-    /// Takes away the springs of clamps that have slid from the slips `before` to those `after` \[m\], and no others.
-    pub fn release(&mut self, before: &[f64], after: &[f64]) {
-        self.stick(after);
-        for index in 0..self.clamps.len() {
-            let clamp = &mut self.clamps[index];
-            clamp.slide_since(before.get(index).copied().unwrap_or_default());
-            if !clamp.is_stuck() {
-                let node = clamp.node;
-                self.hang(node);
-            }
+    /// Puts these `clamps` in the place of the former ones, on the same nodes.
+    pub fn set_clamps(&mut self, clamps: &[Clamp]) {
+        for (index, clamp) in clamps.iter().enumerate().take(self.clamps.len()) {
+            let node = self.clamps[index].node;
+            self.clamps[index] = *clamp;
+            self.clamps[index].node = node;
+            self.hang(node);
         }
     }
 
@@ -240,10 +200,8 @@ impl Chain {
         } else {
             0.0
         };
-        let sticking = self
-            .clamps
-            .iter()
-            .filter(|clamp| clamp.node == i && clamp.is_stuck());
+        let sticks = |clamp: &&Clamp| clamp.node == i && clamp.is_stuck();
+        let sticking = self.clamps.iter().filter(sticks);
         let clamped: f64 = sticking.map(|clamp| clamp.stiffness).sum();
         let diagonal = self.neighbours(i) + end / self.stiffness + clamped / self.stiffness;
         let Node { tributary, limit, .. } = self.nodes[i];

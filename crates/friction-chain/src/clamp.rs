@@ -22,16 +22,27 @@ pub struct Clamp {
 }
 
 impl Clamp {
-    /// A clamp on `node` of `stiffness` s \[N/m\] that bears up to `holds` \[N\] and has slipped by `slip` \[m\]; it sticks.
-    /// [`crate::Chain::new`] refuses what cannot be.
-    pub fn new(node: usize, stiffness: f64, holds: f64, slip: f64) -> Self {
+    /// A clamp on `node` of `stiffness` s \[N/m\] that bears up to `holds` \[N\]; it sticks, and has not slipped. [`crate::Chain::new`] refuses
+    /// one that cannot be.
+    pub fn new(node: usize, stiffness: f64, holds: f64) -> Self {
         Self {
             node,
             stiffness,
             holds,
-            slip,
+            slip: 0.0,
             slides: 0.0,
         }
+    }
+
+    /// The same after its slip has gone from `before` to `slip` \[m\]: it slides on, or sticks if both are the same.
+    #[must_use]
+    pub fn slid(self, before: f64, slip: f64) -> Self {
+        let slides = if slip == before {
+            0.0
+        } else {
+            (slip - before).signum()
+        };
+        Self { slip, slides, ..self }
     }
 
     /// Whether it sticks; else it slides with its holding force.
@@ -54,12 +65,6 @@ impl Clamp {
     /// Force of the cable on its spring \[N\] where its node is displaced by `u` \[m\], whatever it holds.
     pub fn force(&self, u: f64) -> f64 {
         self.stiffness * (u - self.slip)
-    }
-
-    /// Slides if it has slid since it had slipped by `before` \[m\], and sticks if not.
-    pub(crate) fn slide_since(&mut self, before: f64) {
-        let slid = self.slip - before;
-        self.slides = if slid == 0.0 { 0.0 } else { slid.signum() };
     }
 
     /// Load on its node \[N\], apart from its spring if it sticks, in a frame that has moved by `frame` \[m\] there.

@@ -36,27 +36,19 @@ impl Node {
         }
     }
 
-    /// Its row for a given contact state: a stuck node reads r + γ g = anchor, a slipping one equilibrium with g at its bound. `load` is
-    /// that on it over k \[m\].
+    /// Its row for a given contact state: a stuck node reads r + γ g = anchor, a slipping one equilibrium with g at its bound. Of the load
+    /// p/k \[m\], the adhesion \[N/m\] and the anchor \[m\] are given.
     #[inline]
-    pub(crate) fn row(
-        &self,
-        contact: Contact,
-        load: f64,
-        adhesion: f64,
-        anchor: f64,
-        per_stiffness: f64,
-    ) -> Row {
+    pub(crate) fn row(&self, contact: Contact, load: [f64; 3], per_stiffness: f64) -> Row {
+        let [load, adhesion, anchor] = load;
         if contact == Contact::Stuck {
             let [share, of_anchor] = self.stuck;
             let value = of_anchor * anchor + share * load;
             return Row { share, value };
         }
         let friction = self.tributary * self.bound(contact, adhesion) * per_stiffness;
-        Row {
-            share: self.slipping,
-            value: self.slipping * (friction + load),
-        }
+        let (share, value) = (self.slipping, self.slipping * (friction + load));
+        Row { share, value }
     }
 
     /// Bound of the friction g in the slipping state `contact` \[N/m\].

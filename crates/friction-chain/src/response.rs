@@ -70,13 +70,9 @@ impl Response {
         let from = self.corners.partition_point(|(u, _)| *u < forward);
         let to = from + self.corners[from..].partition_point(|(u, _)| *u <= backward);
         for (i, corner) in self.corners.iter_mut().enumerate() {
-            let (u, p) = *corner;
-            let friction = match i {
-                _ if i < from => upper,
-                _ if i < to => ground.friction(u),
-                _ => lower,
-            };
-            *corner = behind(u, p - friction);
+            let between = (from..to).contains(&i).then(|| ground.friction(corner.0));
+            let friction = between.unwrap_or(if i < from { upper } else { lower });
+            *corner = behind(corner.0, corner.1 - friction);
         }
         self.outer += ground.stiffness;
         self.outer /= 1.0 + self.outer * softness;
@@ -91,19 +87,12 @@ impl Response {
     /// p(u).
     pub fn force(&self, u: f64) -> f64 {
         let next = self.corners.partition_point(|(at, _)| *at < u);
-        match (
-            next.checked_sub(1).map(|i| self.corners[i]),
-            self.corners.get(next),
-        ) {
+        let before = next.checked_sub(1).map(|i| self.corners[i]);
+        match (before, self.corners.get(next)) {
             (Some((u0, p0)), Some(&(u1, p1))) => p0 + (p1 - p0) * (u - u0) / (u1 - u0),
             (Some((at, p)), None) | (None, Some(&(at, p))) => p + self.outer * (u - at),
             (None, None) => 0.0,
         }
-    }
-
-    /// Corners' displacements.
-    fn places(&self) -> impl Iterator<Item = f64> {
-        self.corners.iter().map(|(u, _)| *u)
     }
 }
 
@@ -112,12 +101,11 @@ impl Response {
 pub(crate) fn rest(left: &Response, right: &Response, limits: [f64; 2], own: impl Fn(f64) -> f64) -> f64 {
     let [low, high] = limits;
     let force = |u: f64| left.force(u) + right.force(u) + own(u);
-    let mut places: Vec<f64> = left
-        .places()
-        .chain(right.places())
-        .filter(|u| (low..=high).contains(u))
+    let corners = left.corners.iter().chain(&right.corners).map(|(u, _)| *u);
+    let within = corners.filter(|u| (low..=high).contains(u));
+    let mut places: Vec<f64> = within
+        .chain(limits.into_iter().filter(|u| u.is_finite()))
         .collect();
-    places.extend(limits.into_iter().filter(|u| u.is_finite()));
     places.sort_unstable_by(f64::total_cmp);
     let next = places.partition_point(|&u| force(u) < 0.0);
     let outer = |u: f64, towards: f64| {

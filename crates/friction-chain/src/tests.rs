@@ -28,7 +28,7 @@ impl Step {
     fn chain(&self) -> Result<Chain, ChainError> {
         let limits = vec![1.0; self.nodes.len()];
         let ends = [self.held.0, self.held.1].map(|is_held| (!is_held).then_some(0.0));
-        let spring = |(i, node): (usize, &(f64, f64, f64, f64))| Clamp::new(i, node.2, f64::INFINITY, 0.0);
+        let spring = |(i, node): (usize, &(f64, f64, f64, f64))| Clamp::new(i, node.2, f64::INFINITY);
         let springs = self.nodes.iter().enumerate().map(spring).collect();
         Chain::new(1.0, 1.0, self.compliance, &limits, ends, springs)
     }

@@ -14,7 +14,7 @@ pub use moving_duct::MovingDuct;
 use ground_field::DuctMotion;
 
 use crate::chain::{chain, check_precision};
-use crate::error::checked;
+use crate::error::positive;
 use crate::laid::laid;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
 use nodes::MovingNodes;
@@ -132,14 +132,9 @@ impl Explicit {
         let limits = StepLimits::new(&nodes);
         // Clamps slip at any step of time: they are no springs of the chain.
         nodes.chain = chain(&nodes.cable, &mesh, Vec::new())?;
-        checked(
-            "max_node_updates",
-            options.max_node_updates,
-            "finite and positive",
-            |v| v > 0.0,
-        )?;
+        positive("max_node_updates", options.max_node_updates)?;
         if let Some(time_step) = options.time_step {
-            checked("time_step", time_step, "finite and positive", |v| v > 0.0)?;
+            positive("time_step", time_step)?;
             // Written so that NaN fails.
             let is_stable = time_step <= limits.together();
             if options.check_limits && !is_stable {

@@ -3,7 +3,7 @@
 use ground_field::{Direction, DuctMotion};
 
 use crate::course::{Course, as_driven, of_shape};
-use crate::error::checked;
+use crate::error::{checked, positive};
 use crate::{CableError, DuctedCable, Mesh};
 
 /// Longest step of the lattice \[m\].
@@ -82,7 +82,7 @@ impl MovingDuct {
         course: &Course<impl Fn(f64) -> f64>,
     ) -> Result<Self, CableError> {
         let (direction, approach) = (course.direction, course.approach);
-        checked("speed", speed, "finite and positive", |v| v > 0.0)?;
+        positive("speed", speed)?;
         mesh.check_length(cable.length())?;
         let h = mesh.spacing();
         let parts = (h / LATTICE_STEP).ceil().max(1.0);

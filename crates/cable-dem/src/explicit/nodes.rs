@@ -9,7 +9,7 @@ use super::energy::EnergyBalance;
 use crate::chain::{Bends, chain};
 use crate::clamps::ClampShares;
 use crate::ends::EndReader;
-use crate::error::checked;
+use crate::error::positive;
 use crate::fixed_end_friction::FixedEndFriction;
 use crate::{CableError, CableState, DuctedCable, EndForces, FrictionLaw, Mesh};
 
@@ -53,12 +53,10 @@ pub(super) struct MovingNodes {
 
 impl MovingNodes {
     pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
-        checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
-            v > 0.0
-        })?;
+        positive("mass_per_metre", mass_per_metre)?;
         mesh.check_length(cable.length())?;
         let shares = ClampShares::new(&cable, &mesh);
-        let clamps = shares.clamps(&[]);
+        let clamps = shares.stuck(&[]);
         let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {
             mass_per_metre,
@@ -90,7 +88,7 @@ impl MovingNodes {
         self.friction.copy_from_slice(&state.friction);
         self.velocity.fill(0.0);
         self.before.fill([0.0; 2]);
-        self.clamps = self.shares.clamps(&state.clamp_slips);
+        self.clamps = self.shares.stuck(&state.clamp_slips);
         (self.work, self.heat, self.gross) = (0.0, 0.0, 0.0);
         self.initial = self.elastic_energy();
     }
@@ -99,7 +97,7 @@ impl MovingNodes {
     pub fn store(&self, state: &mut CableState) {
         state.displacement.copy_from_slice(&self.displacement);
         state.friction.copy_from_slice(&self.friction);
-        self.shares.store_all(&self.clamps, &mut state.clamp_slips);
+        self.shares.store(&self.clamps, &mut state.clamp_slips);
     }
 
     /// One step of `time_step` \[s\]; `displacement` writes where the duct stands after it \[m\].

@@ -99,7 +99,7 @@ impl QuasiStatic {
         cable.friction().check_memory("quasi-static")?;
         mesh.check_length(cable.length())?;
         let clamps = ClampShares::new(&cable, &mesh);
-        let chain = chain(&cable, &mesh, clamps.clamps(&[]))?;
+        let chain = chain(&cable, &mesh, clamps.stuck(&[]))?;
         let screening = cable.friction().compliance() * chain.stiffness() / mesh.spacing();
         let bounds = WindowBounds::new(chain.free(), screening);
         let zeros = || vec![0.0; mesh.nodes()];

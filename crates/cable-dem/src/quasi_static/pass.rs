@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use friction_chain::{ChainError, Contact, ImplicitStep, Load, Stretch, Work};
+use friction_chain::{ChainError, Contact, ImplicitStep, Load, Stretch};
 
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
@@ -33,10 +33,10 @@ impl QuasiStatic {
                 self.step_whole(&snapshot)?;
             } else {
                 // A node is looked at once more where adhesion no longer reaches it, and all of them where the friction limit changes.
-                let near = if !self.bends.is_empty() {
-                    self.bounds.free
-                } else {
+                let near = if self.bends.is_empty() {
                     watched.hull(under)
+                } else {
+                    self.bounds.free
                 };
                 self.step_windows(&snapshot, near, passage.first_point(&snapshot))?;
             }
@@ -50,13 +50,9 @@ impl QuasiStatic {
         self.move_duct(&last, &still);
         self.step_whole(&still)?;
         *state = self.shown(&still, state);
-        let Work {
-            solves,
-            node_updates,
-            cycles,
-        } = self.step.work;
-        let statistics = &mut self.outcome.statistics;
-        (statistics.sweeps, statistics.node_updates, statistics.cycles) = (solves, node_updates, cycles);
+        let (work, statistics) = (self.step.work, &mut self.outcome.statistics);
+        (statistics.sweeps, statistics.cycles) = (work.solves, work.cycles);
+        statistics.node_updates = work.node_updates;
         std::mem::take(&mut self.outcome).ended(&self.cable, state)
     }
 
@@ -69,7 +65,7 @@ impl QuasiStatic {
         for (anchor, (r, g)) in self.anchor.iter_mut().zip(self.r.iter().zip(&self.g)) {
             *anchor = r + compliance * g;
         }
-        self.step.chain.stick(&self.clamps.slips(&state.clamp_slips));
+        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
         self.supports
             .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
@@ -87,7 +83,7 @@ impl QuasiStatic {
             state.friction[node] = self.g[node] + snapshot.adhesion[node];
         }
         self.clamps
-            .store_all(self.step.chain.clamps(), &mut state.clamp_slips);
+            .store(self.step.chain.clamps(), &mut state.clamp_slips);
         state
     }
 
@@ -109,8 +105,7 @@ impl QuasiStatic {
         self.solve(self.bounds.free, snapshot)?;
         self.anchor(self.bounds.free);
         self.moving.clear();
-        self.record_ends(snapshot);
-        self.record_clamps(snapshot);
+        self.record(snapshot);
         Ok(())
     }
 
@@ -154,8 +149,7 @@ impl QuasiStatic {
             *part = self.bounds.widened(*part, 1);
         }
         window::join(&mut self.moving);
-        self.record_ends(snapshot);
-        self.record_clamps(snapshot);
+        self.record(snapshot);
         Ok(())
     }
 
@@ -184,11 +178,8 @@ impl QuasiStatic {
 
     /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
     fn anchor(&mut self, stretch: Stretch) {
-        let (chain, compliance, nodes) = (
-            &self.step.chain,
-            self.cable.friction().compliance(),
-            stretch.nodes(),
-        );
+        let (chain, nodes) = (&self.step.chain, stretch.nodes());
+        let compliance = self.cable.friction().compliance();
         let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
         let anchors = self.anchor[nodes.clone()].iter_mut().zip(state);
         let slips = anchors
@@ -251,22 +242,15 @@ impl QuasiStatic {
         (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes()[node].limit
     }
 
-    /// Records the force on each clamp with the vehicle at the snapshot's position.
-    fn record_clamps(&mut self, snapshot: &Snapshot<'_>) {
+    /// Records the forces on ends and clamps with the vehicle at the snapshot's position.
+    fn record(&mut self, snapshot: &Snapshot<'_>) {
+        let u = |node| self.r[node] + snapshot.adherent_at(node);
+        let friction = |node| self.g[node] + snapshot.adhesion[node];
+        self.outcome.see(self.ends.read(self.thermal_force, u, friction));
         let clamps = self.step.chain.clamps();
         if !clamps.is_empty() {
-            let u = |node| self.r[node] + snapshot.adherent_at(node);
             let forces = self.clamps.forces(clamps, self.cable.restraints(), u);
             self.outcome.see_clamps(&forces);
         }
-    }
-
-    /// Records the force on each end with the vehicle at the snapshot's position.
-    fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
-        self.outcome.see(self.ends.read(
-            self.thermal_force,
-            |node| self.r[node] + snapshot.adherent_at(node),
-            |node| self.g[node] + snapshot.adhesion[node],
-        ));
     }
 }

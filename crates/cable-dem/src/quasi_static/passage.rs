@@ -129,21 +129,14 @@ impl Passage {
             }
         }
         let compliance = cable.friction().compliance();
-        let stiffness = cable.axial_stiffness() / mesh.spacing();
-        let phases: Vec<Phase> = (0..m as usize)
-            .map(|phase| {
-                let duct: Vec<f64> = shape[phase..].iter().step_by(m as usize).copied().collect();
-                Phase::new(
-                    &duct,
-                    compliance * stiffness / mesh.spacing(),
-                    stiffness / mesh.spacing(),
-                )
-            })
-            .collect();
-        let peak = phases
-            .iter()
-            .flat_map(|phase| &phase.adherent)
-            .fold(0.0_f64, |peak, a| peak.max(a.abs()));
+        let (stiffness, h) = (cable.axial_stiffness() / mesh.spacing(), mesh.spacing());
+        let phase = |phase: usize| {
+            let duct: Vec<f64> = shape[phase..].iter().step_by(m as usize).copied().collect();
+            Phase::new(&duct, compliance * stiffness / h, stiffness / h)
+        };
+        let phases: Vec<Phase> = (0..m as usize).map(phase).collect();
+        let adherent = phases.iter().flat_map(|phase| &phase.adherent);
+        let peak = adherent.fold(0.0_f64, |peak, a| peak.max(a.abs()));
         let origin = behind / m;
         let reach = phases
             .iter()
