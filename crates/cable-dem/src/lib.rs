@@ -33,6 +33,7 @@ pub use explicit::{
     EnergyBalance, Explicit, ExplicitOptions, ExplicitOutcome, MovingDuct, SigmoidLeak, StepLimits,
 };
 pub use friction::{Friction, FrictionLaw};
+pub use friction_chain;
 pub use inertia::inertia_ratio;
 pub use laid::laid;
 pub use mesh::Mesh;

@@ -55,6 +55,10 @@ impl ImplicitStep {
     }
 
     /// Begins where all nodes stick and are displaced by `r` \[m\]; the steps from there will displace them by up to `peak` \[m\].
+    ///
+    /// # Panics
+    ///
+    /// Unless `r` has a value for every node.
     pub fn begin(&mut self, r: &[f64], peak: f64) {
         self.trial.r.copy_from_slice(r);
         self.trial.contact.fill(Contact::Stuck);
@@ -68,6 +72,10 @@ impl ImplicitStep {
     /// # Errors
     ///
     /// [`ChainError::NoEquilibrium`] where none is found, and where a value of the load is not a number.
+    ///
+    /// # Panics
+    ///
+    /// Unless the load has a value for every node, and `stretch` lies on the chain.
     pub fn solve(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), ChainError> {
         let solved = self.iterate(load, stretch).or_else(|_| {
             self.work.cycles += 1;
@@ -121,9 +129,8 @@ impl ImplicitStep {
         if stretch != chain.free || contact.contains(&Contact::Stuck) || chain.is_held() {
             return Ok(());
         }
-        let (nodes, friction) = (stretch.nodes(), |i: usize| {
-            chain.nodes[i].bound(contact[i], load.adhesion[i])
-        });
+        let nodes = stretch.nodes();
+        let friction = |i: usize| chain.nodes[i].bound(contact[i], load.adhesion[i]);
         let force = |i: usize| chain.nodes[i].tributary * friction(i) + load.support[i];
         let force: f64 = nodes.clone().map(force).sum();
         let length: f64 = nodes.clone().map(|i| chain.nodes[i].tributary).sum();

@@ -219,11 +219,11 @@ impl QuasiStatic {
                 corrections += 1;
                 continue;
             }
-            let (grown, next) = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
+            let grown = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
             if grown == stretch {
                 break;
             }
-            (stretch, growth) = (grown, next);
+            (stretch, growth) = (grown, 2 * growth);
         }
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         self.outcome.dissipated += chain.settle_clamps(stretch, |i| trial.r[i] + snapshot.adherent_at(i));
