@@ -96,11 +96,7 @@ pub(crate) fn shares<'a>(
         let share = (to.min(end) - from.max(begin)) / tributary;
         begin = end;
         // What rounding leaves over at a border is nothing.
-        if share > 1.0 - ROUNDING {
-            (1.0, section)
-        } else {
-            (share, section)
-        }
+        (if share > 1.0 - ROUNDING { 1.0 } else { share }, section)
     };
     sections.iter().map(share).filter(|(share, _)| *share > ROUNDING)
 }

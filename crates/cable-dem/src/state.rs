@@ -216,7 +216,7 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(EndReader::new(cable, &self.mesh).read(
+        Ok(EndReader::new(cable, &self.mesh, false).read(
             self.thermal_force,
             |i| self.displacement[i],
             |i| self.friction[i],

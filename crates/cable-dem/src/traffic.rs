@@ -82,13 +82,12 @@ impl Traffic {
 
     fn drawn(&mut self) -> usize {
         let mut left = self.random.f64();
-        for (index, share) in self.shares.iter().enumerate() {
+        let reaches = |share: &f64| {
             left -= share;
-            if left < 0.0 {
-                return index;
-            }
-        }
-        self.shares.len() - 1
+            left < 0.0
+        };
+        let found = self.shares.iter().position(reaches);
+        found.unwrap_or(self.shares.len() - 1)
     }
 }
 

@@ -66,7 +66,7 @@ impl MovingNodes {
             clamps,
             load: cable.loads(&mesh, 0.0),
             held: FixedEndFriction::new(&cable, &mesh),
-            ends: EndReader::new(&cable, &mesh).moving(&cable),
+            ends: EndReader::new(&cable, &mesh, true),
             displacement: zeros(),
             velocity: zeros(),
             friction: zeros(),

@@ -106,7 +106,7 @@ impl QuasiStatic {
         Ok(Self {
             laid: laid(&cable, &mesh)?,
             supports: Supports::new(&cable, &mesh, &chain, bounds),
-            ends: EndReader::new(&cable, &mesh),
+            ends: EndReader::new(&cable, &mesh, false),
             bounds,
             quiet: QUIET_SHARE * UNBALANCED_SHARE * cable.least_limit() * mesh.spacing() / chain.stiffness(),
             step: ImplicitStep::new(chain),

@@ -30,11 +30,9 @@ pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * WATCHED_SHARE) * UNBALANCED_
 /// zone where the travelling shift presses g against a bound has to be solved.
 #[derive(Debug, Clone)]
 pub struct Passage {
-    /// What it was computed for.
     mesh: Mesh,
-    axial_stiffness: f64,
-    friction: Friction,
-    least_limit: f64,
+    /// Axial stiffness \[N\], friction and least friction limit \[N/m\] for which it was computed.
+    cable: (f64, Friction, f64),
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s, with m = phases
     /// per node spacing.
     phases: Vec<Phase>,
@@ -147,9 +145,7 @@ impl Passage {
             .unwrap_or(0);
         Ok(Self {
             mesh: *mesh,
-            axial_stiffness: cable.axial_stiffness(),
-            friction: cable.friction(),
-            least_limit: cable.least_limit(),
+            cable: (cable.axial_stiffness(), cable.friction(), cable.least_limit()),
             behind: behind as usize,
             positions,
             reach,
@@ -161,10 +157,8 @@ impl Passage {
 
     /// Whether it was computed for a cable of the same stiffness and friction on the same mesh.
     pub(super) fn fits(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
-        self.mesh == *mesh
-            && self.axial_stiffness == cable.axial_stiffness()
-            && self.friction == cable.friction()
-            && self.least_limit == cable.least_limit()
+        let cable = (cable.axial_stiffness(), cable.friction(), cable.least_limit());
+        self.mesh == *mesh && self.cable == cable
     }
 
     /// Vehicle positions of one pass.
