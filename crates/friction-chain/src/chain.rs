@@ -86,6 +86,7 @@ impl Chain {
     }
 
     /// k = EA/h \[N/m\].
+    #[inline]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
@@ -148,6 +149,7 @@ impl Chain {
     }
 
     /// Gives node `i` another friction limit q \[N/m\].
+    #[inline]
     pub fn set_limit(&mut self, i: usize, limit: f64) {
         self.nodes[i].limit = limit;
     }

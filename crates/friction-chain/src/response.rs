@@ -69,11 +69,15 @@ impl Response {
         let new = [(forward, upper), (backward, lower)].map(|(u, bound)| behind(u, self.force(u) - bound));
         let from = self.corners.partition_point(|(u, _)| *u < forward);
         let to = from + self.corners[from..].partition_point(|(u, _)| *u <= backward);
-        for (i, corner) in self.corners.iter_mut().enumerate() {
-            let between = (from..to).contains(&i).then(|| ground.friction(corner.0));
-            let friction = between.unwrap_or(if i < from { upper } else { lower });
-            *corner = behind(corner.0, corner.1 - friction);
-        }
+        let rub = |(u, p): &mut (f64, f64), friction: f64| (*u, *p) = behind(*u, *p - friction);
+        self.corners[..from]
+            .iter_mut()
+            .for_each(|corner| rub(corner, upper));
+        let between = self.corners[from..to].iter_mut();
+        between.for_each(|corner| rub(corner, ground.friction(corner.0)));
+        self.corners[to..]
+            .iter_mut()
+            .for_each(|corner| rub(corner, lower));
         self.outer += ground.stiffness;
         self.outer /= 1.0 + self.outer * softness;
         if forward == backward {

@@ -160,9 +160,9 @@ impl QuasiStatic {
         let slips =
             |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes()[node].limit);
         // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
+        let least = above(self.cable.least_limit());
         let may_slip = |block: Range<usize>| {
             let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
-            let least = above(self.cable.least_limit());
             pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
         };
         let mut windows = self.moving.clone();
