@@ -286,7 +286,8 @@ impl RestingCable {
             return Err(CableError::of_step(error, f64::INFINITY));
         }
         let ImplicitStep { chain, trial, .. } = &mut self.step;
-        let mut heat = chain.settle_clamps(chain.free(), |i| trial.r[i]);
+        let mut heat = 0.0;
+        chain.settle_clamps(chain.free(), |i| trial.r[i], &mut heat);
         self.clamps.store(chain.clamps(), &mut state.clamp_slips);
         let (u, f) = (&mut state.displacement, &mut state.friction);
         for (i, node) in chain.nodes().iter().enumerate() {

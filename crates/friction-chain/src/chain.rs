@@ -179,11 +179,13 @@ impl Chain {
         corrected
     }
 
-    /// Ends a step that moved the nodes of `stretch` to `u` \[m\]: clamps that slide have slipped. Returned: the heat of it \[J\].
-    pub fn settle_clamps(&mut self, stretch: Stretch, u: impl Fn(usize) -> f64) -> f64 {
-        let clamps = self.clamps.iter_mut();
-        let on_it = clamps.filter(|clamp| stretch.nodes().contains(&clamp.node));
-        on_it.map(|clamp| clamp.settle(u(clamp.node))).sum()
+    /// Ends a step that moved the nodes of `stretch` to `u` \[m\]: clamps that slide have slipped. Adds the heat of it to `heat` \[J\].
+    pub fn settle_clamps(&mut self, stretch: Stretch, u: impl Fn(usize) -> f64, heat: &mut f64) {
+        for clamp in &mut self.clamps {
+            if stretch.nodes().contains(&clamp.node) {
+                *heat += clamp.settle(u(clamp.node));
+            }
+        }
     }
 
     /// Adds what clamps do apart from their springs to the `load` of every node \[N\], in a frame that has moved by `frame` \[m\] there.

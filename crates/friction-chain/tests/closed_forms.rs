@@ -30,7 +30,7 @@ fn pulled(chain: Chain, pull: f64) -> Result<ImplicitStep, ChainError> {
         step.solve(&load, free)?;
         let ImplicitStep { chain, trial, .. } = &mut step;
         if !chain.correct_clamps(free, |i| trial.r[i]) {
-            chain.settle_clamps(free, |i| trial.r[i]);
+            chain.settle_clamps(free, |i| trial.r[i], &mut 0.0);
             return Ok(step);
         }
     }

@@ -226,7 +226,8 @@ impl QuasiStatic {
             (stretch, growth) = (grown, 2 * growth);
         }
         let ImplicitStep { chain, trial, .. } = &mut self.step;
-        self.outcome.dissipated += chain.settle_clamps(stretch, |i| trial.r[i] + snapshot.adherent_at(i));
+        let u = |i: usize| trial.r[i] + snapshot.adherent_at(i);
+        chain.settle_clamps(stretch, u, &mut self.outcome.dissipated);
         let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();
