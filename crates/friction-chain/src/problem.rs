@@ -1,7 +1,7 @@
 //! The problem of one step: a double obstacle.
 //!
 //! Unknown are the displacements r of the nodes of one stretch. With K the chain's stiffness, S that of the springs to the ground, p the
-//! loads and w_i the length of cable at node i, the step minimises the strictly convex energy
+//! loads and w_i the length of cable at node i, the step minimises the convex energy
 //!
 //! ½ rᵀ(K + S) r − pᵀr + Σ w_i Φ_i(r_i),
 //!
