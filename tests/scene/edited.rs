@@ -329,7 +329,10 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         32 => scene.duct.inner_diameter = Some(value),
         33 => scene.cable.diameter = Some(0.067),
         34 => scene.cable.arrangement = Arrangement::CradledMiddle,
-        35 => scene.restraints.push(Restraint::new(3.0, 1e6).that_holds(value)),
+        35 => scene.restraints.push(Restraint {
+            holds: Some(value),
+            ..Restraint::new(3.0, 1e6)
+        }),
         36 => scene.route = vec![section(None, 0.01 * value, Some(10.0), None)],
         37 => {
             scene.route = vec![

@@ -3,7 +3,7 @@
 use ground_field::DuctMotion;
 
 use crate::CableError;
-use crate::error::checked;
+use crate::error::{checked, positive};
 use crate::tuning::NEGLIGIBLE_TURN;
 
 /// How far beyond the last turn of D_l, as a multiple of its distance, the parts of the duct no longer change the order in which they
@@ -44,7 +44,7 @@ const NEAREST: f64 = 6.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn approach(motions: &[DuctMotion], depth: f64, farthest: f64) -> Result<f64, CableError> {
-    let nearest = NEAREST * checked("depth", depth, "finite and positive", |v| v > 0.0)?;
+    let nearest = NEAREST * positive("depth", depth)?;
     checked("farthest", farthest, "finite", |_| true)?;
     Ok(motions
         .iter()

@@ -1,6 +1,6 @@
 //! The cable in its duct: length, stiffness, friction, and what holds it.
 
-use crate::error::checked;
+use crate::error::{checked, not_negative, positive};
 use crate::section::{self, Section};
 use crate::{CableError, Friction, Mesh};
 
@@ -47,15 +47,6 @@ impl Restraint {
             holds: None,
         }
     }
-
-    /// The same that slips above the force `holds` \[N\].
-    #[must_use]
-    pub fn that_holds(self, holds: f64) -> Self {
-        Self {
-            holds: Some(holds),
-            ..self
-        }
-    }
 }
 
 /// A cable in a duct from x = 0 (upstream) to x = length (downstream), level and straight unless its
@@ -65,7 +56,7 @@ impl Restraint {
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Restraint};
 ///
 /// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
-/// let clamp = Restraint::new(12.0, 1e6).that_holds(2e3);
+/// let clamp = Restraint { holds: Some(2e3), ..Restraint::new(12.0, 1e6) };
 /// let cable = DuctedCable::new(30.0, 8.01e6, friction)?
 ///     .with_ends(End::Spring(5e6), End::Fixed)?
 ///     .with_restraints(vec![clamp])?;
@@ -93,11 +84,10 @@ impl DuctedCable {
     ///
     /// [`CableError::InvalidParameter`] unless length and stiffness are finite and positive.
     pub fn new(length: f64, axial_stiffness: f64, friction: Friction) -> Result<Self, CableError> {
-        let allowed = "finite and positive";
         Ok(Self {
             sections: vec![Section::new(length, friction.limit())],
-            length: checked("length", length, allowed, |v| v > 0.0)?,
-            axial_stiffness: checked("axial_stiffness", axial_stiffness, allowed, |v| v > 0.0)?,
+            length: positive("length", length)?,
+            axial_stiffness: positive("axial_stiffness", axial_stiffness)?,
             friction,
             upstream: End::Free,
             downstream: End::Free,
@@ -114,9 +104,7 @@ impl DuctedCable {
     pub fn with_ends(mut self, upstream: End, downstream: End) -> Result<Self, CableError> {
         for end in [upstream, downstream] {
             if let End::Spring(stiffness) = end {
-                checked("spring stiffness", stiffness, "finite and not negative", |v| {
-                    v >= 0.0
-                })?;
+                not_negative("spring stiffness", stiffness)?;
             }
         }
         (self.upstream, self.downstream) = (upstream, downstream);
@@ -148,14 +136,9 @@ impl DuctedCable {
             checked("restraint position", restraint.position, "on the duct", |v| {
                 (0.0..=self.length).contains(&v)
             })?;
-            checked(
-                "restraint stiffness",
-                restraint.stiffness,
-                "finite and not negative",
-                |v| v >= 0.0,
-            )?;
+            not_negative("restraint stiffness", restraint.stiffness)?;
             if let Some(holds) = restraint.holds {
-                checked("holding force", holds, "finite and positive", |v| v > 0.0)?;
+                positive("holding force", holds)?;
             }
         }
         self.restraints = restraints;

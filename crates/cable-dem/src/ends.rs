@@ -1,6 +1,6 @@
 //! What a load cell at an end of the cable reads.
 
-use crate::step::Grip;
+use crate::clamps::ClampShares;
 use crate::{DuctedCable, End, Mesh};
 
 /// Forces at both ends \[N\], compression positive: what load cells there read.
@@ -57,13 +57,17 @@ pub(crate) struct EndReader {
 }
 
 impl EndReader {
-    pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
+    /// Of `cable` on `mesh`. While masses move, the force of the chain also accelerates the half element at an end: then springs are read by
+    /// their displacements.
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, moves: bool) -> Self {
         let last = mesh.elements();
-        let grips = Grip::of(cable, mesh);
+        let clamps = ClampShares::new(cable, mesh).stuck(&[]);
         let body = cable.body_loads(mesh);
         let reading = |node: usize, end: End| match end {
             End::Free | End::Spring(0.0) => Reading::Nothing,
-            End::Spring(spring) if grips.iter().any(|grip| grip.node == node) => Reading::Spring(spring),
+            End::Spring(spring) if moves || clamps.iter().any(|clamp| clamp.node == node) => {
+                Reading::Spring(spring)
+            }
             _ => Reading::Chain,
         };
         Self {
@@ -74,16 +78,6 @@ impl EndReader {
             last,
             body: [body[0], body[last]],
         }
-    }
-
-    /// Reads springs by their displacements: while masses move, the force of the chain also accelerates the half element there.
-    pub fn moving(mut self, cable: &DuctedCable) -> Self {
-        for (reading, end) in self.reads.iter_mut().zip([cable.upstream(), cable.downstream()]) {
-            if let (Reading::Chain, End::Spring(spring)) = (*reading, end) {
-                *reading = Reading::Spring(spring);
-            }
-        }
-        self
     }
 
     /// Force on each end of a cable whose heat has the force `thermal` \[N\], from the displacement \[m\] and friction \[N/m\] of any node.

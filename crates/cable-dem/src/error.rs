@@ -1,5 +1,7 @@
 //! What can go wrong in the cable.
 
+use friction_chain::ChainError;
+
 /// Error of a cable model or of a solver.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -35,6 +37,9 @@ pub enum CableError {
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,
     },
+    /// The cable makes no chain of nodes.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
     /// Nothing holds a cable that its own weight draws down the duct.
     #[error(
         "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it",
@@ -138,6 +143,19 @@ pub enum CableError {
     },
 }
 
+impl CableError {
+    /// That of a step with the vehicle at `vehicle_position` \[m\], infinite where none is near.
+    pub(crate) fn of_step(error: ChainError, vehicle_position: f64) -> Self {
+        match error {
+            ChainError::NoEquilibrium { violation } => Self::NoConvergence {
+                vehicle_position,
+                violation,
+            },
+            error => Self::Chain(error),
+        }
+    }
+}
+
 /// Where the vehicle is, in words.
 fn vehicle(position: f64) -> String {
     if position.is_finite() {
@@ -145,6 +163,16 @@ fn vehicle(position: f64) -> String {
     } else {
         "of the cable at rest".into()
     }
+}
+
+/// `value` if it is finite and positive.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, CableError> {
+    checked(name, value, "finite and positive", |v| v > 0.0)
+}
+
+/// `value` if it is finite and not negative.
+pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<f64, CableError> {
+    checked(name, value, "finite and not negative", |v| v >= 0.0)
 }
 
 /// `value` if it is a number for which `holds`, or the error that says what is allowed.

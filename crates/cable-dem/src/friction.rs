@@ -1,7 +1,7 @@
 //! Friction between cable and duct, per metre of cable.
 
 use crate::CableError;
-use crate::error::checked;
+use crate::error::{not_negative, positive};
 
 /// How friction follows slip.
 ///
@@ -84,15 +84,10 @@ impl Friction {
     ///
     /// [`CableError::InvalidParameter`] unless the limit is finite and not negative, the shape factor finite and positive.
     pub fn new(law: FrictionLaw, limit_per_metre: f64) -> Result<Self, CableError> {
-        let limit = checked(
-            "friction limit",
-            limit_per_metre,
-            "finite and not negative",
-            |v| v >= 0.0,
-        )?;
+        let limit = not_negative("friction limit", limit_per_metre)?;
         if law != FrictionLaw::Coulomb {
             let shape_factor = law.shape_factor();
-            checked("shape_factor", shape_factor, "finite and positive", |v| v > 0.0)?;
+            positive("shape_factor", shape_factor)?;
         }
         Ok(Self { law, limit })
     }

@@ -1,6 +1,6 @@
 //! Whether inertia matters.
 
-use crate::error::checked;
+use crate::error::positive;
 use crate::{CableError, DuctedCable};
 
 /// Inertia ratio v²/c² = m′ v²/EA of `cable` with `mass_per_metre` m′ \[kg/m\] under a vehicle at `speed` v \[m/s\]: by this
@@ -29,9 +29,7 @@ use crate::{CableError, DuctedCable};
 ///
 /// [`CableError::InvalidParameter`] unless mass and speed are finite and positive.
 pub fn inertia_ratio(cable: &DuctedCable, mass_per_metre: f64, speed: f64) -> Result<f64, CableError> {
-    checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
-        v > 0.0
-    })?;
-    checked("speed", speed, "finite and positive", |v| v > 0.0)?;
+    positive("mass_per_metre", mass_per_metre)?;
+    positive("speed", speed)?;
     Ok(mass_per_metre * speed * speed / cable.axial_stiffness())
 }

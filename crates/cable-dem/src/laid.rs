@@ -1,7 +1,9 @@
 //! The cable as laid.
 
-use crate::step::{Chain, largest};
-use crate::tridiagonal::Row;
+use friction_chain::tridiagonal::Row;
+
+use crate::chain::chain;
+use crate::clamps::ClampShares;
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable, Section};
 
 /// `cable` on `mesh` as laid: in a level duct without displacement or friction, under a body force p at rest after one step from there,
@@ -34,22 +36,22 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         return Ok(state);
     }
     mesh.check_length(cable.length())?;
-    let chain = Chain::new(cable, mesh);
+    let chain = chain(cable, mesh, ClampShares::new(cable, mesh).stuck(&[]))?;
     let mean = |of: fn(&Section) -> f64| {
         let whole: f64 = sections.iter().map(|section| of(section) * section.length).sum();
         whole / cable.length()
     };
     let (body_force, limit_of_all) = (mean(|section| section.body_force), mean(|section| section.limit));
-    if !chain.is_held && body_force.abs() >= limit_of_all {
+    if !chain.is_held() && body_force.abs() >= limit_of_all {
         let limit = limit_of_all;
         return Err(CableError::NothingHolds { body_force, limit });
     }
     // Without friction, K u = w p.
-    let elastic = if chain.is_held {
+    let elastic = if chain.is_held() {
         let load = cable.loads(mesh, 0.0);
         chain.solve(|i| {
-            let share = 1.0 / chain.nodes[i].diagonal;
-            let value = share * load[i] * chain.per_stiffness;
+            let share = 1.0 / chain.nodes()[i].diagonal;
+            let value = share * load[i] * (1.0 / chain.stiffness());
             Row { share, value }
         })
     } else {
@@ -62,11 +64,12 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
     // It moves no farther than what friction does not hold can stretch it, and its sheath shears.
     let unheld = |section: &Section| (1.0 - section.limit / section.body_force.abs()).max(0.0);
     let unheld = sections.iter().map(unheld).fold(0.0, f64::max);
-    let farthest = unheld * largest(&elastic, 0.0) + cable.friction().compliance() * limit;
-    RestingCable::with_memory(cable, mesh).follow(&mut state, None, 0.0, farthest)?;
+    let farthest = unheld * elastic.iter().fold(0.0, |largest: f64, u| largest.max(u.abs()))
+        + cable.friction().compliance() * limit;
+    RestingCable::with_memory(cable, mesh)?.follow(&mut state, None, 0.0, farthest)?;
     if cable.friction().law() == FrictionLaw::Coulomb {
         // Between a fixed end and its neighbour nothing slips, and friction holds as everywhere else.
-        for node in (0..mesh.nodes()).filter(|node| !chain.free.nodes().contains(node)) {
+        for node in (0..mesh.nodes()).filter(|node| !chain.free().nodes().contains(node)) {
             let Section {
                 body_force, limit, ..
             } = sections[if node == 0 { 0 } else { sections.len() - 1 }];

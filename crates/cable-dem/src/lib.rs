@@ -3,11 +3,14 @@
 mod approach;
 mod cable;
 mod carried;
+mod chain;
+mod clamps;
 mod course;
 mod ends;
 mod error;
 mod explicit;
 mod extremes;
+mod fixed_end_friction;
 mod friction;
 mod inertia;
 mod laid;
@@ -18,9 +21,7 @@ mod resting;
 mod section;
 mod state;
 mod statistics;
-mod step;
 mod traffic;
-mod tridiagonal;
 mod tuning;
 
 pub use approach::approach;
@@ -32,6 +33,7 @@ pub use explicit::{
     EnergyBalance, Explicit, ExplicitOptions, ExplicitOutcome, MovingDuct, SigmoidLeak, StepLimits,
 };
 pub use friction::{Friction, FrictionLaw};
+pub use friction_chain;
 pub use inertia::inertia_ratio;
 pub use laid::laid;
 pub use mesh::Mesh;

@@ -1,7 +1,7 @@
 //! The cable cut into equal elements, and the lattice the vehicle moves on.
 
 use crate::CableError;
-use crate::error::checked;
+use crate::error::{checked, positive};
 
 /// Most nodes a mesh may have: 1e7 nodes take about 1 GB.
 const MAX_NODES: f64 = 1e7;
@@ -44,7 +44,7 @@ impl Mesh {
     /// [`CableError::InvalidParameter`] unless all are finite and positive, the spacing is at most half the length and
     /// there are at most 1e7 nodes.
     pub fn new(length: f64, node_spacing: f64, vehicle_step: f64) -> Result<Self, CableError> {
-        checked("length", length, "finite and positive", |v| v > 0.0)?;
+        positive("length", length)?;
         checked(
             "node_spacing",
             node_spacing,
@@ -87,8 +87,8 @@ impl Mesh {
     /// [`CableError::InvalidParameter`] unless length and depth are finite and positive, there are at least three nodes per depth, and
     /// at most 5e6 of them.
     pub fn for_depth(length: f64, depth: f64, nodes_per_depth: f64) -> Result<Self, CableError> {
-        checked("length", length, "finite and positive", |v| v > 0.0)?;
-        checked("depth", depth, "finite and positive", |v| v > 0.0)?;
+        positive("length", length)?;
+        positive("depth", depth)?;
         checked("nodes_per_depth", nodes_per_depth, "at least 3", |v| v >= 3.0)?;
         let spacing = (depth / nodes_per_depth).min(length / FEWEST);
         Self::new(length, spacing, spacing / STEPS_PER_SPACING)
@@ -102,7 +102,7 @@ impl Mesh {
         })?;
         Ok(Self {
             elements,
-            spacing: checked("node_spacing", spacing, "finite and positive", |v| v > 0.0)?,
+            spacing: positive("node_spacing", spacing)?,
             phases: 1,
             stride: 1,
         })

@@ -107,15 +107,10 @@ impl PassOutcome {
             (0..count).map(sum).collect()
         };
         let sum = |of: fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
+        let end = |of: &dyn Fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
         let ends = |of: fn(&Self) -> EndForces| EndForces {
-            upstream: parts
-                .iter()
-                .map(|(weight, part)| weight * of(part).upstream)
-                .sum(),
-            downstream: parts
-                .iter()
-                .map(|(weight, part)| weight * of(part).downstream)
-                .sum(),
+            upstream: end(&|part| of(part).upstream),
+            downstream: end(&|part| of(part).downstream),
         };
         Self {
             force: ends(|o| o.force),

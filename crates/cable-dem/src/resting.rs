@@ -1,8 +1,12 @@
 //! The cable between two passes, when duct and cable are at rest.
 
+use friction_chain::tridiagonal::Row;
+use friction_chain::{Chain, ChainError, Clamp, ImplicitStep, Load};
+
+use crate::chain::{Bends, chain};
+use crate::clamps::ClampShares;
 use crate::error::checked;
-use crate::step::{Chain, FixedEndFriction, Load, StepSolver, largest};
-use crate::tridiagonal::Row;
+use crate::fixed_end_friction::FixedEndFriction;
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
 /// Change of a friction limit in a bend, as a share of it, with which a step has found its force; and rounds until then at most.
@@ -34,7 +38,9 @@ const MAX_ROUNDS: usize = 100;
 /// ```
 #[derive(Debug, Clone)]
 pub struct RestingCable {
-    step: StepSolver,
+    step: ImplicitStep,
+    bends: Bends,
+    clamps: ClampShares,
     cable: DuctedCable,
     held: FixedEndFriction,
     anchor: Vec<f64>,
@@ -42,8 +48,8 @@ pub struct RestingCable {
     /// Body force w p of every node \[N\]; and with what heat does to the ends.
     body: Vec<f64>,
     load: Vec<f64>,
-    /// Slips of the clamps before and after the change by which they were released \[m\].
-    released: [Vec<[f64; 2]>; 2],
+    /// Clamps as the last change released them.
+    released: Vec<Clamp>,
     mesh: Mesh,
 }
 
@@ -57,25 +63,28 @@ impl RestingCable {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("resting")?;
         mesh.check_length(cable.length())?;
-        Ok(Self::with_memory(cable, mesh))
+        Self::with_memory(cable, mesh)
     }
 
     /// The same on a mesh that is known to be as long as the cable, and for any law: in the place
     /// of the sigmoid stands the elastic-plastic law with its slope.
-    pub(crate) fn with_memory(cable: &DuctedCable, mesh: &Mesh) -> Self {
+    pub(crate) fn with_memory(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
         let cable = cable.with_memory();
+        let clamps = ClampShares::new(&cable, mesh);
         let zeros = || vec![0.0; mesh.nodes()];
-        Self {
-            step: StepSolver::new(Chain::new(&cable, mesh)),
+        Ok(Self {
+            step: ImplicitStep::new(chain(&cable, mesh, clamps.stuck(&[]))?),
+            bends: Bends::new(&cable, mesh),
             held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
             body: cable.loads(mesh, 0.0),
             load: cable.loads(mesh, 0.0),
-            released: [Vec::new(), Vec::new()],
+            released: clamps.stuck(&[]),
+            clamps,
             mesh: *mesh,
             cable,
-        }
+        })
     }
 
     /// The cable.
@@ -83,31 +92,21 @@ impl RestingCable {
         &self.cable
     }
 
-    /// Nodes that can move: all but fixed ends.
-    pub fn free(&self) -> std::ops::RangeInclusive<usize> {
-        self.step.chain.free.nodes()
-    }
-
-    /// Length of cable \[m\] that belongs to `node`.
-    pub fn tributary(&self, node: usize) -> f64 {
-        self.step.chain.nodes[node].tributary
-    }
-
-    /// Friction limit of `node` \[N/m\] under the force that the cable had in its last step.
-    pub fn limit(&self, node: usize) -> f64 {
-        self.step.chain.nodes[node].limit
+    /// Its nodes: which are free, their lengths of cable, their friction limits under the force that the cable had in its last step, and
+    /// whether an end spring, a clamp or a fixed end holds them: otherwise the cable may be moved as a whole.
+    pub fn chain(&self) -> &Chain {
+        &self.step.chain
     }
 
     /// Takes clamps that slip and have slid from `before` to `after` as ones that bear a force and are no springs, and the others as
     /// springs: what the cable answers to a small change then. It holds until the next call, whatever comes to rest in between.
     pub fn release(&mut self, before: &CableState, after: &CableState) {
-        self.released = [before, after].map(|state| state.clamp_slips.clone());
+        self.released = self.clamps.slid(&before.clamp_slips, &after.clamp_slips);
         self.release_again();
     }
 
     fn release_again(&mut self) {
-        let [before, after] = &self.released;
-        self.step.chain.release(before, after);
+        self.step.chain.set_clamps(&self.released);
     }
 
     /// The cable of `state` with its nodes displaced by `displacement` \[m\] and clamps that slide ([`RestingCable::release`]) taken along;
@@ -121,31 +120,30 @@ impl RestingCable {
         let mut moved = CableState::from_parts(&self.mesh, displacement, friction)?;
         moved.thermal_force = state.thermal_force;
         moved.clamp_slips.clone_from(&state.clamp_slips);
-        for grip in &self.step.chain.grips {
-            let advance = moved.displacement[grip.node] - state.displacement[grip.node];
-            grip.follow(advance, &mut moved.clamp_slips);
-        }
+        let clamps = self.step.chain.clamps();
+        self.clamps
+            .update(clamps, &mut moved.clamp_slips, |_, clamp, slip| {
+                let advance = moved.displacement[clamp.node] - state.displacement[clamp.node];
+                (!clamp.is_stuck()).then_some(slip + advance)
+            });
         Ok(moved)
     }
 
     /// Lets the clamps of `state` that slide ([`RestingCable::release`]) slip until they bear these `forces` \[N\], in the order of
     /// [`DuctedCable::restraints`].
     pub fn bear(&self, state: &mut CableState, forces: &[f64]) {
-        for grip in &self.step.chain.grips {
-            let u = state.displacement[grip.node];
-            grip.bear_in(&mut state.clamp_slips, u, forces, self.cable.restraints());
-        }
-    }
-
-    /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
-    pub fn is_held(&self) -> bool {
-        self.step.chain.is_held
+        let (clamps, restraints) = (self.step.chain.clamps(), self.cable.restraints());
+        self.clamps
+            .update(clamps, &mut state.clamp_slips, |restraint, clamp, _| {
+                let strain = forces[restraint] / restraints[restraint].stiffness;
+                (!clamp.is_stuck()).then_some(state.displacement[clamp.node] - strain)
+            });
     }
 
     /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, beside that which balances the body force, at every
     /// node that can move; the others are left.
     pub fn balance(&self, u: &[f64], friction: &mut [f64]) {
-        for i in self.free() {
+        for i in self.step.chain.free().nodes() {
             friction[i] = self.step.chain.balancing_friction(u, &self.nothing, i);
         }
     }
@@ -154,7 +152,7 @@ impl RestingCable {
     /// others are left.
     pub fn needed(&mut self, u: &[f64], thermal_force: f64, friction: &mut [f64]) {
         self.heat(thermal_force);
-        for i in self.free() {
+        for i in self.step.chain.free().nodes() {
             friction[i] = self.step.chain.balancing_friction(u, &self.load, i);
         }
     }
@@ -164,8 +162,8 @@ impl RestingCable {
         let chain = &self.step.chain;
         let elements = u
             .windows(2)
-            .map(|pair| chain.stiffness * (pair[0] - pair[1]).abs());
-        let springs = chain.free.nodes().map(|i| chain.spring(i) * u[i].abs());
+            .map(|pair| chain.stiffness() * (pair[0] - pair[1]).abs());
+        let springs = chain.free().nodes().map(|i| chain.spring(i) * u[i].abs());
         elements.chain(springs).fold(0.0, f64::max)
     }
 
@@ -174,8 +172,8 @@ impl RestingCable {
     pub fn diffuse(&self, slope: impl Fn(usize) -> f64, y: &mut [f64]) {
         let chain = &self.step.chain;
         let row = |i: usize| {
-            let node = &chain.nodes[i];
-            let off = slope(i) * chain.stiffness * node.per_tributary;
+            let node = &chain.nodes()[i];
+            let off = slope(i) * chain.stiffness() * node.per_tributary;
             let per_pivot = 1.0 / (1.0 + off * node.diagonal);
             Row {
                 share: off * per_pivot,
@@ -194,14 +192,14 @@ impl RestingCable {
     /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
-        self.step.chain.grip(&state.clamp_slips);
+        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
         self.heat(state.thermal_force);
         self.press(state, state.thermal_force);
-        let StepSolver { chain, .. } = &self.step;
+        let chain = &self.step.chain;
         let mut at_rest = true;
-        for i in chain.free.nodes() {
+        for i in chain.free().nodes() {
             let needed = chain.balancing_friction(&state.displacement, &self.load, i);
-            let limit = chain.nodes[i].limit;
+            let limit = chain.nodes()[i].limit;
             at_rest &= needed.abs() <= limit;
             state.friction[i] = needed.clamp(-limit, limit);
         }
@@ -252,17 +250,15 @@ impl RestingCable {
     /// Heat pushes the two ends apart and nothing between them; clamps that slip bear their part.
     fn heat(&mut self, thermal_force: f64) {
         let (body, load, last) = (&self.body, &mut self.load, self.body.len() - 1);
-        for grip in &self.step.chain.grips {
-            load[grip.node] = body[grip.node];
-        }
+        load.copy_from_slice(body);
         (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
-        self.step.chain.add_grip_loads(load, |_| 0.0);
+        self.step.chain.add_clamp_loads(load, |_| 0.0);
     }
 
     /// Lets the cable in `state` press on the bends of the duct, as warm as it will be: that is the force before anything moves.
     fn press(&mut self, state: &CableState, thermal_force: f64) {
         let u = &state.displacement;
-        self.step.chain.press(|i| u[i], thermal_force);
+        self.bends.press(&mut self.step.chain, |i| u[i], thermal_force);
     }
 
     /// One step of the whole cable from `state` to the heat `thermal_force` \[N\], in which the
@@ -275,34 +271,27 @@ impl RestingCable {
         thermal_force: f64,
         movement: f64,
     ) -> Result<f64, CableError> {
-        self.step.chain.grip(&state.clamp_slips);
+        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
         self.heat(thermal_force);
         self.press(state, thermal_force);
-        let StepSolver { chain, trial, .. } = &mut self.step;
         let moved = |i: usize| duct.map_or(0.0, |duct| duct[i]);
-        let compliance = chain.compliance;
+        let compliance = self.cable.friction().compliance();
         let (u, f) = (&mut state.displacement, &mut state.friction);
         for (i, anchor) in self.anchor.iter_mut().enumerate() {
             *anchor = u[i] + moved(i) + compliance * f[i];
         }
-        trial.r.copy_from_slice(u);
-        self.step.start(largest(u, movement));
-        if let Err(violation) = self.equilibrate(thermal_force) {
+        self.step.begin(u, movement);
+        if let Err(error) = self.equilibrate(thermal_force) {
             self.release_again();
-            return Err(CableError::NoConvergence {
-                vehicle_position: f64::INFINITY,
-                violation,
-            });
+            return Err(CableError::of_step(error, f64::INFINITY));
         }
-        let StepSolver { chain, trial, .. } = &mut self.step;
+        let ImplicitStep { chain, trial, .. } = &mut self.step;
         let mut heat = 0.0;
-        for grip in &mut chain.grips {
-            heat += grip.settle(trial.r[grip.node]);
-            grip.store(&mut state.clamp_slips);
-        }
+        chain.settle_clamps(chain.free(), |i| trial.r[i], &mut heat);
+        self.clamps.store(chain.clamps(), &mut state.clamp_slips);
         let (u, f) = (&mut state.displacement, &mut state.friction);
-        for (i, node) in chain.nodes.iter().enumerate() {
-            let is_free = chain.free.nodes().contains(&i);
+        for (i, node) in chain.nodes().iter().enumerate() {
+            let is_free = chain.free().nodes().contains(&i);
             let after = if is_free {
                 trial.g[i]
             } else {
@@ -318,8 +307,8 @@ impl RestingCable {
     }
 
     /// Solves the step from its anchors: with the force before it where the duct bends, and then with the force that it leads to; with
-    /// clamps that stick, and then with those that slide. On failure, the largest violation as a share of the friction limit.
-    fn equilibrate(&mut self, thermal_force: f64) -> Result<(), f64> {
+    /// clamps that stick, and then with those that slide.
+    fn equilibrate(&mut self, thermal_force: f64) -> Result<(), ChainError> {
         let mut change = f64::INFINITY;
         for _ in 0..=MAX_ROUNDS {
             let load = Load {
@@ -327,10 +316,10 @@ impl RestingCable {
                 support: &self.load,
                 anchor: &self.anchor,
             };
-            self.step.solve(&load, self.step.chain.free)?;
-            let StepSolver { chain, trial, .. } = &mut self.step;
-            change = chain.press(|i| trial.r[i], thermal_force);
-            if chain.correct_grips(chain.free, |i| trial.r[i]) {
+            self.step.solve(&load, self.step.chain.free())?;
+            let ImplicitStep { chain, trial, .. } = &mut self.step;
+            change = self.bends.press(chain, |i| trial.r[i], thermal_force);
+            if chain.correct_clamps(chain.free(), |i| trial.r[i]) {
                 change = f64::INFINITY;
             }
             if change <= PRESSED {
@@ -338,7 +327,7 @@ impl RestingCable {
             }
             self.heat(thermal_force);
         }
-        Err(change)
+        Err(ChainError::NoEquilibrium { violation: change })
     }
 }
 
@@ -370,7 +359,7 @@ mod tests {
             resting.diffuse(slope, &mut y);
             let mut friction = vec![0.0; mesh.nodes()];
             resting.balance(&y, &mut friction);
-            let free = resting.free();
+            let free = resting.chain().free().nodes();
             assert!((0..mesh.nodes()).all(|i| free.contains(&i) || y[i] == 0.0));
             for i in free {
                 let missed = y[i] + slope(i) * friction[i] - b[i];

@@ -1,6 +1,6 @@
 //! Sections of a duct: along each of them slope, bend and surface are the same.
 
-use crate::error::checked;
+use crate::error::{checked, not_negative, positive};
 use crate::{CableError, Mesh};
 
 /// A share of a node's length that is less is rounding.
@@ -64,28 +64,19 @@ impl Section {
 
     /// Refuses values that have no meaning for a cable with the friction `limit` \[N/m\].
     pub(crate) fn check(&self, limit: f64) -> Result<(), CableError> {
-        checked("section length", self.length, "finite and positive", |v| v > 0.0)?;
+        positive("section length", self.length)?;
         let rubs = |v: f64| if limit == 0.0 { v == 0.0 } else { v > 0.0 };
-        checked(
-            "friction limit of a section",
-            self.limit,
-            "positive, or 0 without friction",
-            rubs,
-        )?;
+        let allowed = "positive, or 0 without friction";
+        checked("friction limit of a section", self.limit, allowed, rubs)?;
         checked("body force of a section", self.body_force, "finite", |_| true)?;
-        checked("bend of a section", self.bend, "finite and not negative", |v| {
-            v >= 0.0
-        })?;
+        not_negative("bend of a section", self.bend)?;
         Ok(())
     }
 
     /// Whether slope, bend and surface are those of `other`.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        *self
-            == Self {
-                length: self.length,
-                ..*other
-            }
+        let length = self.length;
+        *self == Self { length, ..*other }
     }
 }
 
@@ -105,11 +96,7 @@ pub(crate) fn shares<'a>(
         let share = (to.min(end) - from.max(begin)) / tributary;
         begin = end;
         // What rounding leaves over at a border is nothing.
-        if share > 1.0 - ROUNDING {
-            (1.0, section)
-        } else {
-            (share, section)
-        }
+        (if share > 1.0 - ROUNDING { 1.0 } else { share }, section)
     };
     sections.iter().map(share).filter(|(share, _)| *share > ROUNDING)
 }

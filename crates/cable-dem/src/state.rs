@@ -1,8 +1,11 @@
 //! What the cable keeps from one pass to the next.
 
+use friction_chain::Chain;
+
+use crate::chain::{Bends, chain};
+use crate::clamps::ClampShares;
 use crate::ends::EndReader;
 use crate::error::checked;
-use crate::step::{Chain, Grip};
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
 /// Rounding of the force in an element, as a share of the largest.
@@ -112,11 +115,9 @@ impl CableState {
             }
         }
         Ok(Self {
-            mesh: mesh.nodes_alone(),
             displacement,
             friction,
-            thermal_force: 0.0,
-            clamp_slips: Vec::new(),
+            ..Self::at_rest(mesh)
         })
     }
 
@@ -215,7 +216,7 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(EndReader::new(cable, &self.mesh).read(
+        Ok(EndReader::new(cable, &self.mesh, false).read(
             self.thermal_force,
             |i| self.displacement[i],
             |i| self.friction[i],
@@ -230,13 +231,9 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        let mut grips = Grip::of(cable, &self.mesh);
-        for grip in &mut grips {
-            grip.start(&self.clamp_slips);
-        }
-        Ok(Grip::forces(&grips, cable.restraints(), |node| {
-            self.displacement[node]
-        }))
+        let shares = ClampShares::new(cable, &self.mesh);
+        let clamps = shares.stuck(&self.clamp_slips);
+        Ok(shares.forces(&clamps, cable.restraints(), |node| self.displacement[node]))
     }
 
     /// The largest friction \[N/m\] that every node can bear with the force in `cable` as it is; it depends on that in bends alone.
@@ -245,8 +242,8 @@ impl CableState {
     ///
     /// As for [`CableState::element_forces`].
     pub fn friction_limits(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
-        let nodes = self.pressing(cable)?.nodes;
-        Ok(nodes.iter().map(|node| node.limit).collect())
+        let chain = self.pressing(cable)?;
+        Ok(chain.nodes().iter().map(|node| node.limit).collect())
     }
 
     /// Lengths of `cable` whose friction is at the limit that its force makes; none without friction.
@@ -256,7 +253,7 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn slip_lengths(&self, cable: &DuctedCable) -> Result<SlipLengths, CableError> {
         let mut lengths = SlipLengths::default();
-        for (&friction, node) in self.friction.iter().zip(&self.pressing(cable)?.nodes) {
+        for (&friction, node) in self.friction.iter().zip(self.pressing(cable)?.nodes()) {
             let at_limit = (1.0 - AT_LIMIT) * node.limit;
             if node.limit > 0.0 && friction >= at_limit {
                 lengths.forward += node.tributary;
@@ -276,7 +273,7 @@ impl CableState {
     pub fn friction_share(&self, cable: &DuctedCable) -> Result<f64, CableError> {
         let chain = self.pressing(cable)?;
         let mut load = cable.loads(&self.mesh, self.thermal_force);
-        chain.add_grip_loads(&mut load, |_| 0.0);
+        chain.add_clamp_loads(&mut load, |_| 0.0);
         let forces = self.element_forces(cable)?;
         let rounding =
             ROUNDING * forces.fold(0.0, |most: f64, force| most.max(force.abs())) / self.node_spacing();
@@ -285,18 +282,18 @@ impl CableState {
             if needed <= rounding {
                 0.0
             } else {
-                needed / (chain.nodes[i].limit + rounding)
+                needed / (chain.nodes()[i].limit + rounding)
             }
         };
-        Ok(chain.free.nodes().map(share).fold(0.0, f64::max))
+        Ok(chain.free().nodes().map(share).fold(0.0, f64::max))
     }
 
     /// The chain of `cable` as this state presses on its bends.
     fn pressing(&self, cable: &DuctedCable) -> Result<Chain, CableError> {
         self.mesh.check_length(cable.length())?;
-        let mut chain = Chain::new(cable, &self.mesh);
-        chain.press(|i| self.displacement[i], self.thermal_force);
-        chain.grip(&self.clamp_slips);
+        let clamps = ClampShares::new(cable, &self.mesh).stuck(&self.clamp_slips);
+        let mut chain = chain(cable, &self.mesh, clamps)?;
+        Bends::new(cable, &self.mesh).press(&mut chain, |i| self.displacement[i], self.thermal_force);
         Ok(chain)
     }
 

@@ -1,7 +1,7 @@
 //! Which vehicle comes when.
 
 use crate::CableError;
-use crate::error::checked;
+use crate::error::{checked, positive};
 
 /// In which order vehicles follow each other.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,17 +39,15 @@ impl Traffic {
     pub fn new(shares: &[f64], order: Order) -> Result<Self, CableError> {
         checked("vehicles", shares.len() as f64, "at least one", |v| v > 0.0)?;
         if let Order::Sequence(sequence) = &order {
-            checked("sequence length", sequence.len() as f64, "at least one", |v| {
-                v > 0.0
-            })?;
+            let (length, vehicles) = (sequence.len() as f64, shares.len() as f64);
+            checked("sequence length", length, "at least one", |v| v > 0.0)?;
             for &index in sequence {
-                checked("sequence entry", index as f64, "the index of a vehicle", |v| {
-                    v < shares.len() as f64
-                })?;
+                let is_one = |v| v < vehicles;
+                checked("sequence entry", index as f64, "the index of a vehicle", is_one)?;
             }
         } else {
             for &share in shares {
-                checked("share", share, "finite and positive", |v| v > 0.0)?;
+                positive("share", share)?;
             }
         }
         let total: f64 = shares.iter().sum();
@@ -72,24 +70,24 @@ impl Traffic {
     fn most_overdue(&self) -> usize {
         let due = |index: usize| self.shares[index] * (self.passed + 1) as f64 - self.counts[index] as f64;
         // Shares such as 1/3 leave rounding in what should be equal.
-        (1..self.shares.len()).fold(0, |best, index| {
+        let more_overdue = |best, index| {
             if due(index) > due(best) + 1e-9 {
                 index
             } else {
                 best
             }
-        })
+        };
+        (1..self.shares.len()).fold(0, more_overdue)
     }
 
     fn drawn(&mut self) -> usize {
         let mut left = self.random.f64();
-        for (index, share) in self.shares.iter().enumerate() {
+        let reaches = |share: &f64| {
             left -= share;
-            if left < 0.0 {
-                return index;
-            }
-        }
-        self.shares.len() - 1
+            left < 0.0
+        };
+        let found = self.shares.iter().position(reaches);
+        found.unwrap_or(self.shares.len() - 1)
     }
 }
 

@@ -27,14 +27,6 @@ pub const GAP: usize = 16;
 /// takes 1.3 times as long over 300 m.
 pub const BLOCK: usize = 64;
 
-/// Linear solves after which the iteration of a step counts as cycling. With 4 it takes 1.0 to 1.9
-/// times as long, with 6 or 12 as long.
-pub const MAX_ITERATIONS: usize = 8;
-
-/// A bisection of n nodes counts as n²/8 nodes of a linear solve; timed it was 10 solves at 50
-/// nodes and 50 at 300. Only the counts of work depend on it.
-pub const NODES_OF_BISECTION: usize = 8;
-
 /// Largest share of the duct's peak displacement that an element may leave out. Under one wheel at
 /// depth z elements of z/3, z/2 and z leave out 28, 45 and 90 %; the force after fifty passes is
 /// then off by 1.4, 3 and 14 %. With 5 m in a duct at 1.2 m it had the other sign.

@@ -113,7 +113,7 @@ pub fn largest(values: &[f64]) -> f64 {
 /// Removes the mean from displacements \[m\] of a cable that nothing holds, and returns it:
 /// rounding of metres would hide micrometres. Zero where something holds the cable.
 pub fn remove_mean(cable: &RestingCable, displacement: &mut [f64]) -> f64 {
-    if cable.is_held() {
+    if cable.chain().is_held() {
         return 0.0;
     }
     let mean = displacement.iter().sum::<f64>() / displacement.len() as f64;

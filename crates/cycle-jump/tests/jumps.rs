@@ -202,7 +202,10 @@ fn routes_with_clamps_that_slip_agree_with_every_pass() -> Result<(), Box<dyn st
         (100.0, &one_way),
         (100.0, &two_way),
     ] {
-        let clamp = Restraint::new(14.93, 5e6).that_holds(holds);
+        let clamp = Restraint {
+            holds: Some(holds),
+            ..Restraint::new(14.93, 5e6)
+        };
         let (cable, mesh) = cable(End::Free, End::Fixed, LIMIT)?;
         let cable = cable.with_sections(&sections)?.with_restraints(vec![clamp])?;
         let (found, every) = traffic(&cable, mesh, Guide::Free, directions)?;

@@ -28,19 +28,17 @@ pub struct EnergyBalance {
     pub duct_work: f64,
     /// Work of the force along the duct on every metre of cable: what its weight loses in height.
     pub body_work: f64,
-    /// Change of the elastic energy of cable, end springs and clamps.
+    /// Change of the elastic energy of cable, end springs, clamps and the contact's shear.
     pub elastic: f64,
     /// Kinetic energy at the end of the pass.
     pub kinetic: f64,
-    /// Change of the energy stored in the contact's elastic shear.
-    pub stored: f64,
     /// Heat of friction, with what it returned taken off.
     pub dissipated: f64,
     /// Heat that came out negative: work that friction returned against the second law.
     pub returned: f64,
     /// Largest kinetic energy met during the pass.
     pub peak_kinetic: f64,
-    /// Elastic and stored energy at the start of the pass.
+    /// Elastic energy at the start of the pass.
     pub initial: f64,
     /// Work q·max|D|·L that friction at its limit would do over the duct's largest displacement: the scale below which
     /// heat is only rounding.
@@ -50,7 +48,7 @@ pub struct EnergyBalance {
 impl EnergyBalance {
     /// Work of the duct that is not found again \[J\]; negative where the scheme creates energy.
     pub fn residual(&self) -> f64 {
-        self.duct_work + self.body_work - self.elastic - self.kinetic - self.stored - self.dissipated
+        self.duct_work + self.body_work - self.elastic - self.kinetic - self.dissipated
     }
 
     /// [`Self::residual`] as a share of all energy that took part.
@@ -60,7 +58,6 @@ impl EnergyBalance {
             + self.body_work.abs()
             + self.elastic.abs()
             + self.peak_kinetic.max(self.kinetic)
-            + self.stored.abs()
             + self.gross_heat();
         share(self.residual().abs(), scale.max(NEGLIGIBLE * self.reference))
     }

@@ -60,7 +60,7 @@ pub struct SigmoidLeak {
     pub speed_ratio: f64,
     /// ℓ = √(EA T/η) \[m\], by which locked forces spread in the time T of one pass.
     pub spread: f64,
-    /// ℓ over the duct's natural length ([`MovingDuct::natural_length`]).
+    /// ℓ over the duct's natural length: its largest displacement over its steepest slope.
     pub spread_ratio: f64,
 }
 
@@ -82,12 +82,12 @@ impl SigmoidLeak {
         let spread = (cable.axial_stiffness() * duration / drag).sqrt();
         Some(Self {
             spread,
-            spread_ratio: spread / duct.natural_length(),
+            spread_ratio: spread * duct.steepest / duct.peak(),
             reference_speed,
             drag,
             relaxation_time,
             loss_per_pass: -(-duration / relaxation_time).exp_m1(),
-            speed_ratio: reference_speed / duct.peak_velocity(),
+            speed_ratio: reference_speed / (duct.steepest * duct.speed()),
         })
     }
 

@@ -43,11 +43,11 @@ impl StepLimits {
         // Springs to the ground count `weight` times.
         let fastest = |weight: f64| {
             let row = |i: usize| {
-                let neighbours = 2.0 * chain.neighbours(i) * chain.stiffness;
-                (neighbours + weight * chain.spring(i)) / chain.nodes[i].tributary
+                let neighbours = 2.0 * chain.neighbours(i) * chain.stiffness();
+                (neighbours + weight * chain.spring(i)) / chain.nodes()[i].tributary
             };
             // A node that is held does not swing.
-            let rows = chain.free.nodes().map(row);
+            let rows = chain.free().nodes().map(row);
             rows.fold(0.0, f64::max) / nodes.mass_per_metre
         };
 

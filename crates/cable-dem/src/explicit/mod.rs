@@ -13,9 +13,9 @@ pub use moving_duct::MovingDuct;
 
 use ground_field::DuctMotion;
 
-use crate::error::checked;
+use crate::chain::{chain, check_precision};
+use crate::error::positive;
 use crate::laid::laid;
-use crate::step::{Grip, check_precision};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
 use nodes::MovingNodes;
 
@@ -130,15 +130,11 @@ impl Explicit {
     ) -> Result<Self, CableError> {
         let mut nodes = MovingNodes::new(cable, mesh, mass_per_metre)?;
         let limits = StepLimits::new(&nodes);
-        nodes.grips = nodes.chain.take_grips();
-        checked(
-            "max_node_updates",
-            options.max_node_updates,
-            "finite and positive",
-            |v| v > 0.0,
-        )?;
+        // Clamps slip at any step of time: they are no springs of the chain.
+        nodes.chain = chain(&nodes.cable, &mesh, Vec::new())?;
+        positive("max_node_updates", options.max_node_updates)?;
         if let Some(time_step) = options.time_step {
-            checked("time_step", time_step, "finite and positive", |v| v > 0.0)?;
+            positive("time_step", time_step)?;
             // Written so that NaN fails.
             let is_stable = time_step <= limits.together();
             if options.check_limits && !is_stable {
@@ -148,7 +144,7 @@ impl Explicit {
         }
         Ok(Self {
             laid: laid(&nodes.cable, &mesh)?,
-            resting: RestingCable::with_memory(&nodes.cable, &mesh),
+            resting: RestingCable::with_memory(&nodes.cable, &mesh)?,
             nodes,
             options,
             limits,
@@ -284,7 +280,7 @@ impl Explicit {
         let heat = self.resting.follow(state, Some(&increment), 0.0, duct.peak())?;
         let friction = &state.friction;
         let forgotten = self.nodes.weighted(|i| friction[i].powi(2));
-        Ok(heat + self.nodes.chain.compliance * forgotten)
+        Ok(heat + self.nodes.cable.friction().compliance() * forgotten)
     }
 
     /// All steps of time of one pass; `state` is carried on.
@@ -304,9 +300,9 @@ impl Explicit {
             let t = time_step * step as f64;
             nodes.step(|d| duct.displacement(t, d), time_step);
             outcome.see(nodes.end_forces());
-            if !nodes.grips.is_empty() {
+            if !nodes.clamps.is_empty() {
                 let u = |i: usize| nodes.displacement[i];
-                outcome.see_clamps(&Grip::forces(&nodes.grips, nodes.cable.restraints(), u));
+                outcome.see_clamps(&nodes.shares.forces(&nodes.clamps, nodes.cable.restraints(), u));
             }
             observe(duct.vehicle_position(t), &|| {
                 let mut shown = state.clone();

@@ -3,7 +3,7 @@
 use ground_field::{Direction, DuctMotion};
 
 use crate::course::{Course, as_driven, of_shape};
-use crate::error::checked;
+use crate::error::{checked, positive};
 use crate::{CableError, DuctedCable, Mesh};
 
 /// Longest step of the lattice \[m\].
@@ -35,7 +35,8 @@ pub struct MovingDuct {
     /// ξ of the third lattice point is −`origin` \[m\].
     origin: f64,
     peak: f64,
-    steepest: f64,
+    /// Largest |D′|.
+    pub(super) steepest: f64,
 }
 
 impl MovingDuct {
@@ -81,7 +82,7 @@ impl MovingDuct {
         course: &Course<impl Fn(f64) -> f64>,
     ) -> Result<Self, CableError> {
         let (direction, approach) = (course.direction, course.approach);
-        checked("speed", speed, "finite and positive", |v| v > 0.0)?;
+        positive("speed", speed)?;
         mesh.check_length(cable.length())?;
         let h = mesh.spacing();
         let parts = (h / LATTICE_STEP).ceil().max(1.0);
@@ -111,11 +112,6 @@ impl MovingDuct {
         })
     }
 
-    /// Which way the vehicle drives.
-    pub fn direction(&self) -> Direction {
-        self.direction
-    }
-
     /// Speed of the vehicle \[m/s\].
     pub fn speed(&self) -> f64 {
         self.speed
@@ -129,21 +125,6 @@ impl MovingDuct {
     /// Largest displacement of the duct \[m\].
     pub fn peak(&self) -> f64 {
         self.peak
-    }
-
-    /// Largest velocity of the duct along itself \[m/s\].
-    pub fn peak_velocity(&self) -> f64 {
-        self.steepest * self.speed
-    }
-
-    /// Length \[m\] over which the duct's displacement changes: its largest value over its steepest slope. 0 for a duct at
-    /// rest.
-    pub fn natural_length(&self) -> f64 {
-        if self.steepest > 0.0 {
-            self.peak / self.steepest
-        } else {
-            0.0
-        }
     }
 
     /// Whether this duct was tabulated for `mesh`.

@@ -3,10 +3,14 @@
 //! Node i carries the mass m_i = w_i m′ and the friction w_i f_i of its tributary length w_i (h, and h/2 at the ends), and hangs on its
 //! neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does not move.
 
+use friction_chain::{Chain, Clamp};
+
 use super::energy::EnergyBalance;
+use crate::chain::{Bends, chain};
+use crate::clamps::ClampShares;
 use crate::ends::EndReader;
-use crate::error::checked;
-use crate::step::{Chain, FixedEndFriction, Grip};
+use crate::error::positive;
+use crate::fixed_end_friction::FixedEndFriction;
 use crate::{CableError, CableState, DuctedCable, EndForces, FrictionLaw, Mesh};
 
 /// Masses, springs and supports of one cable on one mesh, their motion, and the accounts of their energy.
@@ -18,8 +22,10 @@ pub(super) struct MovingNodes {
     pub mass_per_metre: f64,
     /// K + S, without clamps.
     pub chain: Chain,
-    /// Clamps.
-    pub grips: Vec<Grip>,
+    bends: Bends,
+    pub shares: ClampShares,
+    /// Clamps, apart from the chain.
+    pub clamps: Vec<Clamp>,
     /// Loads of every node \[N\]: body force w p, and springs of ends that are held elsewhere.
     load: Vec<f64>,
     /// Friction of held nodes.
@@ -41,24 +47,26 @@ pub(super) struct MovingNodes {
     work: f64,
     heat: f64,
     gross: f64,
-    /// Elastic energy, and that in the contact's shear, at the start \[J\].
-    initial: [f64; 2],
+    /// Elastic energy at the start \[J\].
+    initial: f64,
 }
 
 impl MovingNodes {
     pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
-        checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
-            v > 0.0
-        })?;
+        positive("mass_per_metre", mass_per_metre)?;
         mesh.check_length(cable.length())?;
+        let shares = ClampShares::new(&cable, &mesh);
+        let clamps = shares.stuck(&[]);
         let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {
             mass_per_metre,
-            chain: Chain::new(&cable, &mesh),
-            grips: Vec::new(),
+            chain: chain(&cable, &mesh, clamps.clone())?,
+            bends: Bends::new(&cable, &mesh),
+            shares,
+            clamps,
             load: cable.loads(&mesh, 0.0),
             held: FixedEndFriction::new(&cable, &mesh),
-            ends: EndReader::new(&cable, &mesh).moving(&cable),
+            ends: EndReader::new(&cable, &mesh, true),
             displacement: zeros(),
             velocity: zeros(),
             friction: zeros(),
@@ -68,7 +76,7 @@ impl MovingNodes {
             work: 0.0,
             heat: 0.0,
             gross: 0.0,
-            initial: [0.0; 2],
+            initial: 0.0,
             cable,
             mesh,
         })
@@ -80,26 +88,22 @@ impl MovingNodes {
         self.friction.copy_from_slice(&state.friction);
         self.velocity.fill(0.0);
         self.before.fill([0.0; 2]);
-        for grip in &mut self.grips {
-            grip.start(&state.clamp_slips);
-        }
+        self.clamps = self.shares.stuck(&state.clamp_slips);
         (self.work, self.heat, self.gross) = (0.0, 0.0, 0.0);
-        self.initial = [self.elastic_energy(), self.stored_energy()];
+        self.initial = self.elastic_energy();
     }
 
     /// Writes displacement, friction and slips of clamps to `state`.
     pub fn store(&self, state: &mut CableState) {
         state.displacement.copy_from_slice(&self.displacement);
         state.friction.copy_from_slice(&self.friction);
-        for grip in &self.grips {
-            grip.store(&mut state.clamp_slips);
-        }
+        self.shares.store(&self.clamps, &mut state.clamp_slips);
     }
 
     /// One step of `time_step` \[s\]; `displacement` writes where the duct stands after it \[m\].
     pub fn step(&mut self, displacement: impl Fn(&mut [f64]), time_step: f64) {
         displacement(&mut self.increment);
-        self.chain.press(|i| self.displacement[i], 0.0);
+        self.bends.press(&mut self.chain, |i| self.displacement[i], 0.0);
         for (duct, increment) in self.duct.iter_mut().zip(&mut self.increment) {
             let before = std::mem::replace(duct, *increment);
             *increment -= before;
@@ -112,8 +116,8 @@ impl MovingNodes {
         let (mut work, mut heat, mut gross) = (0.0, 0.0, 0.0);
         for i in 0..self.velocity.len() {
             let (increment, before) = (self.increment[i], self.friction[i]);
-            let limit = self.chain.nodes[i].limit;
-            let is_held = !self.chain.free.nodes().contains(&i);
+            let limit = self.chain.nodes()[i].limit;
+            let is_held = !self.chain.free().nodes().contains(&i);
             let (velocity, after) = if is_held {
                 // Fixed ends do not move; their friction follows their own slip.
                 (0.0, self.held.after_slip(before, increment, limit))
@@ -136,7 +140,7 @@ impl MovingNodes {
             let slip = increment - moved - compliance * (after - before);
             let acting = if coulomb { after } else { before };
             // Friction acts from one half step to the next: on half the slip of either step.
-            let weight = 0.5 * self.chain.nodes[i].tributary * acting;
+            let weight = 0.5 * self.chain.nodes()[i].tributary * acting;
             let [earlier, plastic] = std::mem::replace(&mut self.before[i], [increment, slip]);
             let done = weight * (plastic + slip);
             work += weight * (earlier + increment);
@@ -156,10 +160,10 @@ impl MovingNodes {
             *velocity -= per_mass * chain.balancing_friction(u, &self.load, i);
         }
         let mut gripped = 0.0;
-        for grip in &mut self.grips {
-            let (force, heat) = grip.bear(u[grip.node]);
+        for clamp in &mut self.clamps {
+            let [force, heat] = clamp.bear(u[clamp.node]);
             gripped += heat;
-            self.velocity[grip.node] -= per_mass * force * chain.nodes[grip.node].per_tributary;
+            self.velocity[clamp.node] -= per_mass * force * chain.nodes()[clamp.node].per_tributary;
         }
         gripped
     }
@@ -172,7 +176,7 @@ impl MovingNodes {
 
     /// Σ w_i value(i) over all nodes.
     pub fn weighted(&self, value: impl Fn(usize) -> f64) -> f64 {
-        let nodes = self.chain.nodes.iter().enumerate();
+        let nodes = self.chain.nodes().iter().enumerate();
         nodes.map(|(i, node)| node.tributary * value(i)).sum()
     }
 
@@ -181,32 +185,28 @@ impl MovingNodes {
         0.5 * self.mass_per_metre * self.weighted(|i| self.velocity[i].powi(2))
     }
 
-    /// ½ uᵀ(K + S) u \[J\], clamps that slip as they are now.
+    /// ½ uᵀ(K + S) u + ½ γ Σ w f² \[J\], clamps that slip as they are now: in springs, and in the contact's shear.
     fn elastic_energy(&self) -> f64 {
         let u = &self.displacement;
-        let gripped: f64 = self.grips.iter().map(|grip| grip.energy(u[grip.node])).sum();
+        let of_clamp = |clamp: &Clamp| 0.5 * clamp.stiffness * (u[clamp.node] - clamp.slip).powi(2);
+        let gripped: f64 = self.clamps.iter().map(of_clamp).sum();
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let supported: f64 = (0..u.len()).map(|i| self.chain.spring(i) * u[i] * u[i]).sum();
-        0.5 * (self.chain.stiffness * stretched + supported) + gripped
+        let sheared = self.elastic_compliance() * self.weighted(|i| self.friction[i].powi(2));
+        0.5 * (self.chain.stiffness() * stretched + supported + sheared) + gripped
     }
 
     /// γ \[m²/N\] of a contact that shears elastically: 0 for Coulomb's law and for laws without memory.
     fn elastic_compliance(&self) -> f64 {
         if self.cable.friction().law().has_memory() {
-            self.chain.compliance
+            self.cable.friction().compliance()
         } else {
             0.0
         }
     }
 
-    /// ½ γ Σ w f² \[J\]: energy in the contact's elastic shear.
-    fn stored_energy(&self) -> f64 {
-        0.5 * self.elastic_compliance() * self.weighted(|i| self.friction[i].powi(2))
-    }
-
     /// The accounts of the pass that began in `state`, whose duct moves by `peak` \[m\] at most.
     pub fn energy(&self, state: &CableState, peak_kinetic: f64, peak: f64) -> EnergyBalance {
-        let [elastic, stored] = self.initial;
         let moved = self.displacement.iter().zip(&state.displacement);
         let body_work = moved
             .zip(&self.load)
@@ -214,13 +214,12 @@ impl MovingNodes {
         EnergyBalance {
             duct_work: self.work,
             body_work: body_work.sum(),
-            elastic: self.elastic_energy() - elastic,
+            elastic: self.elastic_energy() - self.initial,
             kinetic: self.kinetic_energy(),
-            stored: self.stored_energy() - stored,
             dissipated: self.heat,
             returned: 0.5 * (self.gross - self.heat),
             peak_kinetic,
-            initial: elastic + stored,
+            initial: self.initial,
             reference: self.cable.friction().limit() * self.cable.length() * peak,
         }
     }

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use friction_chain::{ChainError, Contact, ImplicitStep, Load, Stretch};
+
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window;
-use crate::step::{Grip, Load, Prediction, StepSolver, Stretch, largest};
 use crate::tuning::UNBALANCED_SHARE;
 use crate::{CableError, CableState, PassOutcome};
 
@@ -32,10 +33,10 @@ impl QuasiStatic {
                 self.step_whole(&snapshot)?;
             } else {
                 // A node is looked at once more where adhesion no longer reaches it, and all of them where the friction limit changes.
-                let near = if self.step.chain.bends() {
-                    self.bounds.free
-                } else {
+                let near = if self.bends.is_empty() {
                     watched.hull(under)
+                } else {
+                    self.bounds.free
                 };
                 self.step_windows(&snapshot, near, passage.first_point(&snapshot))?;
             }
@@ -49,7 +50,9 @@ impl QuasiStatic {
         self.move_duct(&last, &still);
         self.step_whole(&still)?;
         *state = self.shown(&still, state);
-        self.outcome.statistics += self.step.statistics;
+        let (work, statistics) = (self.step.work, &mut self.outcome.statistics);
+        (statistics.sweeps, statistics.cycles) = (work.solves, work.cycles);
+        statistics.node_updates = work.node_updates;
         std::mem::take(&mut self.outcome).ended(&self.cable, state)
     }
 
@@ -57,17 +60,17 @@ impl QuasiStatic {
     fn begin(&mut self, passage: &Passage, state: &CableState) -> Result<(), CableError> {
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
-        self.step.start(largest(&self.r, passage.peak));
+        self.step.begin(&self.r, passage.peak);
+        let compliance = self.cable.friction().compliance();
         for (anchor, (r, g)) in self.anchor.iter_mut().zip(self.r.iter().zip(&self.g)) {
-            *anchor = r + self.step.chain.compliance * g;
+            *anchor = r + compliance * g;
         }
-        self.step.trial.r.copy_from_slice(&self.r);
-        self.step.chain.grip(&state.clamp_slips);
+        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
         self.supports
             .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
-        let (points, phases) = passage.lattice();
-        self.prediction = Prediction::new(points, phases);
+        self.predicted.clear();
+        self.predicted.resize(passage.points(), Contact::Stuck);
         self.outcome = PassOutcome::at_rest(&self.cable, state)?;
         Ok(())
     }
@@ -79,9 +82,8 @@ impl QuasiStatic {
             state.displacement[node] = self.r[node] + snapshot.adherent_at(node);
             state.friction[node] = self.g[node] + snapshot.adhesion[node];
         }
-        for grip in &self.step.chain.grips {
-            grip.store(&mut state.clamp_slips);
-        }
+        self.clamps
+            .store(self.step.chain.clamps(), &mut state.clamp_slips);
         state
     }
 
@@ -89,9 +91,10 @@ impl QuasiStatic {
     /// force that it had.
     fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) {
         self.outcome.statistics.steps += 1;
-        let StepSolver { chain, trial, .. } = &mut self.step;
+        let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
-        chain.press(|node| r[node] + last.adherent_at(node), self.thermal_force);
+        let u = |node| r[node] + last.adherent_at(node);
+        self.bends.press(chain, u, self.thermal_force);
         self.supports.load(snapshot, chain);
         let state = (&mut *self.r, &mut *self.g);
         self.outcome.dissipated += self.supports.hold([last, snapshot], chain, state, trial);
@@ -102,8 +105,7 @@ impl QuasiStatic {
         self.solve(self.bounds.free, snapshot)?;
         self.anchor(self.bounds.free);
         self.moving.clear();
-        self.record_ends(snapshot);
-        self.record_clamps(snapshot);
+        self.record(snapshot);
         Ok(())
     }
 
@@ -123,17 +125,21 @@ impl QuasiStatic {
             let (begun, before) = (*window, self.moving.len());
             let travels = travelling.iter().any(|part| part.overlaps(begun));
             if travels {
-                self.prediction.read(first, begun, &mut self.step.trial.contact);
+                for node in begun.nodes() {
+                    self.step.trial.contact[node] = self.predicted[first + node * self.mesh.phases];
+                }
             }
             *window = self.solve(begun, snapshot)?;
             if travels {
-                self.prediction.write(first, *window, &self.step.trial.contact);
+                for node in window.nodes() {
+                    self.predicted[first + node * self.mesh.phases] = self.step.trial.contact[node];
+                }
             } else {
                 // Around a support nothing travels.
                 self.moving.truncate(before);
             }
             let widest = &mut self.outcome.statistics.widest_window;
-            *widest = window.len().max(*widest);
+            *widest = window.count().max(*widest);
         }
         for window in &windows {
             self.anchor(*window);
@@ -143,8 +149,7 @@ impl QuasiStatic {
             *part = self.bounds.widened(*part, 1);
         }
         window::join(&mut self.moving);
-        self.record_ends(snapshot);
-        self.record_clamps(snapshot);
+        self.record(snapshot);
         Ok(())
     }
 
@@ -153,11 +158,11 @@ impl QuasiStatic {
         let (bounds, chain) = (self.bounds, &self.step.chain);
         let above = |limit: f64| (1.0 + SLIPPING_SHARE) * limit;
         let slips =
-            |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes[node].limit);
+            |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes()[node].limit);
         // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
+        let least = above(self.cable.least_limit());
         let may_slip = |block: Range<usize>| {
             let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
-            let least = above(chain.least_limit);
             pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
         };
         let mut windows = self.moving.clone();
@@ -174,13 +179,16 @@ impl QuasiStatic {
     /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
     fn anchor(&mut self, stretch: Stretch) {
         let (chain, nodes) = (&self.step.chain, stretch.nodes());
+        let compliance = self.cable.friction().compliance();
         let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
         let anchors = self.anchor[nodes.clone()].iter_mut().zip(state);
-        let slips = anchors.zip(&chain.nodes[nodes]).map(|((anchor, (r, g)), node)| {
-            let now = r + chain.compliance * g;
-            let slip = std::mem::replace(anchor, now) - now;
-            node.tributary * node.limit * slip.abs()
-        });
+        let slips = anchors
+            .zip(&chain.nodes()[nodes])
+            .map(|((anchor, (r, g)), node)| {
+                let now = r + compliance * g;
+                let slip = std::mem::replace(anchor, now) - now;
+                node.tributary * node.limit * slip.abs()
+            });
         self.outcome.dissipated += slips.sum::<f64>();
     }
 
@@ -197,35 +205,29 @@ impl QuasiStatic {
             };
             let solved = self.step.solve(&load, stretch);
             let solved = if corrections > MAX_CORRECTIONS {
-                Err(f64::INFINITY)
+                Err(ChainError::NoEquilibrium {
+                    violation: f64::INFINITY,
+                })
             } else {
                 solved
             };
-            solved.map_err(|violation| CableError::NoConvergence {
-                vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
-                violation,
-            })?;
-            let StepSolver { chain, trial, .. } = &mut self.step;
-            if chain.correct_grips(stretch, |i| trial.r[i] + snapshot.adherent_at(i)) {
+            let position = self.mesh.lattice_step() * snapshot.position as f64;
+            solved.map_err(|error| CableError::of_step(error, position))?;
+            let ImplicitStep { chain, trial, .. } = &mut self.step;
+            if chain.correct_clamps(stretch, |i| trial.r[i] + snapshot.adherent_at(i)) {
                 self.supports.load(snapshot, chain);
                 corrections += 1;
                 continue;
             }
-            let (grown, next) = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
+            let grown = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
             if grown == stretch {
                 break;
             }
-            (stretch, growth) = (grown, next);
+            (stretch, growth) = (grown, 2 * growth);
         }
-        let StepSolver { chain, trial, .. } = &mut self.step;
-        for grip in chain
-            .grips
-            .iter_mut()
-            .filter(|grip| stretch.nodes().contains(&grip.node))
-        {
-            let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
-            self.outcome.dissipated += grip.settle(u);
-        }
+        let ImplicitStep { chain, trial, .. } = &mut self.step;
+        let u = |i: usize| trial.r[i] + snapshot.adherent_at(i);
+        chain.settle_clamps(stretch, u, &mut self.outcome.dissipated);
         let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();
@@ -238,25 +240,18 @@ impl QuasiStatic {
     fn edge_disturbed(&self, node: usize) -> bool {
         let chain = &self.step.chain;
         let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
-        (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes[node].limit
+        (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes()[node].limit
     }
 
-    /// Records the force on each clamp with the vehicle at the snapshot's position.
-    fn record_clamps(&mut self, snapshot: &Snapshot<'_>) {
-        let grips = &self.step.chain.grips;
-        if !grips.is_empty() {
-            let u = |node| self.r[node] + snapshot.adherent_at(node);
-            self.outcome
-                .see_clamps(&Grip::forces(grips, self.cable.restraints(), u));
+    /// Records the forces on ends and clamps with the vehicle at the snapshot's position.
+    fn record(&mut self, snapshot: &Snapshot<'_>) {
+        let u = |node| self.r[node] + snapshot.adherent_at(node);
+        let friction = |node| self.g[node] + snapshot.adhesion[node];
+        self.outcome.see(self.ends.read(self.thermal_force, u, friction));
+        let clamps = self.step.chain.clamps();
+        if !clamps.is_empty() {
+            let forces = self.clamps.forces(clamps, self.cable.restraints(), u);
+            self.outcome.see_clamps(&forces);
         }
-    }
-
-    /// Records the force on each end with the vehicle at the snapshot's position.
-    fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
-        self.outcome.see(self.ends.read(
-            self.thermal_force,
-            |node| self.r[node] + snapshot.adherent_at(node),
-            |node| self.g[node] + snapshot.adhesion[node],
-        ));
     }
 }

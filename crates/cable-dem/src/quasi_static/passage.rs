@@ -2,9 +2,10 @@
 
 use ground_field::{Direction, DuctMotion};
 
+use friction_chain::tridiagonal::{self, Row};
+
 use super::schedule::schedule;
 use crate::course::{Course, as_driven, of_shape};
-use crate::tridiagonal::{self, Row};
 use crate::tuning::{UNBALANCED_SHARE, WATCHED_SHARE};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
@@ -29,12 +30,9 @@ pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * WATCHED_SHARE) * UNBALANCED_
 /// zone where the travelling shift presses g against a bound has to be solved.
 #[derive(Debug, Clone)]
 pub struct Passage {
-    /// What it was computed for.
     mesh: Mesh,
-    axial_stiffness: f64,
-    friction: Friction,
-    least_limit: f64,
-    direction: Direction,
+    /// Axial stiffness \[N\], friction and least friction limit \[N/m\] for which it was computed.
+    cable: (f64, Friction, f64),
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s, with m = phases
     /// per node spacing.
     phases: Vec<Phase>,
@@ -129,21 +127,14 @@ impl Passage {
             }
         }
         let compliance = cable.friction().compliance();
-        let stiffness = cable.axial_stiffness() / mesh.spacing();
-        let phases: Vec<Phase> = (0..m as usize)
-            .map(|phase| {
-                let duct: Vec<f64> = shape[phase..].iter().step_by(m as usize).copied().collect();
-                Phase::new(
-                    &duct,
-                    compliance * stiffness / mesh.spacing(),
-                    stiffness / mesh.spacing(),
-                )
-            })
-            .collect();
-        let peak = phases
-            .iter()
-            .flat_map(|phase| &phase.adherent)
-            .fold(0.0_f64, |peak, a| peak.max(a.abs()));
+        let (stiffness, h) = (cable.axial_stiffness() / mesh.spacing(), mesh.spacing());
+        let phase = |phase: usize| {
+            let duct: Vec<f64> = shape[phase..].iter().step_by(m as usize).copied().collect();
+            Phase::new(&duct, compliance * stiffness / h, stiffness / h)
+        };
+        let phases: Vec<Phase> = (0..m as usize).map(phase).collect();
+        let adherent = phases.iter().flat_map(|phase| &phase.adherent);
+        let peak = adherent.fold(0.0_f64, |peak, a| peak.max(a.abs()));
         let origin = behind / m;
         let reach = phases
             .iter()
@@ -154,10 +145,7 @@ impl Passage {
             .unwrap_or(0);
         Ok(Self {
             mesh: *mesh,
-            axial_stiffness: cable.axial_stiffness(),
-            friction: cable.friction(),
-            least_limit: cable.least_limit(),
-            direction: course.direction,
+            cable: (cable.axial_stiffness(), cable.friction(), cable.least_limit()),
             behind: behind as usize,
             positions,
             reach,
@@ -169,15 +157,8 @@ impl Passage {
 
     /// Whether it was computed for a cable of the same stiffness and friction on the same mesh.
     pub(super) fn fits(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
-        self.mesh == *mesh
-            && self.axial_stiffness == cable.axial_stiffness()
-            && self.friction == cable.friction()
-            && self.least_limit == cable.least_limit()
-    }
-
-    /// Which way the vehicle drives.
-    pub fn direction(&self) -> Direction {
-        self.direction
+        let cable = (cable.axial_stiffness(), cable.friction(), cable.least_limit());
+        self.mesh == *mesh && self.cable == cable
     }
 
     /// Vehicle positions of one pass.
@@ -185,12 +166,9 @@ impl Passage {
         self.positions.len()
     }
 
-    /// Number of lattice points, and of phases.
-    pub(super) fn lattice(&self) -> (usize, usize) {
-        (
-            self.phases.len() * self.phases[0].adherent.len(),
-            self.phases.len(),
-        )
+    /// Number of lattice points.
+    pub(super) fn points(&self) -> usize {
+        self.phases.len() * self.phases[0].adherent.len()
     }
 
     /// Lattice point in the vehicle's frame at which node 0 stands.

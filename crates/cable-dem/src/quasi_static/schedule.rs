@@ -1,13 +1,8 @@
 //! Where the vehicle stops on its way: the positions of one pass.
 //!
-//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no
-//! node slips both ways within it: neither may the duct turn, nor may the parts of the duct change
-//! the order in which they lead, which decides where a stiff cable goes. Where that happens far
-//! away it happens to the whole duct at once and is felt by the whole cable: a turn at the distance
-//! d is as wide as d, and a stride of d/100 misses 1e-5 of it. So the vehicle takes strides of a
-//! hundredth of the distance of its wheels, wherever that is more than a step. A wheel on a
-//! half-space (ν = 0.4) pushes the duct away within six depths and pulls it in beyond; the pull is
-//! largest at twelve, and changes fastest after that at eighteen.
+//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no node slips both ways within it.
+//! Far away the whole duct turns at once: a turn at the distance d is as wide as d, and a stride of d/100 misses 1e-5 of it. So the
+//! vehicle takes strides of a hundredth of the distance of its wheels, wherever that is more than a step.
 
 /// Strides in the distance of the vehicle.
 const STRIDES: i64 = 100;

@@ -2,9 +2,11 @@
 //!
 //! The cable around each of them is solved at every step.
 
+use friction_chain::{Chain, Stretch, Trial};
+
 use super::passage::Snapshot;
 use super::window::WindowBounds;
-use crate::step::{Chain, FixedEndFriction, Stretch, Trial};
+use crate::fixed_end_friction::FixedEndFriction;
 use crate::{DuctedCable, Mesh};
 
 /// All supports of a cable.
@@ -39,7 +41,7 @@ impl Supports {
         }
         let nodes = [0, last]
             .into_iter()
-            .chain(chain.grips.iter().map(|grip| grip.node));
+            .chain(chain.clamps().iter().map(|clamp| clamp.node));
         let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
         Self {
             ends,
@@ -60,14 +62,14 @@ impl Supports {
 
     /// Loads ends and clamps as the vehicle and what slips demand.
     pub fn load(&mut self, snapshot: &Snapshot<'_>, chain: &Chain) {
-        for grip in &chain.grips {
-            self.load[grip.node] = self.body[grip.node];
+        for clamp in chain.clamps() {
+            self.load[clamp.node] = self.body[clamp.node];
         }
         for &(node, spring) in &self.ends {
             let pull = cut(snapshot, node, chain) - spring * snapshot.adherent_at(node);
             self.load[node] = self.body[node] + pull;
         }
-        chain.add_grip_loads(&mut self.load, |node| snapshot.adherent_at(node));
+        chain.add_clamp_loads(&mut self.load, |node| snapshot.adherent_at(node));
     }
 
     /// Moves fixed nodes, whose friction is `g`, from one snapshot to the other, in both the state `r` and the `trial`. Returns the heat
@@ -79,15 +81,15 @@ impl Supports {
         (r, g): (&mut [f64], &mut [f64]),
         trial: &mut Trial,
     ) -> f64 {
-        let (mut heat, gamma) = (0.0, chain.compliance);
+        let (mut heat, gamma) = (0.0, self.law.friction.compliance());
         for &(node, position) in &self.fixed {
             let [adhesion_before, adhesion] = snapshots.map(|snapshot| snapshot.adhesion[node]);
             // The duct stands at D = a + γ A.
             let [duct_before, duct] =
                 snapshots.map(|snapshot| snapshot.adherent_at(node) + gamma * snapshot.adhesion[node]);
             let (slip, before) = (duct - duct_before, g[node] + adhesion_before);
-            let after = self.law.after_slip(before, slip, chain.nodes[node].limit);
-            heat += chain.nodes[node].tributary * after * (slip - gamma * (after - before));
+            let after = self.law.after_slip(before, slip, chain.nodes()[node].limit);
+            heat += chain.nodes()[node].tributary * after * (slip - gamma * (after - before));
             r[node] = position - snapshots[1].adherent_at(node);
             trial.r[node] = r[node];
             g[node] = after - adhesion;
@@ -101,6 +103,6 @@ impl Supports {
 /// Beyond an end the adherent motion would go on; cutting the chain there leaves ±(k/2)(a_{+1} − a_{−1}), the force of
 /// the missing half.
 fn cut(snapshot: &Snapshot<'_>, end: usize, chain: &Chain) -> f64 {
-    let strain = 0.5 * chain.stiffness * snapshot.stretch_around(end);
+    let strain = 0.5 * chain.stiffness() * snapshot.stretch_around(end);
     if end == 0 { strain } else { -strain }
 }

@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use crate::step::Stretch;
+use friction_chain::Stretch;
+
 use crate::tuning::{BLOCK, GAP};
 
 /// Where windows may lie, and how far beyond a disturbance they reach.
@@ -56,21 +57,20 @@ pub(super) fn join(windows: &mut Vec<Stretch>) {
     });
 }
 
-/// The window grown by `growth` nodes beyond each edge whose outer neighbour is `disturbed`, and the growth to try next.
+/// The window grown by `growth` nodes beyond each edge whose outer neighbour is `disturbed`.
 pub(super) fn grow(
     bounds: WindowBounds,
     stretch: Stretch,
     growth: usize,
     disturbed: impl Fn(usize) -> bool,
-) -> (Stretch, usize) {
+) -> Stretch {
     let widened = bounds.widened(stretch, growth);
     let left = stretch.lo > bounds.free.lo && disturbed(stretch.lo - 1);
     let right = stretch.hi < bounds.free.hi && disturbed(stretch.hi + 1);
-    let grown = Stretch {
+    Stretch {
         lo: if left { widened.lo } else { stretch.lo },
         hi: if right { widened.hi } else { stretch.hi },
-    };
-    (grown, 2 * growth)
+    }
 }
 
 /// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. At least [`GAP`] quiet

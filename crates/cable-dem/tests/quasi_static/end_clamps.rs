@@ -176,7 +176,10 @@ fn a_cable_that_has_come_to_rest_reads_the_same_by_balance_and_by_its_springs() 
 fn forces_on_clamps_during_a_pass_are_those_of_its_steps() {
     let clamps = vec![
         Restraint::new(12.03, 5e6),
-        Restraint::new(25.0, 2e7).that_holds(150.0),
+        Restraint {
+            holds: Some(150.0),
+            ..Restraint::new(25.0, 2e7)
+        },
     ];
     let cable = cable(40.0, 8e6, coulomb(27.2), End::Free, End::Fixed)
         .with_restraints(clamps)

@@ -275,7 +275,10 @@ fn warming_in_many_steps_is_warming_in_one() -> Outcome {
 /// movement of the free end \[mm\].
 #[test]
 fn a_clamp_that_slips_bears_what_an_independent_chain_says() -> Outcome {
-    let clamp = Restraint::new(30.0, 5e6).that_holds(200.0);
+    let clamp = Restraint {
+        holds: Some(200.0),
+        ..Restraint::new(30.0, 5e6)
+    };
     let bar = reference_cable(LENGTH, sheathed(LIMIT)).with_restraints(vec![clamp])?;
     let mesh = Mesh::new(LENGTH, 0.1, 0.05)?;
     let passage = Passage::new(&bar, &mesh, &reference_motion(), APPROACH)?;
@@ -315,7 +318,13 @@ fn a_clamp_that_slips_at_once_adds_what_it_holds() -> Outcome {
     let bar = reference_cable(10.0, coulomb(LIMIT));
     let mesh = Mesh::new(10.0, 0.1, 0.1)?;
     let mut tensions = Vec::new();
-    for clamps in [vec![], vec![Restraint::new(4.03, 1e7).that_holds(150.0)]] {
+    for clamps in [
+        vec![],
+        vec![Restraint {
+            holds: Some(150.0),
+            ..Restraint::new(4.03, 1e7)
+        }],
+    ] {
         let bar = bar.clone().with_restraints(clamps)?;
         let mut state = laid(&bar, &mesh)?;
         RestingCable::new(&bar, &mesh)?.warm(&mut state, -20_000.0)?;
@@ -342,8 +351,14 @@ fn a_clamp_that_never_slips_gives_the_bits_of_one_that_cannot() -> Outcome {
         End::Fixed,
     );
     let clamp = Restraint::new(21.37, 3e6);
-    let [firm, holding] = [clamp, clamp.that_holds(1e6)]
-        .map(|clamp| run(bar.clone().with_restraints(vec![clamp]).expect("a clamp")));
+    let [firm, holding] = [
+        clamp,
+        Restraint {
+            holds: Some(1e6),
+            ..clamp
+        },
+    ]
+    .map(|clamp| run(bar.clone().with_restraints(vec![clamp]).expect("a clamp")));
     for ((one, before), (other, after)) in firm?.iter().zip(holding?) {
         assert_eq!(*one, other);
         assert_eq!(

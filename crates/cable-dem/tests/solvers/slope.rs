@@ -325,7 +325,10 @@ fn at_saturation_the_slope_takes_its_part_of_the_weight_off_the_force() -> Outco
 /// A slope, a bend, a rougher level part, and a clamp that slips in the first passes.
 fn route(sheathed: bool) -> Result<DuctedCable, CableError> {
     let limit = FRICTION * WEIGHT;
-    let clamp = Restraint::new(7.03, 5e6).that_holds(40.0);
+    let clamp = Restraint {
+        holds: Some(40.0),
+        ..Restraint::new(7.03, 5e6)
+    };
     let sections = [
         Section::new(4.0, limit).with_body_force(0.08 * WEIGHT),
         Section::new(3.2, limit).with_bend(FRICTION / 2.0),

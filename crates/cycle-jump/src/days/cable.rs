@@ -141,7 +141,7 @@ where
         let (u, thermal_force) = (state.displacement(), state.thermal_force());
         self.cable.needed(u, thermal_force, &mut defect);
         for (i, (defect, v)) in defect.iter_mut().zip(&advance).enumerate() {
-            *defect -= self.step.law.friction(*v, self.cable.limit(i));
+            *defect -= self.step.law.friction(*v, self.cable.chain().nodes()[i].limit);
         }
         Measured {
             time,

@@ -26,7 +26,7 @@ use crate::{DuctedCable, Friction, FrictionLaw, Mesh};
 /// The friction law of a fixed end's node.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FixedEndFriction {
-    friction: Friction,
+    pub friction: Friction,
     /// h²/EA \[m²/N\]: times q the slip after which the whole half element has turned over.
     turning: f64,
 }

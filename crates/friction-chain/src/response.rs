@@ -7,44 +7,42 @@
 //!
 //! Functions of this kind are known from total-variation filtering (N. A. Johnson, J. Comput. Graph. Stat. 22 (2013) 246).
 
-/// Friction of one node: `upper` up to the displacement `forward`, `lower` from `backward` on, linear between them \[N, m\].
+/// How the ground holds one node.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct NodeFriction {
-    pub forward: f64,
-    pub backward: f64,
-    pub upper: f64,
-    pub lower: f64,
-}
-
-impl NodeFriction {
-    /// At the displacement `u` \[m\]; on a step, in the middle of it.
-    pub fn at(&self, u: f64) -> f64 {
-        let width = self.backward - self.forward;
-        if u < self.forward {
-            self.upper
-        } else if u > self.backward {
-            self.lower
-        } else {
-            let share = if width > 0.0 {
-                (u - self.forward) / width
-            } else {
-                0.5
-            };
-            self.upper + share * (self.lower - self.upper)
-        }
-    }
-}
-
-/// Support of one node: its stiffness \[N/m\] and load \[N\].
-#[derive(Debug, Clone, Copy)]
-pub(super) struct NodeSupport {
+pub(crate) struct Grounding {
+    /// Spring \[N/m\] and load \[N\].
     pub stiffness: f64,
     pub load: f64,
+    /// Displacements \[m\] below which the duct slips forward past the node, and beyond which backward.
+    pub slips: [f64; 2],
+    /// Friction there, the largest and the least; linear between them \[N\].
+    pub bounds: [f64; 2],
+}
+
+impl Grounding {
+    /// Friction \[N\] at the displacement `u` \[m\]; on a step, in the middle of it.
+    pub fn friction(&self, u: f64) -> f64 {
+        let ([forward, backward], [upper, lower]) = (self.slips, self.bounds);
+        let width = backward - forward;
+        if u < forward {
+            upper
+        } else if u > backward {
+            lower
+        } else {
+            let share = if width > 0.0 { (u - forward) / width } else { 0.5 };
+            upper + share * (lower - upper)
+        }
+    }
+
+    /// Force \[N\] that its spring needs at the displacement `u` \[m\], less its load.
+    pub fn support(&self, u: f64) -> f64 {
+        self.stiffness * u - self.load
+    }
 }
 
 /// The function p(u): straight between its corners, and of one slope beyond them on either side.
 #[derive(Debug, Clone)]
-pub(super) struct Response {
+pub(crate) struct Response {
     /// (u, p), ascending in both \[m, N\].
     corners: Vec<(f64, f64)>,
     /// Slope beyond the corners \[N/m\].
@@ -52,48 +50,35 @@ pub(super) struct Response {
 }
 
 impl Response {
-    /// Nothing, which needs no force.
-    pub fn of_nothing() -> Self {
+    /// A spring of `stiffness` \[N/m\] to a node that is held at some displacement \[m\]; without one nothing, which needs no force.
+    pub fn new(held: Option<f64>, stiffness: f64) -> Self {
         Self {
-            corners: vec![(0.0, 0.0)],
-            outer: 0.0,
+            corners: vec![(held.unwrap_or_default(), 0.0)],
+            outer: held.map_or(0.0, |_| stiffness),
         }
     }
 
-    /// A spring k to a node that is held at `u`.
-    pub fn of_spring(u: f64, stiffness: f64) -> Self {
-        Self {
-            corners: vec![(u, 0.0)],
-            outer: stiffness,
-        }
-    }
-
-    /// With one more node at its end, and behind a spring of `stiffness` k \[N/m\] to the next one.
-    pub fn add(&mut self, support: NodeSupport, friction: &NodeFriction, stiffness: f64) {
+    /// With one more node at its end, held by its `ground`, and behind a spring of `stiffness` k \[N/m\] to the next one.
+    pub fn add(&mut self, ground: &Grounding, stiffness: f64) {
         let softness = 1.0 / stiffness;
         let behind = |u: f64, p: f64| {
-            let p = p + support.stiffness * u - support.load;
+            let p = p + ground.stiffness * u - ground.load;
             (u + p * softness, p)
         };
-        let NodeFriction {
-            forward,
-            backward,
-            upper,
-            lower,
-        } = *friction;
+        let ([forward, backward], [upper, lower]) = (ground.slips, ground.bounds);
         let new = [(forward, upper), (backward, lower)].map(|(u, bound)| behind(u, self.force(u) - bound));
         let from = self.corners.partition_point(|(u, _)| *u < forward);
         let to = from + self.corners[from..].partition_point(|(u, _)| *u <= backward);
-        for corner in &mut self.corners[..from] {
-            *corner = behind(corner.0, corner.1 - upper);
-        }
-        for corner in &mut self.corners[from..to] {
-            *corner = behind(corner.0, corner.1 - friction.at(corner.0));
-        }
-        for corner in &mut self.corners[to..] {
-            *corner = behind(corner.0, corner.1 - lower);
-        }
-        self.outer += support.stiffness;
+        let rub = |(u, p): &mut (f64, f64), friction: f64| (*u, *p) = behind(*u, *p - friction);
+        self.corners[..from]
+            .iter_mut()
+            .for_each(|corner| rub(corner, upper));
+        let between = self.corners[from..to].iter_mut();
+        between.for_each(|corner| rub(corner, ground.friction(corner.0)));
+        self.corners[to..]
+            .iter_mut()
+            .for_each(|corner| rub(corner, lower));
+        self.outer += ground.stiffness;
         self.outer /= 1.0 + self.outer * softness;
         if forward == backward {
             self.corners.splice(from..to, new);
@@ -106,33 +91,25 @@ impl Response {
     /// p(u).
     pub fn force(&self, u: f64) -> f64 {
         let next = self.corners.partition_point(|(at, _)| *at < u);
-        match (
-            next.checked_sub(1).map(|i| self.corners[i]),
-            self.corners.get(next),
-        ) {
+        let before = next.checked_sub(1).map(|i| self.corners[i]);
+        match (before, self.corners.get(next)) {
             (Some((u0, p0)), Some(&(u1, p1))) => p0 + (p1 - p0) * (u - u0) / (u1 - u0),
             (Some((at, p)), None) | (None, Some(&(at, p))) => p + self.outer * (u - at),
             (None, None) => 0.0,
         }
     }
-
-    /// Corners' displacements.
-    fn places(&self) -> impl Iterator<Item = f64> {
-        self.corners.iter().map(|(u, _)| *u)
-    }
 }
 
 /// Where a node between two parts of the chain is at rest that needs the force `own`(u) itself, growing and straight between the
 /// `limits`; if nothing holds it, as near to there as it can be.
-pub(super) fn rest(left: &Response, right: &Response, limits: [f64; 2], own: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn rest(left: &Response, right: &Response, limits: [f64; 2], own: impl Fn(f64) -> f64) -> f64 {
     let [low, high] = limits;
     let force = |u: f64| left.force(u) + right.force(u) + own(u);
-    let mut places: Vec<f64> = left
-        .places()
-        .chain(right.places())
-        .filter(|u| (low..=high).contains(u))
+    let corners = left.corners.iter().chain(&right.corners).map(|(u, _)| *u);
+    let within = corners.filter(|u| (low..=high).contains(u));
+    let mut places: Vec<f64> = within
+        .chain(limits.into_iter().filter(|u| u.is_finite()))
         .collect();
-    places.extend(limits.into_iter().filter(|u| u.is_finite()));
     places.sort_unstable_by(f64::total_cmp);
     let next = places.partition_point(|&u| force(u) < 0.0);
     let outer = |u: f64, towards: f64| {

@@ -1,9 +1,11 @@
 //! Chains of equations in which every unknown knows its two neighbours alone.
 
-/// x = `share` · (the sum of both neighbours) + `value`.
+/// The equation of one unknown, x = `share` · (the sum of both neighbours) + `value`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub struct Row {
+    /// What it takes of each neighbour.
     pub share: f64,
+    /// What it is apart from them, in the unit of x.
     pub value: f64,
 }
 
@@ -25,17 +27,17 @@ impl Eliminated {
     }
 }
 
-/// Solves the rows of every index of `x`, between neighbours that are held at `before` and `after`; `factors` is storage of as many.
+/// Solves the rows of every index of `x`, of which there is one at least, between neighbours that are held at `before` and `after`;
+/// `factors` is storage of as many or more.
 ///
 /// Gaussian elimination (L. H. Thomas, 1949), from both ends at once, since each division waits for the one before it: 1.3 times as
 /// fast as from one end. Shares between 0 and ½, or up to 1 at an end without a neighbour, need no pivoting.
+///
+/// # Panics
+///
+/// Where `x` is empty, or `factors` shorter.
 #[inline]
-pub(crate) fn solve(
-    [before, after]: [f64; 2],
-    row: impl Fn(usize) -> Row,
-    factors: &mut [f64],
-    x: &mut [f64],
-) {
+pub fn solve([before, after]: [f64; 2], row: impl Fn(usize) -> Row, factors: &mut [f64], x: &mut [f64]) {
     let count = x.len();
     let factors = &mut factors[..count];
     let middle = count / 2;
