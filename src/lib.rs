@@ -60,6 +60,8 @@ pub mod calibration;
 pub mod cli;
 #[cfg(feature = "design")]
 pub mod design;
+#[cfg(feature = "design")]
+pub mod measures;
 #[cfg(feature = "sweep")]
 pub mod output;
 #[cfg(feature = "calibrate")]

@@ -8,6 +8,7 @@ mod design_words;
 mod explain;
 mod failure;
 mod limits;
+mod measures;
 mod new;
 mod outputs;
 mod plan;
@@ -66,6 +67,8 @@ enum Command {
     Sweep(Box<sweep::Arguments>),
     /// Find the springs or the clamp that stay within limits of force and movement
     Design(Box<design::Arguments>),
+    /// Compare measures, whatever is not known: does each hold, and which to take
+    Measures(Box<measures::Arguments>),
     /// Write a self-contained HTML report with figures
     #[cfg(feature = "plot")]
     Report(Box<report::Arguments>),
@@ -134,6 +137,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
+        Command::Measures(arguments) => measures::execute(arguments),
         #[cfg(feature = "plot")]
         Command::Report(arguments) => report::execute(arguments),
         Command::New(arguments) => new::execute(arguments),

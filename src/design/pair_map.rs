@@ -177,7 +177,7 @@ fn around(stiffness: f64) -> Vec<f64> {
 }
 
 /// The levels on both sides of `stiffness`, with their weights in the mean of the inverse.
-fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
+pub fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
     let above = levels.partition_point(|level| *level < stiffness);
     let above = above.min(levels.len() - 1);
     let below = above.saturating_sub(1);

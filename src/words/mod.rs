@@ -7,6 +7,7 @@
 )]
 
 mod answer;
+pub mod measures;
 mod number;
 mod reader;
 mod scene;

@@ -4,7 +4,11 @@
 //! never formulas. A workbook holds no date: the same answer is the same file, byte for byte.
 
 mod book;
+#[cfg(feature = "cli")]
+mod measures;
 mod run;
 
 pub(crate) use book::{Book, Cell, scene};
+#[cfg(feature = "cli")]
+pub(crate) use measures::of_measures;
 pub use run::of_run;
