@@ -31,6 +31,8 @@ mod heat;
 mod house;
 #[path = "lanes.rs"]
 mod lanes;
+#[path = "measures.rs"]
+mod measures;
 #[path = "methods.rs"]
 mod methods;
 #[path = "mistakes.rs"]

@@ -8,11 +8,24 @@ use super::unknown::{FRICTION_KEY, Unknown};
 use crate::scene::{Cost, End, Measure, Restraint};
 use crate::{Limited, Place, Reached, Scene, Verdict};
 
+/// How accurate a run is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Effort {
+    /// On a coarse mesh that all share.
+    Coarse,
+    /// On one that is twice as fine.
+    Finer,
+    /// With the scene's own tolerance.
+    Decisive,
+}
+
 /// One measure with one combination of what is not known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// The values of all unknowns \[SI\].
     pub at: Vec<f64>,
+    /// How accurate it is.
+    pub effort: Effort,
     /// What it makes of each limit, and of the duct's end; none where the run failed.
     pub verdicts: Vec<Verdict>,
     /// Largest force on an end \[N\].
@@ -26,9 +39,15 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(at: &[f64], verdicts: Vec<Verdict>, [force, movement, clamp]: [f64; 3]) -> Self {
+    pub(super) fn new(
+        at: &[f64],
+        effort: Effort,
+        verdicts: Vec<Verdict>,
+        [force, movement, clamp]: [f64; 3],
+    ) -> Self {
         Self {
             at: at.to_vec(),
+            effort,
             verdicts,
             force_n: force,
             movement_m: movement,
@@ -37,10 +56,10 @@ impl Outcome {
         }
     }
 
-    pub(super) fn failed(at: &[f64], failure: String) -> Self {
+    pub(super) fn failed(at: &[f64], effort: Effort, failure: String) -> Self {
         Self {
             failure: Some(failure),
-            ..Self::new(at, Vec::new(), [0.0; 3])
+            ..Self::new(at, effort, Vec::new(), [0.0; 3])
         }
     }
 

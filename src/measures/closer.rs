@@ -57,6 +57,7 @@ fn top(all: &[&Outcome], point: &Outcome, unknown: usize) -> Option<(Vec<f64>, f
 
 #[cfg(test)]
 mod tests {
+    use super::super::answer::Effort;
     use super::*;
     use crate::{Limited, Place, Verdict};
 
@@ -65,7 +66,7 @@ mod tests {
         let verdict = serde_json::json!({ "end": Place::Upstream, "quantity": Limited::Force, "limit": 1.0, "largest": largest,
             "reached_after": null, "doubtful": false });
         let verdict: Verdict = serde_json::from_value(verdict).expect("a verdict");
-        Outcome::new(at, vec![verdict], [0.0; 3])
+        Outcome::new(at, Effort::Coarse, vec![verdict], [0.0; 3])
     }
 
     #[test]

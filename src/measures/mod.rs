@@ -14,6 +14,6 @@ mod study;
 mod unknown;
 mod ways;
 
-pub use answer::{Comparison, Extreme, Held, HeldClamp, HeldEnds, MeasureAnswer, Outcome};
+pub use answer::{Comparison, Effort, Extreme, Held, HeldClamp, HeldEnds, MeasureAnswer, Outcome};
 pub use study::Study;
 pub use unknown::{FRICTION_KEY, Unknown};

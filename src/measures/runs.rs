@@ -2,18 +2,20 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::answer::Outcome;
+use super::answer::{Effort, Outcome};
 use super::unknown::Unknown;
 use crate::answer::largest_movement_in_duct;
 use crate::ground::{Ground, road};
+use crate::plan::plan_over;
 use crate::run::{run_over, run_shown};
 use crate::scene::{End, Measure};
 use crate::{CableEnd, Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions, Scene, SceneFile};
 
-/// Tolerance of the runs that look for the worst, if the scene's own is not looser.
+/// Tolerance of the runs that look for the worst, if the scene's own is not looser: their mesh is the one with which a run of this
+/// tolerance begins, six nodes per depth as a rule.
 const COARSE: f64 = 0.05;
-/// What a run with the scene's tolerance costs, in coarse ones.
-const DECISIVE_COST: f64 = 12.0;
+/// What a run costs relative to one of the effort below it, as long as none was made.
+const STEP_COST: f64 = 4.0;
 
 /// The limits of a scene, with whatever clamps it has.
 pub type LimitsOf<'a> = &'a (dyn Fn(&Scene) -> Limits + Sync);
@@ -25,13 +27,37 @@ struct Case {
     ground: Arc<Ground>,
 }
 
-/// How accurate a run is.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Effort {
-    /// On the mesh that all share.
-    Coarse,
-    /// With the scene's own tolerance.
-    Decisive,
+/// How many runs there were and will be, and what they cost \[node updates\], of each effort.
+#[derive(Debug, Clone, Copy, Default)]
+struct Work {
+    expected: [f64; 3],
+    done: [f64; 3],
+    cost: [f64; 3],
+}
+
+impl Work {
+    /// The share of the whole that is done.
+    fn share(&self) -> f64 {
+        let (mut whole, mut one) = (0.0, 1.0);
+        for effort in 0..3 {
+            one *= STEP_COST;
+            if self.done[effort] > 0.0 {
+                one = self.cost[effort] / self.done[effort];
+            }
+            whole += one * self.expected[effort].max(self.done[effort]);
+        }
+        self.cost.iter().sum::<f64>() / whole
+    }
+}
+
+/// A mesh that runs share.
+#[derive(Clone, Copy)]
+struct SharedMesh {
+    /// Node spacing and vehicle step \[m\].
+    coarse: (f64, f64),
+    finer: (f64, f64),
+    /// What one run has shown of it.
+    shown: Option<FixedMesh>,
 }
 
 /// All runs of a scene, and how many there were.
@@ -40,64 +66,72 @@ pub struct Runs<'a> {
     unknowns: &'a [Unknown],
     limits: LimitsOf<'a>,
     progress: Progress<'a>,
-    /// Cost of all, in coarse runs.
-    expected: f64,
-    done: Mutex<(usize, f64)>,
+    work: Mutex<Work>,
     cases: Mutex<Vec<Arc<Case>>>,
-    /// Node spacing and vehicle step of coarse runs, and what one has shown of them.
-    mesh: Option<(f64, f64, Option<FixedMesh>)>,
+    mesh: Option<SharedMesh>,
 }
 
 impl<'a> Runs<'a> {
-    /// Runs of which `expected` are coarse as a rule. Their mesh is that of a run in the middle of what is not known, with fixed ends or
-    /// as the scene has them.
+    /// Runs of which so many of each effort are expected. Those that look for the worst take the jumps of a run in the middle of what is
+    /// not known, with fixed ends or as the scene has them.
     pub fn new(
         file: &'a SceneFile,
         unknowns: &'a [Unknown],
         limits: LimitsOf<'a>,
         progress: Progress<'a>,
-        expected: usize,
+        expected: [usize; 3],
     ) -> Result<Self, Error> {
+        let work = Work {
+            expected: expected.map(|count| count as f64),
+            ..Work::default()
+        };
         let mut runs = Self {
             file,
             unknowns,
             limits,
             progress,
-            expected: expected as f64 + 2.0 * DECISIVE_COST,
-            done: Mutex::default(),
+            work: Mutex::new(work),
             cases: Mutex::default(),
             mesh: None,
         };
         let middle: Vec<f64> = unknowns.iter().map(Unknown::middle).collect();
         let case = runs.case(&middle)?;
+        let levels = plan_over(&runs.coarse(case.scene.clone(), Effort::Coarse), Arc::clone(&case.ground))?.levels;
         for held in [Some(End::Fixed), None] {
+            runs.mesh = Some(SharedMesh {
+                coarse: levels.spacing(levels.first),
+                finer: levels.spacing(levels.first + 1),
+                shown: None,
+            });
             let measure = Measure {
                 upstream: held,
                 downstream: held,
                 ..Measure::default()
             };
-            let scene = runs.coarse(measure.applied(&case.scene));
+            let scene = runs.coarse(measure.applied(&case.scene), Effort::Coarse);
             // It may be stopped, but its share of the work is not counted.
             let options = RunOptions {
                 progress: progress.part(0.0, 0.0),
                 ..RunOptions::default()
             };
-            match run_shown(&scene, Arc::clone(&case.ground), &options) {
-                Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(_) => {}
-                Ok((run, shown)) => {
-                    runs.mesh = Some((run.plan.node_spacing_m, run.plan.vehicle_step_m, shown));
+            let shown = run_shown(&scene, Arc::clone(&case.ground), &options);
+            match (&mut runs.mesh, shown) {
+                (_, Err(Error::Stopped)) => return Err(Error::Stopped),
+                (Some(mesh), Ok((_, shown))) => {
+                    mesh.shown = shown;
                     break;
                 }
+                (mesh, _) => *mesh = None,
             }
         }
         Ok(runs)
     }
 
-    /// The scene with the coarse tolerance, on the mesh that is known.
-    fn coarse(&self, mut scene: Scene) -> Scene {
+    /// The scene with the coarse tolerance, on the mesh that is shared.
+    fn coarse(&self, mut scene: Scene, effort: Effort) -> Scene {
         scene.solver.tolerance = scene.solver.tolerance.max(COARSE);
-        if let Some((spacing, step, _)) = self.mesh {
+        if let Some(mesh) = self.mesh {
+            let (spacing, step) = if effort == Effort::Coarse { mesh.coarse } else { mesh.finer };
             scene.solver.node_spacing.get_or_insert(spacing);
             scene.solver.vehicle_step.get_or_insert(step);
         }
@@ -135,28 +169,43 @@ impl<'a> Runs<'a> {
     ///
     /// [`Error::Stopped`] where the progress stops it.
     pub fn run(&self, measure: &Measure, at: &[f64], effort: Effort) -> Result<Outcome, Error> {
-        let outcome = match self.computed(measure, at, effort) {
+        let (outcome, cost) = match self.computed(measure, at, effort) {
             Err(Error::Stopped) => return Err(Error::Stopped),
-            Err(error) => Outcome::failed(at, crate::with_causes(&error)),
-            Ok((scene, run)) => Outcome::new(at, self.limits_in_duct(&scene).verdicts(&run), largest(&run)),
+            Err(error) => (Outcome::failed(at, effort, crate::with_causes(&error)), 0),
+            Ok((scene, run)) => {
+                let verdicts = self.limits_in_duct(&scene).verdicts(&run);
+                (Outcome::new(at, effort, verdicts, largest(&run)), run.cost.node_updates)
+            }
         };
-        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
-        done.0 += 1;
-        done.1 += if effort == Effort::Coarse { 1.0 } else { DECISIVE_COST };
-        self.progress.report((done.1 / self.expected).min(1.0))?;
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        work.done[effort as usize] += 1.0;
+        work.cost[effort as usize] += cost as f64;
+        self.progress.report(work.share())?;
         Ok(outcome)
     }
 
     fn computed(&self, measure: &Measure, at: &[f64], effort: Effort) -> Result<(Scene, Run), Error> {
         let case = self.case(at)?;
-        let mut scene = measure.applied(&case.scene);
-        let mut options = RunOptions::default();
-        if effort == Effort::Coarse {
-            scene = self.coarse(scene);
-            options.mesh = self.mesh.and_then(|(.., shown)| shown);
-        }
+        let scene = measure.applied(&case.scene);
         scene.validate()?;
-        let run = run_over(&scene, Arc::clone(&case.ground), &options)?;
+        let run = |scene: &Scene, mesh| {
+            let options = RunOptions {
+                mesh,
+                ..RunOptions::default()
+            };
+            run_over(scene, Arc::clone(&case.ground), &options)
+        };
+        let is_rough = effort != Effort::Decisive;
+        if let Some(mesh) = self.mesh.filter(|_| is_rough) {
+            let coarse = self.coarse(scene.clone(), effort);
+            if let Ok(run) = run(&coarse, mesh.shown) {
+                return Ok((scene, run));
+            }
+        }
+        // Where that mesh is too coarse, a run finds its own.
+        let mut own = scene.clone();
+        own.solver.tolerance = own.solver.tolerance.max(if is_rough { COARSE } else { 0.0 });
+        let run = run(&own, None)?;
         Ok((scene, run))
     }
 
@@ -172,7 +221,8 @@ impl<'a> Runs<'a> {
 
     /// How many were made.
     pub fn count(&self) -> usize {
-        self.done.lock().unwrap_or_else(PoisonError::into_inner).0
+        let work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        work.done.iter().sum::<f64>() as usize
     }
 }
 

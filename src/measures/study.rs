@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::answer::{Comparison, MeasureAnswer, Outcome, share, worst};
+use super::answer::{Comparison, Effort, MeasureAnswer, Outcome, share, worst};
 use super::closer::closer;
-use super::runs::{Effort, LimitsOf, Runs};
+use super::runs::{LimitsOf, Runs};
 use super::unknown::{Unknown, combinations, unknowns};
 use super::ways::{Way, parts, ways};
 use crate::design::between;
@@ -22,9 +22,10 @@ const CRITICAL: usize = 4;
 const AS_BAD: f64 = 0.95;
 /// Stiffnesses of a map in a factor of ten.
 const PER_DECADE: f64 = 24.0;
-/// Runs that decide have the scene's tolerance: of measures whose worst is nearer to its limit than this, and so many of each at most.
+/// Combinations that are run again on a finer mesh, at most, until the worst is one of them.
+const FINER: usize = 3;
+/// All combinations that are nearer to a limit than this share are run with the scene's tolerance, until one exceeds it.
 const DOUBT: f64 = 0.1;
-const MOST_DECISIVE: usize = 3;
 
 /// What is to be compared.
 #[derive(Debug, Clone)]
@@ -39,8 +40,6 @@ pub struct Study {
 struct Tried {
     measure: Measure,
     outcomes: Vec<Outcome>,
-    /// Combinations that were computed with the scene's tolerance.
-    decisive: Vec<Vec<f64>>,
 }
 
 impl Study {
@@ -68,7 +67,7 @@ impl Study {
             1 => count + CLOSER,
             candidates => ROUNDS * (CRITICAL * candidates + count + CLOSER),
         };
-        let runs = ways.iter().map(|way| runs(way) + MOST_DECISIVE + 1).sum::<usize>();
+        let runs = ways.iter().map(|way| runs(way) + FINER + count + CLOSER).sum::<usize>();
         [count, ways.len(), runs]
     }
 
@@ -83,24 +82,16 @@ impl Study {
             1 => count + 1,
             candidates => 2 * candidates + count + 1,
         };
-        let expected = ways.iter().map(usual).sum();
+        let coarse = ways.iter().map(usual).sum();
+        let expected = [coarse, 2 * ways.len(), ways.len() + 1];
         let runs = Runs::new(&self.file, &self.unknowns, limits, progress, expected)?;
         let (plain, sought): (Vec<&Way>, Vec<&Way>) = ways.iter().partition(|way| way.candidates.len() == 1);
-        let tried = plain.par_iter().map(|way| self.tried(&runs, way.candidates[0].clone()));
+        let tried = plain.par_iter().map(|way| decided(&runs, self.tried(&runs, way.candidates[0].clone())?));
         let mut tried = tried.collect::<Result<Vec<_>, _>>()?;
-        let critical = critical(&tried);
-        let sought = sought.par_iter().map(|way| self.sought(&runs, way, critical.clone()));
+        let critical = self.critical(&tried);
+        let sought = sought.par_iter().map(|way| decided(&runs, self.sought(&runs, way, critical.clone())?));
         tried.extend(sought.collect::<Result<Vec<_>, _>>()?);
-        tried.par_iter_mut().try_for_each(|tried| decide(&runs, tried))?;
-        loop {
-            let comparison = self.answer(&runs, &tried);
-            let best = tried.iter_mut().find(|tried| Some(&tried.measure.name) == comparison.recommended.as_ref());
-            let worst = best.as_ref().and_then(|best| Some(worst(&best.outcomes)?.at.clone()));
-            match (best, worst) {
-                (Some(best), Some(at)) if !best.decisive.contains(&at) => again(&runs, best, at)?,
-                _ => return Ok(comparison),
-            }
-        }
+        Ok(self.answer(&runs, &tried))
     }
 
     /// The measure in all combinations, and closer around the worst.
@@ -111,11 +102,7 @@ impl Study {
             let Some(at) = closer(&outcomes) else { break };
             outcomes.push(run(&at)?);
         }
-        Ok(Tried {
-            measure,
-            outcomes,
-            decisive: Vec::new(),
-        })
+        Ok(Tried { measure, outcomes })
     }
 
     /// The best of the candidates in the `critical` combinations, and in those that prove worse with it (cutting planes: J. E. Kelley,
@@ -141,6 +128,26 @@ impl Study {
             critical.push(worst.at);
         }
         best.map_or_else(|| self.tried(runs, way.candidates[0].clone()), Ok)
+    }
+
+    /// The worst combinations of force and of movement with the first measures.
+    fn critical(&self, tried: &[Tried]) -> Vec<Vec<f64>> {
+        let mut critical = Vec::new();
+        for quantity in [Limited::Force, Limited::Movement] {
+            for tried in tried.iter().take(2) {
+                let of = |outcome: &Outcome| {
+                    let verdicts = outcome.verdicts.iter();
+                    verdicts.filter(|verdict| verdict.quantity == quantity).map(share).fold(0.0, f64::max)
+                };
+                let asked = tried.outcomes.iter().filter(|outcome| self.combinations.contains(&outcome.at));
+                let worst = asked.max_by(|a, b| of(a).total_cmp(&of(b)));
+                if let Some(worst) = worst.filter(|worst| of(worst) > 0.0 && !critical.contains(&worst.at)) {
+                    critical.push(worst.at.clone());
+                }
+            }
+        }
+        critical.truncate(CRITICAL - 1);
+        critical
     }
 
     fn answer(&self, runs: &Runs<'_>, tried: &[Tried]) -> Comparison {
@@ -187,25 +194,6 @@ fn largest(outcomes: &[Outcome]) -> f64 {
     worst(outcomes).map_or(f64::INFINITY, Outcome::share)
 }
 
-/// The worst combinations of force and of movement, with each measure that was tried.
-fn critical(tried: &[Tried]) -> Vec<Vec<f64>> {
-    let mut critical = Vec::new();
-    for quantity in [Limited::Force, Limited::Movement] {
-        for tried in tried.iter().take(2) {
-            let of = |outcome: &Outcome| {
-                let of_quantity = outcome.verdicts.iter().filter(|verdict| verdict.quantity == quantity);
-                of_quantity.map(share).fold(0.0, f64::max)
-            };
-            let worst = tried.outcomes.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
-            if let Some(worst) = worst.filter(|worst| of(worst) > 0.0 && !critical.contains(&worst.at)) {
-                critical.push(worst.at.clone());
-            }
-        }
-    }
-    critical.truncate(CRITICAL - 1);
-    critical
-}
-
 /// The candidate with the smallest largest share of a limit in the `critical` combinations; of springs that with any stiffness, as a
 /// spring against a spring is read between those that are run.
 fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<Measure, Error> {
@@ -242,27 +230,57 @@ fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<M
     Ok(way.with_spring(best.unwrap_or(first)))
 }
 
-/// Runs what decides whether a measure holds again with the scene's tolerance.
-fn decide(runs: &Runs<'_>, tried: &mut Tried) -> Result<(), Error> {
-    for _ in 0..MOST_DECISIVE {
-        let Some(worst) = worst(&tried.outcomes) else { break };
-        let is_decided = tried.decisive.contains(&worst.at);
-        if is_decided || (worst.share() - 1.0).abs() > DOUBT {
+/// The measure with its worst on a finer mesh and then with the scene's tolerance; and all that is near a limit, until it is known to
+/// exceed one or to hold.
+fn decided(runs: &Runs<'_>, mut tried: Tried) -> Result<Tried, Error> {
+    for (effort, most) in [(Effort::Finer, FINER), (Effort::Decisive, 1)] {
+        for _ in 0..most {
+            let Some(rough) = tried.worst(|worst| worst.effort < effort) else { break };
+            if tried.outcomes[rough].share() < largest(&tried.outcomes) {
+                break;
+            }
+            tried.again(runs, rough, effort)?;
+        }
+    }
+    while let Some(rough) = tried.worst(|outcome| outcome.effort < Effort::Decisive) {
+        let exceeds = |outcome: &Outcome| outcome.effort == Effort::Decisive && outcome.share() > 1.0;
+        let is_near = (tried.outcomes[rough].share() - 1.0).abs() < DOUBT;
+        if !is_near || tried.outcomes.iter().any(exceeds) {
             break;
         }
-        let at = worst.at.clone();
-        again(runs, tried, at)?;
+        tried.again(runs, rough, Effort::Decisive)?;
     }
-    Ok(())
+    Ok(tried)
 }
 
-/// The same combination with the scene's tolerance.
-fn again(runs: &Runs<'_>, tried: &mut Tried, at: Vec<f64>) -> Result<(), Error> {
-    let outcome = runs.run(&tried.measure, &at, Effort::Decisive)?;
-    tried.outcomes.retain(|other| other.at != at);
-    tried.outcomes.push(outcome);
-    tried.decisive.push(at);
-    Ok(())
+impl Tried {
+    /// The place of the worst of some outcomes.
+    fn worst(&self, is_meant: impl Fn(&Outcome) -> bool) -> Option<usize> {
+        let share = |place: &usize| self.outcomes[*place].share();
+        let all = 0..self.outcomes.len();
+        let meant = all.filter(|place| {
+            let outcome = &self.outcomes[*place];
+            outcome.failure.is_none() && is_meant(outcome)
+        });
+        meant.max_by(|a, b| share(a).total_cmp(&share(b)))
+    }
+
+    /// Runs one combination again with more effort. What the scene's tolerance changes there scales the others, which are coarser (space
+    /// mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536).
+    fn again(&mut self, runs: &Runs<'_>, place: usize, effort: Effort) -> Result<(), Error> {
+        let before = self.outcomes[place].clone();
+        self.outcomes[place] = runs.run(&self.measure, &before.at, effort)?;
+        if effort == Effort::Decisive {
+            let after = self.outcomes[place].verdicts.clone();
+            for other in self.outcomes.iter_mut().filter(|other| other.effort < effort) {
+                for (limit, (old, new)) in before.verdicts.iter().zip(&after).enumerate() {
+                    let scale = if old.largest > 0.0 { new.largest / old.largest } else { 1.0 };
+                    other.verdicts.get_mut(limit).into_iter().for_each(|own| own.largest *= scale);
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The scene as it is if that holds; else the cheapest measure that does, and without costs the one with the fewest parts.

@@ -134,7 +134,7 @@ fn lengths(scene: &Scene) -> Vec<Rule> {
         let key = |name: &str| format!("{at}.{name}");
         #[rustfmt::skip]
         rules.extend([
-            rule(clamp.holds.is_none() || has_friction, key("holds"), "a clamp that slips, without friction",
+            rule(clamp.holds.is_none() || has_friction || at.starts_with("measures"), key("holds"), "a clamp that slips, without friction",
                 "only where the cable has friction"),
             suits(Some(clamp.position), 0.0..=length, key("position"), format!("a position in the duct, from 0 m to {all} m")),
         ]);
