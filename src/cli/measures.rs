@@ -51,9 +51,19 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(file)?;
     arguments.limits.warn_of_slips();
     let table = input.table();
-    let mut files = arguments.force.files([Some(&*arguments.scene.file.scene), table.as_deref()].into_iter().flatten());
+    let mut files = arguments.force.files(
+        [Some(&*arguments.scene.file.scene), table.as_deref()]
+            .into_iter()
+            .flatten(),
+    );
     #[cfg(feature = "xlsx")]
-    let workbook = beside(&mut files, "--xlsx", arguments.xlsx.as_deref(), "xlsx", "a workbook of Excel, such as measures.xlsx")?;
+    let workbook = beside(
+        &mut files,
+        "--xlsx",
+        arguments.xlsx.as_deref(),
+        "xlsx",
+        "a workbook of Excel, such as measures.xlsx",
+    )?;
     let study = Study::new(input.file())?;
     let comparison = input.located(compared(&study, &arguments.limits))?;
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
@@ -63,24 +73,38 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let bytes = bytes.map_err(|source| output.failed(source))?;
         output.write(|out| out.write_all(&bytes))?;
     }
-    arguments.json.print(&comparison, || print(&comparison, &reader))?;
+    arguments
+        .json
+        .print(&comparison, || print(&comparison, &reader))?;
     match comparison.recommended {
         Some(_) => Ok(()),
-        None => Err(Failure::NotKept("no measure holds in every combination: what comes nearest is on standard output".to_owned())),
+        None => Err(Failure::NotKept(
+            "no measure holds in every combination: what comes nearest is on standard output".to_owned(),
+        )),
     }
 }
 
 /// Says how many runs there will be, and makes them.
 pub fn compared(study: &Study, limits: &LimitArguments) -> Result<Comparison, crate::Error> {
     let [combinations, count, most] = study.size();
-    let _ = writeln!(terminal::err(), "{count} measures in {combinations} combinations: at most {most} runs of the scene");
+    let _ = writeln!(
+        terminal::err(),
+        "{count} measures in {combinations} combinations: at most {most} runs of the scene"
+    );
     let words = |_| format!("{count} measures in {combinations} combinations");
-    watched(1.0, words, |progress| study.compare(&|scene: &Scene| limits.wherever_they_are(scene), progress))
+    watched(1.0, words, |progress| {
+        study.compare(&|scene: &Scene| limits.wherever_they_are(scene), progress)
+    })
 }
 
 fn print(comparison: &Comparison, reader: &Reader) -> Result<(), Failure> {
     let mut out = terminal::out();
-    writeln!(out, "{}: measures, {} passes", terminal::line(&comparison.title), comparison.passes)?;
+    writeln!(
+        out,
+        "{}: measures, {} passes",
+        terminal::line(&comparison.title),
+        comparison.passes
+    )?;
     writeln!(out, "uncertain: {}\n", uncertain(comparison))?;
     let table = measures(comparison, reader);
     terminal::table(&mut out, &table.head, &table.rows)?;

@@ -101,14 +101,15 @@ impl UncertainArguments {
 
 /// The override of an interval, such as `uncertain.ground.vertical_peak=["90um", "150um"]`.
 fn interval(text: &str) -> Result<String, String> {
-    let parts = text.split_once('=').and_then(|(key, both)| Some((key, both.split_once(':')?)));
+    let parts = text
+        .split_once('=')
+        .and_then(|(key, both)| Some((key, both.split_once(':')?)));
     let value = |text: &str| match text.trim().parse::<f64>() {
         Ok(number) => format!("{number:?}"),
         Err(_) => quoted(text.trim()),
     };
-    let set = parts.map(|(key, (low, high))| {
-        format!("uncertain.{}=[{}, {}]", key.trim(), value(low), value(high))
-    });
+    let set =
+        parts.map(|(key, (low, high))| format!("uncertain.{}=[{}, {}]", key.trim(), value(low), value(high)));
     set.ok_or_else(|| {
         format!("found `{text}`; allowed: KEY=LOW:HIGH without spaces, such as friction.dynamic_coefficient=0.2:0.5")
     })

@@ -199,7 +199,9 @@ impl Comparison {
 
     /// The place of friction among the unknowns.
     pub fn friction(&self) -> Option<usize> {
-        self.uncertain.iter().position(|unknown| unknown.key == FRICTION_KEY)
+        self.uncertain
+            .iter()
+            .position(|unknown| unknown.key == FRICTION_KEY)
     }
 }
 
@@ -228,7 +230,10 @@ impl MeasureAnswer {
         };
         let extreme = |outcome: &Outcome| {
             let tightest = outcome.tightest()?;
-            let reached = outcome.verdicts.iter().filter_map(|verdict| verdict.reached_after);
+            let reached = outcome
+                .verdicts
+                .iter()
+                .filter_map(|verdict| verdict.reached_after);
             Some(Extreme {
                 end: tightest.end,
                 quantity: tightest.quantity,
@@ -252,9 +257,16 @@ impl MeasureAnswer {
             cost: measure.cost.clone(),
             parts,
             within_limits: outcomes.iter().all(Outcome::holds),
-            kept: outcomes.iter().filter(is_asked).filter(|outcome| outcome.holds()).count(),
+            kept: outcomes
+                .iter()
+                .filter(is_asked)
+                .filter(|outcome| outcome.holds())
+                .count(),
             worst: worst(&outcomes).and_then(extreme),
-            nominal: outcomes.iter().find(|outcome| outcome.at == middle).and_then(extreme),
+            nominal: outcomes
+                .iter()
+                .find(|outcome| outcome.at == middle)
+                .and_then(extreme),
             failures: outcomes
                 .iter()
                 .filter_map(|outcome| Some((keys(&outcome.at), outcome.failure.clone()?)))

@@ -14,7 +14,10 @@ const APART: f64 = 0.04;
 
 /// The combination at which the worst may be worse than at all `outcomes`.
 pub fn closer(outcomes: &[Outcome]) -> Option<Vec<f64>> {
-    let computed: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_none()).collect();
+    let computed: Vec<&Outcome> = outcomes
+        .iter()
+        .filter(|outcome| outcome.failure.is_none())
+        .collect();
     let highest = computed.iter().map(|outcome| outcome.share()).fold(0.0, f64::max);
     let unknowns = computed.first()?.at.len();
     let tops = computed.iter().flat_map(|point| {
@@ -32,8 +35,11 @@ fn top(all: &[&Outcome], point: &Outcome, unknown: usize) -> Option<(Vec<f64>, f
         let mut pairs = other.at.iter().zip(&point.at).enumerate();
         pairs.all(|(index, (a, b))| index == unknown || a == b)
     };
-    let mut line: Vec<(f64, f64)> =
-        all.iter().filter(is_beside).map(|other| (other.at[unknown], other.share())).collect();
+    let mut line: Vec<(f64, f64)> = all
+        .iter()
+        .filter(is_beside)
+        .map(|other| (other.at[unknown], other.share()))
+        .collect();
     line.sort_by(|a, b| a.0.total_cmp(&b.0));
     let highest = (0..line.len()).max_by(|&a, &b| line[a].1.total_cmp(&line[b].1))?;
     if line.len() < 3 || line[highest].0 != point.at[unknown] {
@@ -88,7 +94,9 @@ mod tests {
 
     #[test]
     fn a_slope_has_its_worst_at_its_end() {
-        let all: Vec<Outcome> = (0..5).map(|i| outcome(&[f64::from(i)], 1.0 + f64::from(i))).collect();
+        let all: Vec<Outcome> = (0..5)
+            .map(|i| outcome(&[f64::from(i)], 1.0 + f64::from(i)))
+            .collect();
         assert_eq!(closer(&all), None);
     }
 }

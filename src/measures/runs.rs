@@ -9,7 +9,9 @@ use crate::ground::{Ground, road};
 use crate::plan::plan_over;
 use crate::run::{run_over, run_shown};
 use crate::scene::{End, Measure};
-use crate::{CableEnd, Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions, Scene, SceneFile};
+use crate::{
+    CableEnd, Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions, Scene, SceneFile,
+};
 
 /// Tolerance of the runs that look for the worst, if the scene's own is not looser: their mesh is the one with which a run of this
 /// tolerance begins, six nodes per depth as a rule.
@@ -96,7 +98,11 @@ impl<'a> Runs<'a> {
         };
         let middle: Vec<f64> = unknowns.iter().map(Unknown::middle).collect();
         let case = runs.case(&middle)?;
-        let levels = plan_over(&runs.coarse(case.scene.clone(), Effort::Coarse), Arc::clone(&case.ground))?.levels;
+        let levels = plan_over(
+            &runs.coarse(case.scene.clone(), Effort::Coarse),
+            Arc::clone(&case.ground),
+        )?
+        .levels;
         for held in [Some(End::Fixed), None] {
             runs.mesh = Some(SharedMesh {
                 coarse: levels.spacing(levels.first),
@@ -131,7 +137,11 @@ impl<'a> Runs<'a> {
     fn coarse(&self, mut scene: Scene, effort: Effort) -> Scene {
         scene.solver.tolerance = scene.solver.tolerance.max(COARSE);
         if let Some(mesh) = self.mesh {
-            let (spacing, step) = if effort == Effort::Coarse { mesh.coarse } else { mesh.finer };
+            let (spacing, step) = if effort == Effort::Coarse {
+                mesh.coarse
+            } else {
+                mesh.finer
+            };
             scene.solver.node_spacing.get_or_insert(spacing);
             scene.solver.vehicle_step.get_or_insert(step);
         }
@@ -149,7 +159,10 @@ impl<'a> Runs<'a> {
         let overrides: Vec<String> = self.unknowns.iter().zip(at).map(set).collect();
         let scene = self.file.with(&overrides)?.scene()?;
         let moves_alike = |case: &&Arc<Case>| motion(&case.scene) == motion(&scene);
-        let ground = all().iter().find(moves_alike).map(|case| Arc::clone(&case.ground));
+        let ground = all()
+            .iter()
+            .find(moves_alike)
+            .map(|case| Arc::clone(&case.ground));
         let ground = match ground {
             Some(ground) => ground,
             None => Arc::new(Ground::new(&scene, None, road::reach(&scene))?),
@@ -174,7 +187,10 @@ impl<'a> Runs<'a> {
             Err(error) => (Outcome::failed(at, effort, crate::with_causes(&error)), 0),
             Ok((scene, run)) => {
                 let verdicts = self.limits_in_duct(&scene).verdicts(&run);
-                (Outcome::new(at, effort, verdicts, largest(&run)), run.cost.node_updates)
+                (
+                    Outcome::new(at, effort, verdicts, largest(&run)),
+                    run.cost.node_updates,
+                )
             }
         };
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
@@ -228,13 +244,26 @@ impl<'a> Runs<'a> {
 
 /// What the motion of the duct follows from.
 fn motion(scene: &Scene) -> impl PartialEq + use<'_> {
-    (&scene.ground, &scene.duct, &scene.vehicles, &scene.heat, &scene.solver)
+    (
+        &scene.ground,
+        &scene.duct,
+        &scene.vehicles,
+        &scene.heat,
+        &scene.solver,
+    )
 }
 
 /// The largest force on an end, movement of an end and force on a clamp.
 fn largest(run: &Run) -> [f64; 3] {
     let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
     let [force, movement] = [Limited::Force, Limited::Movement].map(of_ends);
-    let clamps = run.restraints.iter().map(|clamp| run.largest(Place::Clamp(clamp.position_m), Limited::Force));
-    [force[0].max(force[1]), movement[0].max(movement[1]), clamps.fold(0.0, f64::max)]
+    let clamps = run
+        .restraints
+        .iter()
+        .map(|clamp| run.largest(Place::Clamp(clamp.position_m), Limited::Force));
+    [
+        force[0].max(force[1]),
+        movement[0].max(movement[1]),
+        clamps.fold(0.0, f64::max),
+    ]
 }

@@ -7,10 +7,10 @@ use super::closer::closer;
 use super::runs::{LimitsOf, Runs};
 use super::unknown::{Unknown, combinations, unknowns};
 use super::ways::{Way, parts, ways};
+use crate::design::DesignError;
 use crate::design::between;
 use crate::ground::{Ground, road};
 use crate::scene::{Cost, Measure};
-use crate::design::DesignError;
 use crate::{Error, Limited, Progress, Scene, SceneFile};
 
 /// Runs closer around the worst of one measure, at most.
@@ -67,7 +67,10 @@ impl Study {
             1 => count + CLOSER,
             candidates => ROUNDS * (CRITICAL * candidates + count + CLOSER),
         };
-        let runs = ways.iter().map(|way| runs(way) + FINER + count + CLOSER).sum::<usize>();
+        let runs = ways
+            .iter()
+            .map(|way| runs(way) + FINER + count + CLOSER)
+            .sum::<usize>();
         [count, ways.len(), runs]
     }
 
@@ -86,10 +89,14 @@ impl Study {
         let expected = [coarse, 2 * ways.len(), ways.len() + 1];
         let runs = Runs::new(&self.file, &self.unknowns, limits, progress, expected)?;
         let (plain, sought): (Vec<&Way>, Vec<&Way>) = ways.iter().partition(|way| way.candidates.len() == 1);
-        let tried = plain.par_iter().map(|way| decided(&runs, self.tried(&runs, way.candidates[0].clone())?));
+        let tried = plain
+            .par_iter()
+            .map(|way| decided(&runs, self.tried(&runs, way.candidates[0].clone())?));
         let mut tried = tried.collect::<Result<Vec<_>, _>>()?;
         let critical = self.critical(&tried);
-        let sought = sought.par_iter().map(|way| decided(&runs, self.sought(&runs, way, critical.clone())?));
+        let sought = sought
+            .par_iter()
+            .map(|way| decided(&runs, self.sought(&runs, way, critical.clone())?));
         tried.extend(sought.collect::<Result<Vec<_>, _>>()?);
         Ok(self.answer(&runs, &tried))
     }
@@ -97,7 +104,11 @@ impl Study {
     /// The measure in all combinations, and closer around the worst.
     fn tried(&self, runs: &Runs<'_>, measure: Measure) -> Result<Tried, Error> {
         let run = |at: &Vec<f64>| runs.run(&measure, at, Effort::Coarse);
-        let mut outcomes = self.combinations.par_iter().map(run).collect::<Result<Vec<_>, _>>()?;
+        let mut outcomes = self
+            .combinations
+            .par_iter()
+            .map(run)
+            .collect::<Result<Vec<_>, _>>()?;
         for _ in 0..CLOSER {
             let Some(at) = closer(&outcomes) else { break };
             outcomes.push(run(&at)?);
@@ -118,7 +129,9 @@ impl Study {
                 critical.contains(&outcome.at) && outcome.share() >= AS_BAD * worst.share()
             };
             let is_known = worst.holds() || tried.outcomes.iter().any(is_known);
-            let is_better = best.as_ref().is_none_or(|best| worst.share() < largest(&best.outcomes));
+            let is_better = best
+                .as_ref()
+                .is_none_or(|best| worst.share() < largest(&best.outcomes));
             if is_better {
                 best = Some(tried);
             }
@@ -137,9 +150,15 @@ impl Study {
             for tried in tried.iter().take(2) {
                 let of = |outcome: &Outcome| {
                     let verdicts = outcome.verdicts.iter();
-                    verdicts.filter(|verdict| verdict.quantity == quantity).map(share).fold(0.0, f64::max)
+                    verdicts
+                        .filter(|verdict| verdict.quantity == quantity)
+                        .map(share)
+                        .fold(0.0, f64::max)
                 };
-                let asked = tried.outcomes.iter().filter(|outcome| self.combinations.contains(&outcome.at));
+                let asked = tried
+                    .outcomes
+                    .iter()
+                    .filter(|outcome| self.combinations.contains(&outcome.at));
                 let worst = asked.max_by(|a, b| of(a).total_cmp(&of(b)));
                 if let Some(worst) = worst.filter(|worst| of(worst) > 0.0 && !critical.contains(&worst.at)) {
                     critical.push(worst.at.clone());
@@ -154,7 +173,14 @@ impl Study {
         let answer = |tried: &Tried| {
             let (measure, scene) = (&tried.measure, tried.measure.applied(&self.scene));
             let outcomes = tried.outcomes.clone();
-            MeasureAnswer::new(&scene, measure, parts(measure), &self.unknowns, outcomes, &self.combinations)
+            MeasureAnswer::new(
+                &scene,
+                measure,
+                parts(measure),
+                &self.unknowns,
+                outcomes,
+                &self.combinations,
+            )
         };
         let measures: Vec<MeasureAnswer> = tried.iter().map(answer).collect();
         let recommended = recommended(&measures);
@@ -175,14 +201,21 @@ impl Study {
 
     /// The unknown whose best value helps most in the worst of the combinations.
     fn decides(&self, outcomes: &[Outcome]) -> Option<String> {
-        let asked = || outcomes.iter().filter(|outcome| self.combinations.contains(&outcome.at));
+        let asked = || {
+            outcomes
+                .iter()
+                .filter(|outcome| self.combinations.contains(&outcome.at))
+        };
         let worst = asked().max_by(|a, b| a.share().total_cmp(&b.share()))?;
         let least = |unknown: &usize| {
             let differs = |outcome: &&Outcome| {
                 let mut pairs = outcome.at.iter().zip(&worst.at).enumerate();
                 outcome.failure.is_none() && pairs.all(|(index, (a, b))| index == *unknown || a == b)
             };
-            asked().filter(differs).map(Outcome::share).fold(f64::INFINITY, f64::min)
+            asked()
+                .filter(differs)
+                .map(Outcome::share)
+                .fold(f64::INFINITY, f64::min)
         };
         let all = 0..self.unknowns.len();
         let decides = all.min_by(|a, b| least(a).total_cmp(&least(b)))?;
@@ -203,7 +236,11 @@ fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<M
     };
     let rows: Vec<Vec<Outcome>> = way.candidates.par_iter().map(at_all).collect::<Result<_, _>>()?;
     if way.stiffnesses.is_empty() {
-        let best = way.candidates.iter().zip(&rows).min_by(|(_, a), (_, b)| largest(a).total_cmp(&largest(b)));
+        let best = way
+            .candidates
+            .iter()
+            .zip(&rows)
+            .min_by(|(_, a), (_, b)| largest(a).total_cmp(&largest(b)));
         return Ok(best.map_or_else(Measure::default, |(measure, _)| measure.clone()));
     }
     let (levels, count) = (&way.stiffnesses, critical.len());
@@ -213,7 +250,10 @@ fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<M
             let read = limits.map(|(limit, verdict)| {
                 let inverse = between(levels, stiffness, verdict.quantity).map(|(level, weight)| {
                     let known = rows[level][case].verdicts.get(limit);
-                    known.map_or(0.0, |known| if weight > 0.0 { weight / share(known) } else { 0.0 })
+                    known.map_or(
+                        0.0,
+                        |known| if weight > 0.0 { weight / share(known) } else { 0.0 },
+                    )
                 });
                 1.0 / (inverse[0] + inverse[1])
             });
@@ -226,7 +266,9 @@ fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<M
     let trials = (0..=steps as usize).map(|i| first * (last / first).powf(i as f64 / steps));
     // A product has a round stiffness.
     let round = |stiffness: f64| format!("{stiffness:.1e}").parse().unwrap_or(stiffness);
-    let best = trials.map(round).min_by(|a, b| at_stiffness(*a).total_cmp(&at_stiffness(*b)));
+    let best = trials
+        .map(round)
+        .min_by(|a, b| at_stiffness(*a).total_cmp(&at_stiffness(*b)));
     Ok(way.with_spring(best.unwrap_or(first)))
 }
 
@@ -235,7 +277,9 @@ fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<M
 fn decided(runs: &Runs<'_>, mut tried: Tried) -> Result<Tried, Error> {
     for (effort, most) in [(Effort::Finer, FINER), (Effort::Decisive, 1)] {
         for _ in 0..most {
-            let Some(rough) = tried.worst(|worst| worst.effort < effort) else { break };
+            let Some(rough) = tried.worst(|worst| worst.effort < effort) else {
+                break;
+            };
             if tried.outcomes[rough].share() < largest(&tried.outcomes) {
                 break;
             }
@@ -274,8 +318,16 @@ impl Tried {
             let after = self.outcomes[place].verdicts.clone();
             for other in self.outcomes.iter_mut().filter(|other| other.effort < effort) {
                 for (limit, (old, new)) in before.verdicts.iter().zip(&after).enumerate() {
-                    let scale = if old.largest > 0.0 { new.largest / old.largest } else { 1.0 };
-                    other.verdicts.get_mut(limit).into_iter().for_each(|own| own.largest *= scale);
+                    let scale = if old.largest > 0.0 {
+                        new.largest / old.largest
+                    } else {
+                        1.0
+                    };
+                    other
+                        .verdicts
+                        .get_mut(limit)
+                        .into_iter()
+                        .for_each(|own| own.largest *= scale);
                 }
             }
         }

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
+use crate::Scene;
+use crate::design::DesignError;
 use crate::ground::Ground;
 use crate::scene::PeakScaling;
-use crate::design::DesignError;
-use crate::{Scene};
 
 /// Friction that is assumed where a scene does not say what is not known of it: from lubricated ducts to dry ones.
 const FRICTION: [f64; 2] = [0.2, 0.5];
@@ -58,14 +58,19 @@ impl Unknown {
 
 /// What `scene`, which moves as its `ground` does, leaves open, or what is assumed where it says nothing.
 pub fn unknowns(scene: &Scene, ground: &Ground) -> Vec<Unknown> {
-    let unknown = |assumed| move |(key, low, high): (&str, f64, f64)| Unknown {
-        key: key.to_owned(),
-        low,
-        high,
-        assumed,
+    let unknown = |assumed| {
+        move |(key, low, high): (&str, f64, f64)| Unknown {
+            key: key.to_owned(),
+            low,
+            high,
+            assumed,
+        }
     };
     if !scene.uncertain.is_empty() {
-        let given = scene.uncertain.iter().map(|known| (&*known.key, known.low, known.high));
+        let given = scene
+            .uncertain
+            .iter()
+            .map(|known| (&*known.key, known.low, known.high));
         return given.map(unknown(false)).collect();
     }
     let friction = scene.friction.dynamic_coefficient;

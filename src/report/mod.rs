@@ -21,6 +21,7 @@
 
 mod agreement;
 mod cause;
+mod certainty;
 mod chart;
 mod content;
 mod force;

@@ -1,6 +1,7 @@
 //! The page, from its head to its end.
 
 use super::cause::cause;
+use super::certainty::certainty;
 use super::content::Report;
 use super::force::force;
 use super::heat::heat;
@@ -29,12 +30,13 @@ impl Report {
             dark = dark_style(),
         ));
         self.answer_and_verdicts(&mut html);
-        let sections: [(bool, &str, Section); 9] = [
+        let sections: [(bool, &str, Section); 10] = [
             (!self.warnings.is_empty(), "Warnings", warnings),
             (true, "Scene", scene),
             (true, "Force and movement", force),
             (self.run.heat.is_some(), "Heat, day by day", heat),
             (true, "Why the cable creeps", cause),
+            (self.compared.is_some(), "What to fit", certainty),
             (self.measures.is_some(), "Ways to hold the cable", holding),
             (true, "How it was computed", computed),
             (true, "What is left out", left_out),
@@ -75,6 +77,27 @@ impl Report {
         }
         if self.verdicts.len() > 1 {
             html.paragraph(&format!("Together: {}.", Verdict::summary(&self.verdicts)));
+        }
+        if let Some(as_it_is) = self
+            .compared
+            .iter()
+            .flat_map(|compared| &compared.measures)
+            .next()
+        {
+            let all = self.compared.as_ref().map_or(0, |compared| compared.combinations);
+            let how = match as_it_is.kept {
+                _ if as_it_is.within_limits => "holds for every combination".to_owned(),
+                kept => format!("holds for {kept} of {all} combinations"),
+            };
+            let class = if as_it_is.within_limits {
+                "kept"
+            } else {
+                "exceeded"
+            };
+            html.element(
+                &format!("p class=\"{class}\""),
+                &format!("With what is not known, as it is the cable {how}."),
+            );
         }
         let is_of_clamp = |verdict: &Verdict| matches!(verdict.end, Place::Clamp(_));
         let has_clamps = !self.verdicts.is_empty() && !self.scene.restraints.is_empty();

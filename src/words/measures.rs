@@ -23,7 +23,10 @@ const NONE: &str = "–";
 
 /// What an uncertain key is called.
 pub fn key_name(key: &str) -> &str {
-    NAMES.iter().find(|(known, _)| *known == key).map_or(key, |(_, name)| name)
+    NAMES
+        .iter()
+        .find(|(known, _)| *known == key)
+        .map_or(key, |(_, name)| name)
 }
 
 /// A value of it.
@@ -33,7 +36,9 @@ pub fn key_value(key: &str, value: f64) -> String {
 
 /// A combination: "friction 0.5, deflection 600 µm".
 fn combination(at: &BTreeMap<String, f64>) -> String {
-    let each = at.iter().map(|(key, value)| format!("{} {}", key_name(key), key_value(key, *value)));
+    let each = at
+        .iter()
+        .map(|(key, value)| format!("{} {}", key_name(key), key_value(key, *value)));
     each.collect::<Vec<_>>().join(", ")
 }
 
@@ -46,7 +51,10 @@ pub fn uncertain(comparison: &Comparison) -> String {
     let all = each.collect::<Vec<_>>().join(", ");
     let assumed = comparison.uncertain.iter().any(|unknown| unknown.assumed);
     let assumed = words_if(assumed, " (assumed: the scene has no [uncertain])");
-    format!("{all}{assumed}; {} combinations, {} runs", comparison.combinations, comparison.runs)
+    format!(
+        "{all}{assumed}; {} combinations, {} runs",
+        comparison.combinations, comparison.runs
+    )
 }
 
 /// What a measure changes of the scene as it is.
@@ -61,19 +69,34 @@ fn fitted(measure: &MeasureAnswer, scene: &MeasureAnswer, reader: &Reader) -> St
         ("downstream", measure.ends.downstream, scene.ends.downstream),
     ];
     let changed = ends.into_iter().filter(|(_, own, of_scene)| own != of_scene);
-    let mut words: Vec<String> = changed.map(|(name, own, _)| format!("{name} {}", held(own))).collect();
+    let mut words: Vec<String> = changed
+        .map(|(name, own, _)| format!("{name} {}", held(own)))
+        .collect();
     if words.len() == 2 && measure.ends.upstream == measure.ends.downstream {
         words = vec![format!("both {}", held(measure.ends.upstream))];
     }
     let clamp = |clamp: &HeldClamp| {
-        let [stiffness, place] = [reader.stiffness(clamp.stiffness_n_per_m), reader.length(clamp.position_m)];
+        let [stiffness, place] = [
+            reader.stiffness(clamp.stiffness_n_per_m),
+            reader.length(clamp.position_m),
+        ];
         format!("{stiffness} at {place}")
     };
-    let added = measure.restraints.iter().filter(|clamp| !scene.restraints.contains(clamp));
+    let added = measure
+        .restraints
+        .iter()
+        .filter(|clamp| !scene.restraints.contains(clamp));
     words.extend(added.map(clamp));
-    let removed = scene.restraints.iter().filter(|clamp| !measure.restraints.contains(clamp));
+    let removed = scene
+        .restraints
+        .iter()
+        .filter(|clamp| !measure.restraints.contains(clamp));
     words.extend(removed.map(|removed| format!("without {}", clamp(removed))));
-    if words.is_empty() { NONE.to_owned() } else { words.join(", ") }
+    if words.is_empty() {
+        NONE.to_owned()
+    } else {
+        words.join(", ")
+    }
 }
 
 /// In how many combinations it holds.
@@ -105,7 +128,11 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
     let row = |measure: &MeasureAnswer| {
         let amount = |extreme: &Extreme| reader.amount(extreme.quantity, extreme.value);
         let of = |of: &dyn Fn(&Extreme) -> Option<String>| {
-            measure.worst.as_ref().and_then(of).unwrap_or_else(|| NONE.to_owned())
+            measure
+                .worst
+                .as_ref()
+                .and_then(of)
+                .unwrap_or_else(|| NONE.to_owned())
         };
         let cost = match &measure.cost {
             None => NONE.to_owned(),
@@ -125,7 +152,11 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
             of(&|worst| Some(reader.amount(Limited::Movement, worst.movement_m))),
             of(&|worst| {
                 let reached = worst.reached_after?;
-                Some(reached.years.map_or_else(|| format!("{} passes", reached.pass), after))
+                Some(
+                    reached
+                        .years
+                        .map_or_else(|| format!("{} passes", reached.pass), after),
+                )
             }),
             cost,
         ]
@@ -153,7 +184,11 @@ pub fn recommendation(comparison: &Comparison, reader: &Reader) -> String {
         return "No measure could be computed.".to_owned();
     };
     let fitted = fitted(best, &comparison.measures[0], reader);
-    let fitted = if fitted == NONE { String::new() } else { format!(" ({fitted})") };
+    let fitted = if fitted == NONE {
+        String::new()
+    } else {
+        format!(" ({fitted})")
+    };
     let share = crate::shown::percent(best.share());
     if comparison.recommended.is_some() {
         let why = match best.cost {
@@ -167,7 +202,10 @@ pub fn recommendation(comparison: &Comparison, reader: &Reader) -> String {
         );
     }
     let decides = comparison.decides.as_ref().map_or_else(String::new, |key| {
-        format!(" What decides most is {}: measure it, or limit it.", key_name(key))
+        format!(
+            " What decides most is {}: measure it, or limit it.",
+            key_name(key)
+        )
     });
     format!(
         "No measure holds in every combination. {}{fitted} comes nearest, with {share} of a limit in the worst.{decides}",

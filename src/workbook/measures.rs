@@ -31,7 +31,12 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
     book.row([Cell::Text(recommendation(comparison, reader))], false)?;
     let [force, movement] = [Limited::Force, Limited::Movement].map(|quantity| reader.unit(quantity));
     let mut columns = vec![("measure", "")];
-    columns.extend(comparison.uncertain.iter().map(|unknown| (&*unknown.key, si_unit(&unknown.key).unwrap_or_default())));
+    columns.extend(
+        comparison
+            .uncertain
+            .iter()
+            .map(|unknown| (&*unknown.key, si_unit(&unknown.key).unwrap_or_default())),
+    );
     columns.extend([
         ("force on an end", force.symbol()),
         ("movement of an end", movement.symbol()),

@@ -117,7 +117,9 @@ fn lengths(scene: &Scene) -> Vec<Rule> {
     let has_friction = scene.friction.dynamic_coefficient > 0.0;
     let clamps = |list: String, clamps: &[Restraint]| -> Vec<(String, Restraint)> {
         let clamps = clamps.iter().enumerate();
-        clamps.map(|(index, clamp)| (format!("{list}.{index}"), *clamp)).collect()
+        clamps
+            .map(|(index, clamp)| (format!("{list}.{index}"), *clamp))
+            .collect()
     };
     let mut every = clamps("restraints".to_owned(), &scene.restraints);
     for (index, measure) in scene.measures.iter().enumerate() {
@@ -128,7 +130,12 @@ fn lengths(scene: &Scene) -> Vec<Rule> {
         let mut others = scene.measures[..index].iter();
         let is_new = !others.any(|other| other.name == measure.name);
         let allowed = "a name in quotes that no other measure has";
-        rules.push(rule(is_new, key("name"), format!("\"{}\"", measure.name), allowed));
+        rules.push(rule(
+            is_new,
+            key("name"),
+            format!("\"{}\"", measure.name),
+            allowed,
+        ));
     }
     for (at, clamp) in every {
         let key = |name: &str| format!("{at}.{name}");

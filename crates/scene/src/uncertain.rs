@@ -99,7 +99,11 @@ fn form_at(keys: &'static [Key], path: &str) -> Option<Form> {
     let is_named = |key: &&Key| key.name == first || other_name(key.name) == Some(first);
     let form = keys.iter().find(is_named)?.form;
     let rest = match form {
-        Form::List(..) => rest.split_once('.').filter(|(index, _)| index.parse::<usize>().is_ok())?.1,
+        Form::List(..) => {
+            rest.split_once('.')
+                .filter(|(index, _)| index.parse::<usize>().is_ok())?
+                .1
+        }
         _ => rest,
     };
     if rest.is_empty() {
@@ -132,7 +136,9 @@ pub enum Cost {
 impl Stored for Cost {
     fn read(given: &Given) -> Result<Self> {
         let content = &given.node.content;
-        let number = content.as_number().filter(|cost| *cost >= 0.0 && cost.is_finite());
+        let number = content
+            .as_number()
+            .filter(|cost| *cost >= 0.0 && cost.is_finite());
         let text = content.as_text().map(|text| Self::Text(text.to_owned()));
         number.map(Self::Number).or(text).ok_or_else(|| {
             let allowed = "a number of at least 0, or a text";
