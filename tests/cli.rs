@@ -739,6 +739,7 @@ fn every_help_tells_the_exit_status() {
         "plan",
         "sweep",
         "design",
+        "measures",
         "report",
         "explain",
         "calibrate",
@@ -1046,6 +1047,90 @@ fn design_answers_in_words_and_as_json() {
         (&[], "--limit-force"),
     ] {
         assert_fails(&design(more), 2, &[part]);
+    }
+}
+
+#[test]
+fn measures_are_compared_in_words_and_as_json() {
+    let set = set(&[
+        "traffic.passes=8",
+        "duct.length=15 m",
+        "measures=[{ name = \"fixed\", upstream = \"fixed\" }]",
+    ]);
+    let measures = |more: &[&'static str]| [&["measures", UPPER][..], &set, more].concat();
+    let uncertain = [
+        "--uncertain",
+        "friction.dynamic_coefficient=0.2:0.4",
+        "--uncertain",
+        "ground.vertical_peak=20um:40um",
+    ];
+    let kept = [
+        &uncertain[..],
+        &["--limit-force", "10 kN", "--limit-movement", "0.1 m"],
+    ]
+    .concat();
+    let said = printed(&measures(&kept));
+    assert!(
+        said.contains("friction 0.2 to 0.4, deflection 20 µm to 40 µm; 15 combinations"),
+        "{said}"
+    );
+    assert!(
+        said.contains("Recommended: as it is: nothing needs to be fitted"),
+        "{said}"
+    );
+    let document = json(&measures(&kept));
+    assert_eq!(document["recommended"], "as it is");
+    let fixed = &document["measures"][1];
+    assert_eq!(
+        (fixed["name"].as_str(), fixed["within_limits"].as_bool()),
+        (Some("fixed"), Some(true))
+    );
+    assert_eq!(fixed["ends"]["upstream"], "fixed");
+    let worst = &fixed["worst"];
+    assert!(
+        worst["value"].as_f64() < worst["limit"].as_f64() && worst["quantity"].is_string(),
+        "{worst}"
+    );
+    assert_eq!(worst["at"].as_object().map(|at| at.len()), Some(2), "{worst}");
+    assert!(
+        fixed["nominal"]["value"].is_number() && fixed["restraints"].is_array(),
+        "{fixed}"
+    );
+    // Nothing holds: what comes nearest, and a failure.
+    let hard = output(&measures(&[&uncertain[..], &["--limit-force", "1 N"]].concat()));
+    assert_eq!(hard.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&hard.stdout);
+    assert!(said.contains("comes nearest"), "{said}");
+    for (more, part) in [
+        (
+            &[
+                "--limit-force",
+                "1 kN",
+                "--uncertain",
+                "friction.dynamic_coeficient=0.2:0.4",
+            ][..],
+            "friction.dynamic_coefficient",
+        ),
+        (
+            &[
+                "--limit-force",
+                "1 kN",
+                "--uncertain",
+                "friction.dynamic_coefficient=0.4:0.2",
+            ],
+            "the lowest value and a greater one",
+        ),
+        (
+            &["--limit-force", "1 kN", "--uncertain", "duct.depth=1kN:2kN"],
+            "a length",
+        ),
+        (
+            &["--limit-force", "1 kN", "--uncertain", "duct.depth"],
+            "KEY=LOW:HIGH",
+        ),
+        (&[], "--limit-force"),
+    ] {
+        assert_fails(&measures(more), 2, &[part]);
     }
 }
 

@@ -89,7 +89,7 @@ pub fn compared(study: &Study, limits: &LimitArguments) -> Result<Comparison, cr
     let [combinations, count, most] = study.size();
     let _ = writeln!(
         terminal::err(),
-        "{count} measures in {combinations} combinations: at most {most} runs of the scene"
+        "progress: {count} measures in {combinations} combinations, at most {most} runs of the scene"
     );
     let words = |_| format!("{count} measures in {combinations} combinations");
     watched(1.0, words, |progress| {

@@ -11,7 +11,7 @@ use crate::design::DesignError;
 use crate::design::between;
 use crate::ground::{Ground, road};
 use crate::scene::{Cost, Measure};
-use crate::{Error, Limited, Progress, Scene, SceneFile};
+use crate::{Error, Progress, Scene, SceneFile};
 
 /// Runs closer around the worst of one measure, at most.
 const CLOSER: usize = 4;
@@ -143,29 +143,15 @@ impl Study {
         best.map_or_else(|| self.tried(runs, way.candidates[0].clone()), Ok)
     }
 
-    /// The worst combinations of force and of movement with the first measures.
+    /// The worst combinations with the first two measures.
     fn critical(&self, tried: &[Tried]) -> Vec<Vec<f64>> {
-        let mut critical = Vec::new();
-        for quantity in [Limited::Force, Limited::Movement] {
-            for tried in tried.iter().take(2) {
-                let of = |outcome: &Outcome| {
-                    let verdicts = outcome.verdicts.iter();
-                    verdicts
-                        .filter(|verdict| verdict.quantity == quantity)
-                        .map(share)
-                        .fold(0.0, f64::max)
-                };
-                let asked = tried
-                    .outcomes
-                    .iter()
-                    .filter(|outcome| self.combinations.contains(&outcome.at));
-                let worst = asked.max_by(|a, b| of(a).total_cmp(&of(b)));
-                if let Some(worst) = worst.filter(|worst| of(worst) > 0.0 && !critical.contains(&worst.at)) {
-                    critical.push(worst.at.clone());
-                }
-            }
-        }
-        critical.truncate(CRITICAL - 1);
+        let is_asked = |outcome: &Outcome| self.combinations.contains(&outcome.at);
+        let worst = tried.iter().take(2).filter_map(|tried| {
+            let worst = tried.worst(is_asked)?;
+            Some(tried.outcomes[worst].at.clone())
+        });
+        let mut critical: Vec<Vec<f64>> = worst.collect();
+        critical.dedup();
         critical
     }
 

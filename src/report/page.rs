@@ -13,6 +13,7 @@ use crate::Verdict;
 use crate::design::Place;
 use crate::figure::dark_style;
 use crate::shown::{percent, words_if};
+use crate::words::measures::held_in;
 use crate::words::{Table, candidates, error_parts, solved};
 
 /// Writes a part of the page.
@@ -72,32 +73,25 @@ impl Report {
             let class = if is_kept { "kept" } else { "exceeded" };
             html.element(&format!("li class=\"{class}\""), &answer.verdict(verdict));
         }
-        if !self.verdicts.is_empty() {
-            html.raw("</ul>");
-        }
-        if self.verdicts.len() > 1 {
-            html.paragraph(&format!("Together: {}.", Verdict::summary(&self.verdicts)));
-        }
-        if let Some(as_it_is) = self
-            .compared
-            .iter()
-            .flat_map(|compared| &compared.measures)
-            .next()
+        if let Some(compared) = &self.compared
+            && let Some(as_it_is) = compared.measures.first()
         {
-            let all = self.compared.as_ref().map_or(0, |compared| compared.combinations);
-            let how = match as_it_is.kept {
-                _ if as_it_is.within_limits => "holds for every combination".to_owned(),
-                kept => format!("holds for {kept} of {all} combinations"),
-            };
             let class = if as_it_is.within_limits {
                 "kept"
             } else {
                 "exceeded"
             };
+            let how = held_in(as_it_is, compared.combinations);
             html.element(
-                &format!("p class=\"{class}\""),
-                &format!("With what is not known, as it is the cable {how}."),
+                &format!("li class=\"{class}\""),
+                &format!("with what is not known, the cable as it is {how}"),
             );
+        }
+        if !self.verdicts.is_empty() {
+            html.raw("</ul>");
+        }
+        if self.verdicts.len() > 1 {
+            html.paragraph(&format!("Together: {}.", Verdict::summary(&self.verdicts)));
         }
         let is_of_clamp = |verdict: &Verdict| matches!(verdict.end, Place::Clamp(_));
         let has_clamps = !self.verdicts.is_empty() && !self.scene.restraints.is_empty();

@@ -109,6 +109,15 @@ pub fn holds(measure: &MeasureAnswer, combinations: usize) -> String {
     }
 }
 
+/// The same in a sentence.
+pub fn held_in(measure: &MeasureAnswer, combinations: usize) -> String {
+    match measure.kept {
+        _ if measure.within_limits => "holds for every combination".to_owned(),
+        kept if kept == combinations => format!("holds for all {kept} combinations, but not between them"),
+        kept => format!("holds for {kept} of {combinations} combinations"),
+    }
+}
+
 /// Every measure with its worst combination.
 pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
     let head = [

@@ -42,8 +42,6 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
         ("movement of an end", movement.symbol()),
         ("force on a clamp", force.symbol()),
         ("largest share of a limit", ""),
-        ("holds", ""),
-        ("failure", ""),
     ]);
     book.sheet("combinations", &columns)?;
     for measure in &comparison.measures {
@@ -55,8 +53,6 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
                 Cell::Number(movement.of_si(outcome.movement_m)),
                 Cell::Number(force.of_si(outcome.clamp_force_n)),
                 Cell::Share(outcome.share()),
-                Cell::Truth(outcome.holds()),
-                outcome.failure.clone().map_or(Cell::Absent, Cell::Text),
             ]);
             book.row(cells, outcome.failure.is_some())?;
         }
