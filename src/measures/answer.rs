@@ -73,9 +73,10 @@ impl Outcome {
         self.tightest().map_or(0.0, share)
     }
 
-    /// Whether it was computed and keeps all limits.
+    /// Whether it was computed and keeps all limits, with the scene's tolerance by more than the estimated error.
     pub fn holds(&self) -> bool {
-        self.failure.is_none() && self.share() <= 1.0
+        let is_doubtful = |verdict: &Verdict| verdict.doubtful && self.effort == Effort::Decisive;
+        self.failure.is_none() && self.share() <= 1.0 && !self.verdicts.iter().any(is_doubtful)
     }
 }
 

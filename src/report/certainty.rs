@@ -3,8 +3,9 @@
 use super::chart::{ALONE, OTHER, figure};
 use super::content::Report;
 use super::html::Html;
+use crate::Limited;
 use crate::figure::{Axis, Chart, Reference, Series};
-use crate::measures::{Comparison, Extreme, Outcome};
+use crate::measures::{Comparison, Extreme, Outcome, Unknown};
 use crate::words::measures::{failures, key_name, key_value, measures, recommendation, uncertain};
 
 pub fn certainty(html: &mut Html, report: &Report) {
@@ -44,6 +45,22 @@ fn value(report: &Report, worst: &Extreme, outcome: &Outcome) -> Option<f64> {
     same.map(|verdict| report.reader.unit(worst.quantity).of_si(verdict.largest))
 }
 
+/// The axis of that value.
+fn amount(report: &Report, worst: &Extreme) -> Axis {
+    let name = match worst.quantity {
+        Limited::Force => "force",
+        Limited::Movement => "movement",
+    };
+    Axis::linear(report.reader.head(name, worst.quantity))
+}
+
+/// What it is, as a title.
+fn capitalised(worst: &Extreme) -> String {
+    let name = worst.quantity.at(worst.end);
+    let (initial, rest) = name.split_at(1);
+    initial.to_uppercase() + rest
+}
+
 /// That value against friction, as a band over the other unknowns, with the scene's own place.
 fn hill(
     report: &Report,
@@ -52,11 +69,7 @@ fn hill(
     outcomes: &[Outcome],
 ) -> Option<(Chart, String)> {
     let place = comparison.friction()?;
-    let middle: Vec<f64> = comparison
-        .uncertain
-        .iter()
-        .map(|unknown| unknown.middle())
-        .collect();
+    let middle: Vec<f64> = comparison.uncertain.iter().map(Unknown::middle).collect();
     let is_middle = |outcome: &Outcome| {
         (0..middle.len()).all(|other| other == place || outcome.at[other] == middle[other])
     };
@@ -86,16 +99,15 @@ fn hill(
         each.collect::<Vec<_>>()
     };
     let own = report.run.largest(worst.end, worst.quantity);
-    let what = report.reader.head(&worst.quantity.at(worst.end), worst.quantity);
     let unit = report.reader.unit(worst.quantity);
     let in_middle = points
         .iter()
         .filter(|point| point.2)
         .map(|point| (point.0, point.1));
     let mut chart = Chart::new(
-        "As it is, against friction",
+        capitalised(worst),
         Axis::linear("friction coefficient"),
-        Axis::linear(what),
+        amount(report, worst),
     )
     .refer(Reference::horizontal(unit.of_si(worst.limit), "limit"));
     if middle.len() > 1 {
@@ -115,7 +127,7 @@ fn hill(
     );
     Some((
         chart,
-        "Force and movement against friction are hills: neither end of an interval is the safe one."
+        "The scene as it is against friction, over all values of the other unknowns. Such curves are hills: neither end of an interval is the safe one."
             .to_owned(),
     ))
 }
@@ -128,7 +140,7 @@ fn tornado(
     outcomes: &[Outcome],
 ) -> Option<(Chart, String)> {
     let unknowns = &comparison.uncertain;
-    let middle: Vec<f64> = unknowns.iter().map(|unknown| unknown.middle()).collect();
+    let middle: Vec<f64> = unknowns.iter().map(Unknown::middle).collect();
     let mut bars: Vec<(String, f64, f64)> = (0..unknowns.len())
         .filter_map(|own| {
             let alone = |outcome: &&Outcome| {
@@ -148,12 +160,11 @@ fn tornado(
         })
         .collect();
     bars.sort_by(|a, b| (a.2 - a.1).total_cmp(&(b.2 - b.1)));
-    let what = report.reader.head(&worst.quantity.at(worst.end), worst.quantity);
     let limit = report.reader.unit(worst.quantity).of_si(worst.limit);
     let rows = Axis::linear("")
         .range(-0.6, bars.len() as f64 - 0.4)
-        .ticks(std::iter::empty::<(f64, String)>());
-    let chart = Chart::new("What each unknown does alone", Axis::linear(what), rows);
+        .ticks((0..bars.len()).map(|row| (row as f64, " ")));
+    let chart = Chart::new("What each unknown does alone", amount(report, worst), rows);
     let mut chart = chart.refer(Reference::vertical(limit, "limit"));
     for (row, (name, least, most)) in bars.iter().enumerate().rev() {
         let points = [(*least, row as f64), (*most, row as f64)];
@@ -163,6 +174,6 @@ fn tornado(
                 .solid(),
         );
     }
-    let caption = "From the lowest to the highest value over each interval, the scene as it is and all others in their middle.";
+    let caption = "The same value from its lowest to its highest over each interval: the scene as it is, all other unknowns in their middle.";
     (!bars.is_empty()).then_some((chart, caption.to_owned()))
 }

@@ -120,20 +120,20 @@ pub fn held_in(measure: &MeasureAnswer, combinations: usize) -> String {
 
 /// Every measure with its worst combination.
 pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
-    let head = [
+    let is_priced = comparison.measures.iter().any(|measure| measure.cost.is_some());
+    let mut head = vec![
         "measure",
         "fitted",
         "holds",
         "nearest limit, or exceeded most",
-        "worst",
-        "limit",
+        "worst of limit",
         "where",
         "in the middle",
         "on clamps",
         "moved",
         "exceeded after",
-        "cost",
     ];
+    head.extend(is_priced.then_some("cost"));
     let row = |measure: &MeasureAnswer| {
         let amount = |extreme: &Extreme| reader.amount(extreme.quantity, extreme.value);
         let of = |of: &dyn Fn(&Extreme) -> Option<String>| {
@@ -148,13 +148,15 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
             Some(Cost::Number(cost)) => significant(*cost),
             Some(Cost::Text(text)) => text.clone(),
         };
-        vec![
+        let mut row = vec![
             measure.name.clone(),
             fitted(measure, &comparison.measures[0], reader),
             holds(measure, comparison.combinations),
             of(&|worst| Some(worst.quantity.at(worst.end))),
-            of(&|worst| Some(amount(worst))),
-            of(&|worst| Some(worst.quantity.given_in(&reader.units, worst.limit))),
+            of(&|worst| {
+                let limit = worst.quantity.given_in(&reader.units, worst.limit);
+                Some(format!("{} of {limit}", amount(worst)))
+            }),
             of(&|worst| Some(combination(&worst.at))),
             measure.nominal.as_ref().map_or_else(|| NONE.to_owned(), amount),
             of(&|worst| Some(reader.amount(Limited::Force, worst.clamp_force_n?))),
@@ -167,11 +169,12 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
                         .map_or_else(|| format!("{} passes", reached.pass), after),
                 )
             }),
-            cost,
-        ]
+        ];
+        row.extend(is_priced.then_some(cost));
+        row
     };
     Table {
-        head: head.map(str::to_owned).into(),
+        head: head.into_iter().map(str::to_owned).collect(),
         rows: comparison.measures.iter().map(row).collect(),
         words: 4,
     }
