@@ -111,7 +111,11 @@ fn hill(
     )
     .refer(Reference::horizontal(unit.of_si(worst.limit), "limit"));
     if middle.len() > 1 {
-        chart = chart.with(Series::line("highest of the others", over(f64::max)).look(1));
+        chart = chart.with(
+            Series::line("highest of the others", over(f64::max))
+                .look(1)
+                .solid(),
+        );
         chart = chart.with(
             Series::line("lowest of the others", over(f64::min))
                 .look(1)

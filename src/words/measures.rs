@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::number::{quantity, significant};
+use super::number::{passes, quantity, significant};
 use super::reader::Reader;
 use super::table::Table;
 use crate::Limited;
@@ -149,7 +149,8 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
             Some(Cost::Text(text)) => text.clone(),
         };
         let mut row = vec![
-            measure.name.clone(),
+            // With a soft hyphen.
+            measure.name.replace("stream", "\u{ad}stream"),
             fitted(measure, &comparison.measures[0], reader),
             holds(measure, comparison.combinations),
             of(&|worst| Some(worst.quantity.at(worst.end))),
@@ -163,11 +164,7 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
             of(&|worst| Some(reader.amount(Limited::Movement, worst.movement_m))),
             of(&|worst| {
                 let reached = worst.reached_after?;
-                Some(
-                    reached
-                        .years
-                        .map_or_else(|| format!("{} passes", reached.pass), after),
-                )
+                Some(reached.years.map_or_else(|| passes(reached.pass), after))
             }),
         ];
         row.extend(is_priced.then_some(cost));

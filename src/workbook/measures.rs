@@ -26,7 +26,10 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
     let columns: Vec<(&str, &str)> = table.head.iter().map(|name| (name.as_str(), "")).collect();
     book.sheet("measures", &columns)?;
     for row in table.rows {
-        book.row(row.into_iter().map(Cell::Text), false)?;
+        book.row(
+            row.into_iter().map(|text| Cell::Text(text.replace('\u{ad}', ""))),
+            false,
+        )?;
     }
     book.row([Cell::Text(recommendation(comparison, reader))], false)?;
     let [force, movement] = [Limited::Force, Limited::Movement].map(|quantity| reader.unit(quantity));
