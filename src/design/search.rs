@@ -135,13 +135,17 @@ fn one_spring<'a>(
     Ok((runs, seen, chosen))
 }
 
-/// Springs that a curve of rough runs leaves open: those near a limit, or beside one on its other side, and both ends of the curve; the
-/// best one alone where a limit is out of reach.
+/// Springs that a curve of rough runs leaves open: those near a limit, or beside one on its other side, the best and those
+/// beside it, and both ends of the curve; the best one alone where a limit is out of reach.
 fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<Spring> {
     let excess = |point: &TradeOff| point.excess(limits);
+    let all = 0..curve.len();
+    let best = all
+        .clone()
+        .min_by(|a, b| excess(&curve[*a]).total_cmp(&excess(&curve[*b])));
+    let best = best.unwrap_or_default();
     if !out_of_reach(curve, limits).is_empty() {
-        let best = curve.iter().min_by(|a, b| excess(a).total_cmp(&excess(b)));
-        return best.map(|best| best.springs[0]).into_iter().collect();
+        return vec![curve[best].springs[0]];
     }
     let is_open = |at: &usize| {
         let around = &curve[at.saturating_sub(1)..(at + 2).min(curve.len())];
@@ -152,9 +156,8 @@ fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<Spring> {
                 .iter()
                 .any(|other| other.within_limits != curve[*at].within_limits)
     };
-    let worst = curve.iter().map(excess).fold(f64::INFINITY, f64::min);
-    let is_best = |at: &usize| excess(&curve[*at]) == worst;
-    let open = (0..curve.len()).filter(|at| is_open(at) || is_best(at));
+    // The search halves in beside the best, which may be the next one on a finer mesh.
+    let open = all.filter(|at| at.abs_diff(best) <= 2 || is_open(at));
     open.map(|at| curve[at].springs[0]).collect()
 }
 
