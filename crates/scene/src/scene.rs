@@ -115,7 +115,7 @@ keys! {
         /// Clamps that join these.
         added_restraints: Vec<Restraint> = CLAMPS, "none";
         /// What it costs; numbers are compared, a text is only shown.
-        cost: Option<Cost> = Any("a number, or a text such as \"two weeks\""), "none";
+        cost: Option<Cost> = Any("a cost as a number, or a text such as \"two weeks\""), "none";
     }
 }
 
