@@ -196,6 +196,11 @@ fn scene() -> impl Strategy<Value = Scene> {
                         },
                     ];
                 }
+                for measure in &mut scene.measures {
+                    let replaced = measure.restraints.iter_mut().flatten();
+                    let clamps = replaced.chain(&mut measure.added_restraints);
+                    clamps.for_each(|clamp| clamp.position = 0.4 * length);
+                }
                 scene.vehicles = vec![vehicles.0, vehicles.1, vehicles.2];
                 let traffic = &mut scene.traffic;
                 (traffic.order, traffic.seed) = (Following::Interleaved, 1);

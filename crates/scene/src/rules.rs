@@ -1,6 +1,6 @@
 //! What holds between the values of a scene, each of which is in its own range.
 
-use cable_dem::End;
+use cable_dem::{End, Restraint};
 use ground_field::Modulus;
 
 use crate::arrangement::CLOSEST;
@@ -115,11 +115,33 @@ fn lengths(scene: &Scene) -> Vec<Rule> {
             format!("at most {most:.4} m, so that three cables fit into the duct's {wide} m")),
     ];
     let has_friction = scene.friction.dynamic_coefficient > 0.0;
-    for (index, clamp) in scene.restraints.iter().enumerate() {
-        let key = |name: &str| format!("restraints.{index}.{name}");
+    let clamps = |list: String, clamps: &[Restraint]| -> Vec<(String, Restraint)> {
+        let clamps = clamps.iter().enumerate();
+        clamps
+            .map(|(index, clamp)| (format!("{list}.{index}"), *clamp))
+            .collect()
+    };
+    let mut every = clamps("restraints".to_owned(), &scene.restraints);
+    for (index, measure) in scene.measures.iter().enumerate() {
+        let key = |name: &str| format!("measures.{index}.{name}");
+        let own = measure.restraints.as_deref().unwrap_or_default();
+        every.extend(clamps(key("restraints"), own));
+        every.extend(clamps(key("added_restraints"), &measure.added_restraints));
+        let mut others = scene.measures[..index].iter();
+        let is_new = !others.any(|other| other.name == measure.name);
+        let allowed = "a name in quotes that no other measure has";
+        rules.push(rule(
+            is_new,
+            key("name"),
+            format!("\"{}\"", measure.name),
+            allowed,
+        ));
+    }
+    for (at, clamp) in every {
+        let key = |name: &str| format!("{at}.{name}");
         #[rustfmt::skip]
         rules.extend([
-            rule(clamp.holds.is_none() || has_friction, key("holds"), "a clamp that slips, without friction",
+            rule(clamp.holds.is_none() || has_friction || at.starts_with("measures"), key("holds"), "a clamp that slips, without friction",
                 "only where the cable has friction"),
             suits(Some(clamp.position), 0.0..=length, key("position"), format!("a position in the duct, from 0 m to {all} m")),
         ]);
