@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
-/// The files and folders below `root`, as paths from it.
+/// The files of Rust below `root`, as paths from it.
 pub fn files(root: &str) -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(root).into_iter().flatten() {
@@ -11,7 +12,9 @@ pub fn files(root: &str) -> Vec<String> {
         let name = name.to_str().expect("UTF-8").to_owned();
         let below = files(&format!("{root}/{name}"));
         found.extend(below.iter().map(|file| format!("{name}/{file}")));
-        found.push(name);
+        if Path::new(&name).extension().is_some_and(|end| end == "rs") {
+            found.push(name);
+        }
     }
     found
 }
