@@ -461,7 +461,7 @@ fn help_and_version_are_no_errors_and_name_every_command() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert_says(&printed(&format!("completions {shell}")), &commands);
     }
-    for command in "run plan sweep design report explain calibrate presets".split(' ') {
+    for command in "run plan sweep design measures report explain calibrate presets".split(' ') {
         let help = printed(&format!("{command} --help"));
         assert!(help.trim_end().ends_with("130 stopped by Ctrl-C."), "{help}");
     }
