@@ -1,7 +1,7 @@
 //! Measures in every combination of what is not known, against runs that know nothing of the search.
 
-use creepage::measures::{Comparison, Held, MeasureAnswer, Study};
-use creepage::scene::{Cost, End, Restraint, SceneFile};
+use creepage::measures::{Comparison, MeasureAnswer, Study};
+use creepage::scene::{Cost, End, SceneFile};
 use creepage::{CableEnd, Error, Limited, Limits, Place, Progress, Run, Scene};
 use rayon::prelude::*;
 
@@ -42,19 +42,8 @@ fn held(file: &SceneFile, keys: &[&str], at: &[f64], measure: &MeasureAnswer) ->
         .with(&overrides)
         .and_then(|file| file.scene())
         .expect("a scene");
-    let end = |held: Held| match held {
-        Held::Free => End::Free,
-        Held::Fixed => End::Fixed,
-        Held::Spring(stiffness) => End::Spring(stiffness),
-    };
-    scene.ends.upstream = end(measure.ends.upstream);
-    scene.ends.downstream = end(measure.ends.downstream);
-    let clamps = measure.restraints.iter().map(|clamp| {
-        let mut restraint = Restraint::new(clamp.position_m, clamp.stiffness_n_per_m);
-        restraint.holds = clamp.holds_n;
-        restraint
-    });
-    scene.restraints = clamps.collect();
+    scene.ends = measure.ends;
+    scene.restraints.clone_from(&measure.restraints);
     scene
 }
 
@@ -109,7 +98,7 @@ fn worst_of(
 
 fn worst_share(measure: &MeasureAnswer) -> f64 {
     let worst = measure.worst.as_ref().expect("a worst combination");
-    worst.value / worst.limit
+    worst.verdicts[0].largest / worst.verdicts[0].limit
 }
 
 /// A cable as it is on a hill: no run of a finer grid is worse than what is said, and the run that is named is what it is said to be.
@@ -185,7 +174,7 @@ fn measures_of_the_scene_replace_or_join_and_the_cheapest_is_taken() {
         panic!("{:?}", comparison.measures)
     };
     let clamps = |measure: &MeasureAnswer| -> Vec<f64> {
-        measure.restraints.iter().map(|clamp| clamp.position_m).collect()
+        measure.restraints.iter().map(|clamp| clamp.position).collect()
     };
     let all = [as_it_is, both, bare, moved, joined, soft].map(clamps);
     assert_eq!(
@@ -201,11 +190,11 @@ fn measures_of_the_scene_replace_or_join_and_the_cheapest_is_taken() {
     );
     assert_eq!(
         (both.ends.upstream, both.ends.downstream),
-        (Held::Fixed, Held::Fixed)
+        (End::Fixed, End::Fixed)
     );
     assert_eq!(
         (soft.ends.upstream, soft.ends.downstream),
-        (Held::Free, Held::Spring(1e5))
+        (End::Free, End::Spring(1e5))
     );
     assert_eq!(moved.cost, Some(Cost::Text("unknown".to_owned())));
     assert_eq!(
@@ -254,7 +243,7 @@ fn assumptions_are_marked_and_surround_the_scene() {
     let [friction, ground] = &comparison.uncertain[..] else {
         panic!("{:?}", comparison.uncertain)
     };
-    assert!(friction.assumed && ground.assumed);
+    assert!(comparison.assumed);
     assert_eq!((friction.low, friction.high), (0.2, 0.6));
     let motion = creepage::profile(&file.scene().unwrap()).unwrap();
     let peak = motion

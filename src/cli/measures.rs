@@ -50,18 +50,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(file)?;
     arguments.limits.warn_of_slips();
     let table = input.table();
-    let mut files = arguments.force.files(
-        [Some(&*arguments.scene.file.scene), table.as_deref()]
-            .into_iter()
-            .flatten(),
-    );
-    let workbook = beside(
-        &mut files,
-        "--xlsx",
+    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
+    let mut files = arguments.force.files(read.into_iter().flatten());
+    let (xlsx, allowed) = (
         arguments.xlsx.as_deref(),
-        "xlsx",
         "a workbook of Excel, such as measures.xlsx",
-    )?;
+    );
+    let workbook = beside(&mut files, "--xlsx", xlsx, "xlsx", allowed)?;
     let study = Study::new(input.file())?;
     let comparison = input.located(compared(&study, &arguments.limits))?;
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
@@ -70,15 +65,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let bytes = bytes.map_err(|source| output.failed(source))?;
         output.write(|out| out.write_all(&bytes))?;
     }
-    arguments
-        .json
-        .print(&comparison, || print(&comparison, &reader))?;
-    match comparison.recommended {
-        Some(_) => Ok(()),
-        None => Err(Failure::NotKept(
-            "no measure holds in every combination: what comes nearest is on standard output".to_owned(),
-        )),
-    }
+    let words = || print(&comparison, &reader);
+    arguments.json.print(&comparison, words)?;
+    let none = "no measure holds in every combination: what comes nearest is on standard output";
+    let holds = comparison.recommended.is_some();
+    holds
+        .then_some(())
+        .ok_or_else(|| Failure::NotKept(none.to_owned()))
 }
 
 /// Says how many runs there will be, and makes them.
@@ -96,13 +89,12 @@ pub fn compared(study: &Study, limits: &LimitArguments) -> Result<Comparison, cr
 
 fn print(comparison: &Comparison, reader: &Reader) -> Result<(), Failure> {
     let mut out = terminal::out();
+    let (title, passes) = (terminal::line(&comparison.title), comparison.passes);
     writeln!(
         out,
-        "{}: measures, {} passes",
-        terminal::line(&comparison.title),
-        comparison.passes
+        "{title}: measures, {passes} passes\nuncertain: {}\n",
+        uncertain(comparison)
     )?;
-    writeln!(out, "uncertain: {}\n", uncertain(comparison))?;
     let table = measures(comparison, reader);
     terminal::table(&mut out, &table.head, &table.rows)?;
     writeln!(out)?;

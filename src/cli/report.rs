@@ -88,17 +88,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let study = study.then(|| Study::new(input.file())).transpose()?;
     let words = |_| "the scene's run, and ways to hold the cable".to_owned();
     let report = watched(1.0, words, |progress| {
-        let of_measures = progress.part(0.0, MEASURES_SHARE);
-        let limits_of = |scene: &Scene| arguments.limits.wherever_they_are(scene);
-        let compared = study
-            .as_ref()
-            .map(|study| study.compare(&limits_of, of_measures))
-            .transpose()?;
-        let progress = if compared.is_some() {
-            progress.part(MEASURES_SHARE, 1.0)
-        } else {
-            progress
-        };
+        let (of_measures, mut of_page) = (progress.part(0.0, MEASURES_SHARE), progress);
+        let mut compared = None;
+        if let Some(study) = &study {
+            compared = Some(study.compare(
+                &|scene: &Scene| arguments.limits.wherever_they_are(scene),
+                of_measures,
+            )?);
+            of_page = progress.part(MEASURES_SHARE, 1.0);
+        }
         Report::new(
             &input.scene,
             &ReportOptions {
@@ -111,7 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
                 overrides: &overrides,
                 date: Some(&date),
                 compared: compared.as_ref(),
-                progress,
+                progress: of_page,
                 ..ReportOptions::default()
             },
         )

@@ -9,7 +9,7 @@ use super::holding::holding;
 use super::html::{Html, escaped};
 use super::route::route;
 use super::section::section;
-use crate::words::measures::held_in;
+use crate::words::measures::holds_for;
 use crate::words::{Table, candidates, error_parts, solved};
 use creepage_plan::shown::{percent, words_if};
 use creepage_run::Verdict;
@@ -73,19 +73,16 @@ impl Report {
             let class = if is_kept { "kept" } else { "exceeded" };
             html.element(&format!("li class=\"{class}\""), &answer.verdict(verdict));
         }
-        if let Some(compared) = &self.compared
-            && let Some(as_it_is) = compared.measures.first()
-        {
+        if let Some(compared) = &self.compared {
+            let as_it_is = &compared.measures[0];
             let class = if as_it_is.within_limits {
                 "kept"
             } else {
                 "exceeded"
             };
-            let how = held_in(as_it_is, compared.combinations);
-            html.element(
-                &format!("li class=\"{class}\""),
-                &format!("with what is not known, the cable as it is {how}"),
-            );
+            let how = holds_for(as_it_is, compared.combinations);
+            let verdict = format!("with what is not known, the cable as it is holds for {how}");
+            html.element(&format!("li class=\"{class}\""), &verdict);
         }
         if !self.verdicts.is_empty() {
             html.raw("</ul>");

@@ -45,7 +45,7 @@ impl Key {
 pub enum Form {
     Number(Quantity),
     Text(&'static str),
-    /// A text or a number.
+    /// What is none of the others.
     Any(&'static str),
     /// One of these words, and what else is to be said of them.
     Words(&'static [&'static str], &'static str),
@@ -54,8 +54,6 @@ pub enum Form {
     List(&'static [Form], usize, &'static str),
     /// A value that is no table, or a table. A text stands for the first key of the table.
     Either(&'static Form, &'static [Key]),
-    /// A table of the lowest and the highest value of numbers below these keys.
-    Intervals(fn() -> &'static [Key]),
 }
 
 impl Form {
@@ -88,13 +86,9 @@ impl Form {
                 format!("a table with the keys {}", names.join(", "))
             }
             Self::Either(form, _) => form.allowed(),
-            Self::Intervals(_) => INTERVALS.to_owned(),
         }
     }
 }
-
-const INTERVALS: &str = "keys of numbers, each with its lowest and its highest value, such as \"friction.dynamic_coefficient\" = [0.2, 0.5] \
-                         or \"ground.vertical_peak\" = [\"90 um\", \"150 um\"]";
 
 /// Whether a text of which these words say what is allowed is a name, which is never empty.
 pub fn is_name(allowed: &str) -> bool {

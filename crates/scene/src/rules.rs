@@ -1,6 +1,6 @@
 //! What holds between the values of a scene, each of which is in its own range.
 
-use cable_dem::{End, Restraint};
+use cable_dem::End;
 use ground_field::Modulus;
 
 use crate::arrangement::CLOSEST;
@@ -115,28 +115,24 @@ fn lengths(scene: &Scene) -> Vec<Rule> {
             format!("at most {most:.4} m, so that three cables fit into the duct's {wide} m")),
     ];
     let has_friction = scene.friction.dynamic_coefficient > 0.0;
-    let clamps = |list: String, clamps: &[Restraint]| -> Vec<(String, Restraint)> {
-        let clamps = clamps.iter().enumerate();
-        clamps
-            .map(|(index, clamp)| (format!("{list}.{index}"), *clamp))
-            .collect()
-    };
-    let mut every = clamps("restraints".to_owned(), &scene.restraints);
+    let mut lists = vec![("restraints".to_owned(), &scene.restraints[..])];
     for (index, measure) in scene.measures.iter().enumerate() {
         let key = |name: &str| format!("measures.{index}.{name}");
-        let own = measure.restraints.as_deref().unwrap_or_default();
-        every.extend(clamps(key("restraints"), own));
-        every.extend(clamps(key("added_restraints"), &measure.added_restraints));
-        let mut others = scene.measures[..index].iter();
-        let is_new = !others.any(|other| other.name == measure.name);
-        let allowed = "a name in quotes that no other measure has";
-        rules.push(rule(
-            is_new,
-            key("name"),
-            format!("\"{}\"", measure.name),
-            allowed,
+        lists.push((
+            key("restraints"),
+            measure.restraints.as_deref().unwrap_or_default(),
         ));
+        lists.push((key("added_restraints"), &measure.added_restraints));
+        let is_new = scene.measures[..index]
+            .iter()
+            .all(|other| other.name != measure.name);
+        #[rustfmt::skip]
+        rules.push(rule(is_new, key("name"), format!("\"{}\"", measure.name), "a name in quotes that no other measure has"));
     }
+    let every = lists.iter().flat_map(|(list, clamps)| {
+        let clamps = clamps.iter().enumerate();
+        clamps.map(move |(index, clamp)| (format!("{list}.{index}"), clamp))
+    });
     for (at, clamp) in every {
         let key = |name: &str| format!("{at}.{name}");
         #[rustfmt::skip]

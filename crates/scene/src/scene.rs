@@ -9,7 +9,7 @@ use crate::content::Content;
 use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
-use crate::key::Form::{Any, Either, Intervals, List, Number, Table, Text, Words};
+use crate::key::Form::{Any, Either, List, Number, Table, Text, Words};
 use crate::key::{Form, Key, Section as _};
 use crate::range::{
     CLAMP, DEPTH, DUCT_LENGTH, HOLDS, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING,
@@ -19,7 +19,7 @@ use crate::section::keys;
 use crate::solver::Solver;
 use crate::stored::{Given, Stored, entry};
 use crate::traffic::{Following, Traffic};
-use crate::uncertain::{Cost, Uncertain};
+use crate::uncertain::{Cost, INTERVALS, Uncertain};
 use crate::vehicle::TrafficVehicle;
 
 keys! {
@@ -51,7 +51,7 @@ keys! {
         /// How to compute.
         solver: Solver = Table(Solver::KEYS), "all is chosen";
         /// What is known only between two values: `creepage measures` and `report` compute all combinations.
-        uncertain: Vec<Uncertain> = Intervals(|| Scene::KEYS), "nothing";
+        uncertain: Vec<Uncertain> = Any(INTERVALS), "nothing";
         /// Ways to hold the cable that `creepage measures` compares; a list built in if there are none.
         measures: Vec<Measure> = List(&[Table(Measure::KEYS)], 0, "a list of [[measures]]"), "none";
     }
@@ -80,7 +80,7 @@ keys! {
 
 keys! {
     /// What holds the cable's two ends.
-    #[derive(Copy)]
+    #[derive(Copy, serde::Serialize)]
     pub struct Ends {
         /// What holds the end at x = 0, where forward vehicles come in.
         upstream: End = END;
@@ -152,6 +152,17 @@ impl Measure {
         scene.restraints = self.restraints.clone().unwrap_or(scene.restraints);
         scene.restraints.extend(&self.added_restraints);
         scene
+    }
+
+    /// How many ends and clamps it gives.
+    pub fn parts(&self) -> usize {
+        let ends = self.upstream.iter().chain(&self.downstream).count();
+        ends + self
+            .restraints
+            .iter()
+            .flatten()
+            .chain(&self.added_restraints)
+            .count()
     }
 }
 

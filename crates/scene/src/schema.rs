@@ -64,17 +64,13 @@ fn form(form: &Form, path: &str) -> Value {
         Form::Number(quantity) => number(*quantity),
         Form::Text(allowed) if is_name(allowed) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
-        Form::Any(_) => json!({ "type": ["string", "number"] }),
+        Form::Any(_) => json!({ "type": ["string", "number", "object"] }),
         Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List([item], least, _) => {
             json!({ "type": "array", "minItems": least, "items": self::form(item, path) })
         }
         Form::List(items, ..) => json!({ "type": "array", "minItems": items.len(), "maxItems": items.len() }),
-        Form::Intervals(_) => {
-            let interval = json!({ "type": "array", "minItems": 2, "maxItems": 2 });
-            json!({ "type": "object", "additionalProperties": { "anyOf": [interval, { "type": "object" }] } })
-        }
         Form::Either(one, keys) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
     }
 }

@@ -2,15 +2,16 @@
 
 use serde::Serialize;
 
+use crate::Scene;
 use crate::content::{Content, Node, joined, other_name};
 use crate::error::{Result, SceneError, did_you_mean};
-use crate::key::{Form, Key};
-use crate::nearest::nearest;
+use crate::key::{Form, Key, Section as _};
+use crate::names::nearest_key;
 use crate::shown::shown;
 use crate::stored::{Given, Stored};
 
 /// A key of a number that lies between two values, in SI.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Uncertain {
     /// The key with the numbers of list items: `vehicles.0.load`.
     pub key: String,
@@ -20,33 +21,42 @@ pub struct Uncertain {
     pub high: f64,
 }
 
+/// Intervals that are wider have their middle at the geometric mean.
+const WIDE: f64 = 3.0;
+
+impl Uncertain {
+    /// The key between these values.
+    pub fn new(key: &str, low: f64, high: f64) -> Self {
+        let key = key.to_owned();
+        Self { key, low, high }
+    }
+
+    /// The middle of its interval.
+    pub fn middle(&self) -> f64 {
+        if self.low > 0.0 && self.high > WIDE * self.low {
+            return (self.low * self.high).sqrt();
+        }
+        0.5 * (self.low + self.high)
+    }
+}
+
+pub const INTERVALS: &str = "keys of numbers, each with its lowest and its highest value, such as \"friction.dynamic_coefficient\" = [0.2, 0.5] \
+                             or \"ground.vertical_peak\" = [\"90 um\", \"150 um\"]";
 const INTERVAL: &str = "the lowest value and a greater one, such as [0.2, 0.5]";
 const KEY: &str = "a key of the scene that takes a number, such as \"friction.dynamic_coefficient\" (`creepage explain` lists them)";
 
 impl Stored for Vec<Uncertain> {
     fn read(given: &Given) -> Result<Self> {
-        let (Form::Intervals(all), Content::Table(_)) = (given.form, &given.node.content) else {
-            let (found, allowed) = (given.node.described(), given.form.allowed());
-            return Err(SceneError::value(&given.path, found, allowed));
-        };
-        let mut intervals = Vec::new();
-        values("", given.node, &mut intervals);
-        let mut found: Self = Vec::new();
-        for (key, node) in intervals {
-            let known = interval(all(), &given.path, &key, node)?;
-            // What was set later counts.
-            found.retain(|other| other.key != known.key);
-            found.push(known);
+        let mut found = Self::new();
+        match given.node.content {
+            Content::Table(_) => intervals(&mut found, given, "", given.node).map(|()| found),
+            _ => Err(SceneError::value(&given.path, given.node.described(), INTERVALS)),
         }
-        Ok(found)
     }
 
-    fn write(&self, form: Form) -> Content {
-        let Form::Intervals(all) = form else {
-            return Content::Other;
-        };
+    fn write(&self, _: Form) -> Content {
         let entry = |uncertain: &'_ Uncertain| {
-            let form = form_at(all(), &uncertain.key)?;
+            let form = form_at(Scene::KEYS, &uncertain.key)?;
             let both = [uncertain.low, uncertain.high].map(|value| value.write(form).into());
             Some((uncertain.key.clone(), Content::List(both.into())))
         };
@@ -55,72 +65,51 @@ impl Stored for Vec<Uncertain> {
     }
 }
 
-/// All that is no table below a node, with its key: `a.b = …` and `"a.b" = …` are the same.
-fn values<'n>(path: &str, node: &'n Node, found: &mut Vec<(String, &'n Node)>) {
-    match &node.content {
+/// Reads what stands at a key of the table that is given, or below it: `a.b = …` and `"a.b" = …` are the same.
+fn intervals(found: &mut Vec<Uncertain>, given: &Given, key: &str, node: &Node) -> Result<()> {
+    let path = joined(&given.path, key);
+    let both = match &node.content {
         Content::Table(entries) => {
-            for entry in entries {
-                values(&joined(path, &entry.key), &entry.value, found);
-            }
+            let mut below = entries.iter();
+            return below
+                .try_for_each(|entry| intervals(found, given, &joined(key, &entry.key), &entry.value));
         }
-        _ => found.push((path.to_owned(), node)),
-    }
-}
-
-fn interval(all: &'static [Key], path: &str, key: &str, node: &Node) -> Result<Uncertain> {
-    let path = joined(path, key);
-    let Some(form) = form_at(all, key) else {
-        let mut known = Vec::new();
-        numbers("", all, &mut known);
-        let meant = did_you_mean(nearest(key, known.iter().map(String::as_str)));
-        return Err(SceneError::value(&path, format!("`{key}`{meant}"), KEY));
+        Content::List(both) => both,
+        _ => return Err(SceneError::value(&path, node.described(), INTERVAL)),
     };
-    let Content::List(both) = &node.content else {
-        return Err(SceneError::value(&path, node.described(), INTERVAL));
-    };
+    let form = form_at(Scene::KEYS, key).ok_or_else(|| {
+        let meant = did_you_mean(nearest_key(key).as_deref());
+        SceneError::value(&path, format!("`{key}`{meant}"), KEY)
+    })?;
     let read = |(index, node)| f64::read(&Given::new(joined(&path, index), node, form));
     let both = both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?;
-    match both[..] {
-        [low, high] if low < high => Ok(Uncertain {
-            key: key.to_owned(),
-            low,
-            high,
-        }),
-        _ => {
-            let values = both.into_iter().map(shown).collect::<Vec<_>>().join(", ");
-            Err(SceneError::value(&path, format!("[{values}]"), INTERVAL))
-        }
+    let [low, high] = both[..] else {
+        return Err(SceneError::value(&path, node.described(), INTERVAL));
+    };
+    if low >= high {
+        let both = format!("[{}, {}]", shown(low), shown(high));
+        return Err(SceneError::value(&path, both, INTERVAL));
     }
+    // What was set later counts.
+    found.retain(|other| other.key != key);
+    found.push(Uncertain::new(key, low, high));
+    Ok(())
 }
 
 /// The form of the number at a key such as `vehicles.0.load`, below these keys.
 fn form_at(keys: &'static [Key], path: &str) -> Option<Form> {
-    let (first, rest) = path.split_once('.').unwrap_or((path, ""));
+    let (first, mut rest) = path.split_once('.').unwrap_or((path, ""));
     let is_named = |key: &&Key| key.name == first || other_name(key.name) == Some(first);
     let form = keys.iter().find(is_named)?.form;
-    let rest = match form {
-        Form::List(..) => {
-            rest.split_once('.')
-                .filter(|(index, _)| index.parse::<usize>().is_ok())?
-                .1
-        }
-        _ => rest,
-    };
+    if matches!(form, Form::List(..)) {
+        let (index, below) = rest.split_once('.')?;
+        index.parse::<usize>().ok()?;
+        rest = below;
+    }
     if rest.is_empty() {
         return form.quantity().map(|_| form);
     }
     form_at(form.keys(), rest)
-}
-
-/// Every key of a number, in lists that of the first item.
-fn numbers(path: &str, keys: &[Key], found: &mut Vec<String>) {
-    for key in keys {
-        let path = joined(path, key.name);
-        found.extend(key.form.quantity().map(|_| path.clone()));
-        let is_list = matches!(key.form, Form::List(..));
-        let below = if is_list { joined(&path, 0) } else { path };
-        numbers(&below, key.form.keys(), found);
-    }
 }
 
 /// What a measure costs.

@@ -7,8 +7,7 @@ use rust_xlsxwriter::XlsxError;
 use crate::words::Reader;
 use crate::words::measures::{measures, recommendation};
 use creepage_run::Limited;
-use creepage_scene::SceneFile;
-use creepage_scene::si_unit;
+use creepage_scene::{SceneFile, si_unit};
 use creepage_study::book::{Book, Cell, scene};
 use creepage_study::measures::Comparison;
 
@@ -27,35 +26,39 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
     let columns: Vec<(&str, &str)> = table.head.iter().map(|name| (name.as_str(), "")).collect();
     book.sheet("measures", &columns)?;
     for row in table.rows {
-        book.row(
-            row.into_iter().map(|text| Cell::Text(text.replace('\u{ad}', ""))),
-            false,
-        )?;
+        let cells = row.into_iter().map(|text| Cell::Text(text.replace('\u{ad}', "")));
+        book.row(cells, false)?;
     }
     book.row([Cell::Text(recommendation(comparison, reader))], false)?;
     let [force, movement] = [Limited::Force, Limited::Movement].map(|quantity| reader.unit(quantity));
-    let mut columns = vec![("measure", "")];
-    columns.extend(
-        comparison
-            .uncertain
-            .iter()
-            .map(|unknown| (&*unknown.key, si_unit(&unknown.key).unwrap_or_default())),
-    );
-    columns.extend([
-        ("force on an end", force.symbol()),
-        ("movement of an end", movement.symbol()),
-        ("force on a clamp", force.symbol()),
-        ("largest share of a limit", ""),
-    ]);
+    let keys = comparison.uncertain.iter().map(|unknown| &*unknown.key);
+    let keys = keys.map(|key| (key, si_unit(key).unwrap_or_default()));
+    let columns: Vec<(&str, &str)> = [("measure", "")]
+        .into_iter()
+        .chain(keys)
+        .chain([
+            ("force on an end", force.symbol()),
+            ("movement of an end", movement.symbol()),
+            ("force on a clamp", force.symbol()),
+            ("largest share of a limit", ""),
+        ])
+        .collect();
     book.sheet("combinations", &columns)?;
     for measure in &comparison.measures {
         for outcome in &measure.outcomes {
             let mut cells = vec![Cell::Text(measure.name.clone())];
-            cells.extend(outcome.at.iter().copied().map(Cell::Number));
+            cells.extend(
+                comparison
+                    .uncertain
+                    .iter()
+                    .map(|unknown| Cell::Number(outcome.at[&unknown.key])),
+            );
             cells.extend([
                 Cell::Number(force.of_si(outcome.force_n)),
                 Cell::Number(movement.of_si(outcome.movement_m)),
-                Cell::Number(force.of_si(outcome.clamp_force_n)),
+                outcome
+                    .clamp_force_n
+                    .map_or(Cell::Absent, |clamp| Cell::Number(force.of_si(clamp))),
                 Cell::Share(outcome.share()),
             ]);
             book.row(cells, outcome.failure.is_some())?;

@@ -1,83 +1,66 @@
 //! What a comparison of measures answers. The names of the fields are those of the JSON document.
 
-use std::collections::BTreeMap;
-
 use serde::Serialize;
 
-use super::unknown::{FRICTION_KEY, Unknown};
-use creepage_run::{Limited, Place, Reached, Verdict};
-use creepage_scene::Scene;
-use creepage_scene::{Cost, End, Measure, Restraint};
-
-/// How accurate a run is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Effort {
-    /// On a coarse mesh that all share.
-    Coarse,
-    /// On one that is twice as fine.
-    Finer,
-    /// With the scene's own tolerance.
-    Decisive,
-}
+use super::unknown::{Combination, middle};
+use creepage_run::Verdict;
+use creepage_scene::{Cost, Ends, Measure, Restraint, Scene, Uncertain};
 
 /// One measure with one combination of what is not known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Outcome {
-    /// The values of all unknowns \[SI\].
-    pub at: Vec<f64>,
-    /// How accurate it is.
-    pub effort: Effort,
-    /// What it makes of each limit, and of the duct's end; none where the run failed.
+    /// The values of all unknowns.
+    pub at: Combination,
+    /// Whether it was computed on the coarse mesh that all share; else with the scene's own tolerance.
+    #[serde(skip)]
+    pub rough: bool,
+    /// What it makes of each limit, and of the duct's end, first the limit that is nearest or exceeded most; none where the run failed.
     pub verdicts: Vec<Verdict>,
     /// Largest force on an end \[N\].
     pub force_n: f64,
     /// Largest movement of an end \[m\].
     pub movement_m: f64,
-    /// Largest force on a clamp \[N\].
-    pub clamp_force_n: f64,
+    /// Largest force on a clamp \[N\]; none without clamps.
+    pub clamp_force_n: Option<f64>,
     /// Why the run failed.
+    #[serde(skip)]
     pub failure: Option<String>,
 }
 
 impl Outcome {
-    pub(super) fn new(
-        at: &[f64],
-        effort: Effort,
-        verdicts: Vec<Verdict>,
-        [force, movement, clamp]: [f64; 3],
-    ) -> Self {
+    pub(super) fn new(at: &Combination, rough: bool) -> Self {
         Self {
-            at: at.to_vec(),
-            effort,
-            verdicts,
-            force_n: force,
-            movement_m: movement,
-            clamp_force_n: clamp,
+            at: at.clone(),
+            rough,
+            verdicts: Vec::new(),
+            force_n: 0.0,
+            movement_m: 0.0,
+            clamp_force_n: None,
             failure: None,
         }
     }
 
-    pub(super) fn failed(at: &[f64], effort: Effort, failure: String) -> Self {
-        Self {
-            failure: Some(failure),
-            ..Self::new(at, effort, Vec::new(), [0.0; 3])
-        }
-    }
-
-    /// The limit that is nearest or exceeded most.
-    pub fn tightest(&self) -> Option<&Verdict> {
-        self.verdicts.iter().max_by(|a, b| share(a).total_cmp(&share(b)))
-    }
-
-    /// What that is of its limit: at most 1 within all limits. Nothing is known of a run that failed.
+    /// What the largest is of its limit: at most 1 within all limits. Nothing is known of a run that failed.
     pub fn share(&self) -> f64 {
-        self.tightest().map_or(0.0, share)
+        self.verdicts.iter().map(share).fold(0.0, f64::max)
     }
 
     /// Whether it was computed and keeps all limits, with the scene's tolerance by more than the estimated error.
     pub fn holds(&self) -> bool {
-        let is_doubtful = |verdict: &Verdict| verdict.doubtful && self.effort == Effort::Decisive;
-        self.failure.is_none() && self.share() <= 1.0 && !self.verdicts.iter().any(is_doubtful)
+        let is_kept = |verdict: &Verdict| share(verdict) <= 1.0 && (self.rough || !verdict.doubtful);
+        self.failure.is_none() && self.verdicts.iter().all(is_kept)
+    }
+
+    /// The same with the verdict first that is nearest to its limit.
+    fn sorted(&self) -> Self {
+        let mut sorted = self.clone();
+        sorted.verdicts.sort_by(|a, b| share(b).total_cmp(&share(a)));
+        sorted
+    }
+
+    /// Whether its combination is `at` but for this key.
+    pub fn differs_only_in(&self, key: &str, at: &Combination) -> bool {
+        self.at.iter().all(|(own, value)| own == key || at[own] == *value)
     }
 }
 
@@ -86,36 +69,15 @@ pub(super) fn share(verdict: &Verdict) -> f64 {
     verdict.largest / verdict.limit
 }
 
-/// The limit that a combination is nearest to or exceeds most.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Extreme {
-    /// The end or clamp.
-    pub end: Place,
-    /// What is limited there.
-    pub quantity: Limited,
-    /// What it comes to \[N or m\].
-    pub value: f64,
-    /// The limit \[N or m\].
-    pub limit: f64,
-    /// The combination: key and value \[SI\].
-    pub at: BTreeMap<String, f64>,
-    /// Largest force on a clamp then \[N\]; null without clamps.
-    pub clamp_force_n: Option<f64>,
-    /// Largest movement of an end then \[m\].
-    pub movement_m: f64,
-    /// When the first limit is exceeded; null where none is.
-    pub reached_after: Option<Reached>,
-}
-
 /// A measure in all combinations.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasureAnswer {
     /// Its name.
     pub name: String,
-    /// What holds both ends, with springs \[N/m\]: those found, where the measure looks for them.
-    pub ends: HeldEnds,
+    /// What holds both ends, with the springs that were found.
+    pub ends: Ends,
     /// All clamps.
-    pub restraints: Vec<HeldClamp>,
+    pub restraints: Vec<Restraint>,
     /// What it costs, if that is known.
     pub cost: Option<Cost>,
     /// Ends and clamps that it changes.
@@ -125,47 +87,15 @@ pub struct MeasureAnswer {
     /// In how many of the combinations it keeps them.
     pub kept: usize,
     /// The worst combination; null where every run failed.
-    pub worst: Option<Extreme>,
+    pub worst: Option<Outcome>,
     /// The middle of all intervals.
-    pub nominal: Option<Extreme>,
+    pub nominal: Option<Outcome>,
     /// Runs that failed: combination and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub failures: Vec<(BTreeMap<String, f64>, String)>,
+    pub failures: Vec<(Combination, String)>,
     /// All that was computed.
     #[serde(skip)]
     pub outcomes: Vec<Outcome>,
-}
-
-/// How an end is held: "free", "fixed" or a spring.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Held {
-    /// By nothing.
-    Free,
-    /// It does not move.
-    Fixed,
-    /// By a spring of this stiffness \[N/m\].
-    Spring(f64),
-}
-
-/// How both ends are held.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct HeldEnds {
-    /// At x = 0.
-    pub upstream: Held,
-    /// At x = length.
-    pub downstream: Held,
-}
-
-/// A clamp.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct HeldClamp {
-    /// Its position along the duct \[m\].
-    pub position_m: f64,
-    /// Its stiffness \[N/m\].
-    pub stiffness_n_per_m: f64,
-    /// Force above which it slips \[N\]; null if it never does.
-    pub holds_n: Option<f64>,
 }
 
 /// Measures side by side.
@@ -177,8 +107,10 @@ pub struct Comparison {
     /// Number of passes.
     pub passes: u64,
     /// What is not known.
-    pub uncertain: Vec<Unknown>,
-    /// Combinations of it; beside them the worst is looked for.
+    pub uncertain: Vec<Uncertain>,
+    /// Whether that is an assumption of this program, as the scene has no `[uncertain]`.
+    pub assumed: bool,
+    /// Combinations of it; between them the worst is looked for.
     pub combinations: usize,
     /// How many runs of the scene it took.
     pub runs: usize,
@@ -199,11 +131,9 @@ impl Comparison {
         self.measures.iter().find(|measure| measure.name == *name)
     }
 
-    /// The place of friction among the unknowns.
-    pub fn friction(&self) -> Option<usize> {
-        self.uncertain
-            .iter()
-            .position(|unknown| unknown.key == FRICTION_KEY)
+    /// The combination in the middle of all intervals.
+    pub fn middle(&self) -> Combination {
+        middle(&self.uncertain)
     }
 }
 
@@ -211,68 +141,29 @@ impl MeasureAnswer {
     pub(super) fn new(
         scene: &Scene,
         measure: &Measure,
-        parts: usize,
-        unknowns: &[Unknown],
         outcomes: Vec<Outcome>,
-        combinations: &[Vec<f64>],
+        combinations: &[Combination],
+        middle: &Combination,
     ) -> Self {
-        let held = |end: End| match end {
-            End::Free => Held::Free,
-            End::Fixed => Held::Fixed,
-            End::Spring(stiffness) => Held::Spring(stiffness),
-        };
-        let clamp = |clamp: &Restraint| HeldClamp {
-            position_m: clamp.position,
-            stiffness_n_per_m: clamp.stiffness,
-            holds_n: clamp.holds,
-        };
-        let keys = |at: &[f64]| -> BTreeMap<String, f64> {
-            let keys = unknowns.iter().map(|unknown| unknown.key.clone());
-            keys.zip(at.iter().copied()).collect()
-        };
-        let extreme = |outcome: &Outcome| {
-            let tightest = outcome.tightest()?;
-            let reached = outcome
-                .verdicts
-                .iter()
-                .filter_map(|verdict| verdict.reached_after);
-            Some(Extreme {
-                end: tightest.end,
-                quantity: tightest.quantity,
-                value: tightest.largest,
-                limit: tightest.limit,
-                at: keys(&outcome.at),
-                clamp_force_n: (!scene.restraints.is_empty()).then_some(outcome.clamp_force_n),
-                movement_m: outcome.movement_m,
-                reached_after: reached.min_by_key(|reached| reached.pass),
-            })
-        };
-        let middle: Vec<f64> = unknowns.iter().map(Unknown::middle).collect();
-        let is_asked = |outcome: &&Outcome| combinations.contains(&outcome.at);
+        let held = measure.applied(scene);
+        let asked = outcomes
+            .iter()
+            .filter(|outcome| combinations.contains(&outcome.at));
+        let failure = |outcome: &Outcome| Some((outcome.at.clone(), outcome.failure.clone()?));
         Self {
             name: measure.name.clone(),
-            ends: HeldEnds {
-                upstream: held(scene.ends.upstream),
-                downstream: held(scene.ends.downstream),
-            },
-            restraints: scene.restraints.iter().map(clamp).collect(),
+            ends: held.ends,
+            restraints: held.restraints,
             cost: measure.cost.clone(),
-            parts,
+            parts: measure.parts(),
             within_limits: outcomes.iter().all(Outcome::holds),
-            kept: outcomes
-                .iter()
-                .filter(is_asked)
-                .filter(|outcome| outcome.holds())
-                .count(),
-            worst: worst(&outcomes).and_then(extreme),
+            kept: asked.filter(|outcome| outcome.holds()).count(),
+            worst: worst(&outcomes).map(Outcome::sorted),
             nominal: outcomes
                 .iter()
-                .find(|outcome| outcome.at == middle)
-                .and_then(extreme),
-            failures: outcomes
-                .iter()
-                .filter_map(|outcome| Some((keys(&outcome.at), outcome.failure.clone()?)))
-                .collect(),
+                .find(|outcome| outcome.at == *middle)
+                .map(Outcome::sorted),
+            failures: outcomes.iter().filter_map(failure).collect(),
             outcomes,
         }
     }
@@ -284,7 +175,7 @@ impl MeasureAnswer {
 }
 
 /// The combination that comes nearest to a limit, or exceeds one most.
-pub fn worst(outcomes: &[Outcome]) -> Option<&Outcome> {
-    let computed = outcomes.iter().filter(|outcome| outcome.failure.is_none());
+pub fn worst<'o>(outcomes: impl IntoIterator<Item = &'o Outcome>) -> Option<&'o Outcome> {
+    let computed = outcomes.into_iter().filter(|outcome| outcome.failure.is_none());
     computed.max_by(|a, b| a.share().total_cmp(&b.share()))
 }

@@ -1,227 +1,172 @@
 //! Runs of a scene with one measure and one combination of what is not known.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::answer::{Effort, Outcome};
-use super::unknown::Unknown;
+use rayon::prelude::*;
+
+use super::answer::Outcome;
+use super::unknown::Combination;
 use creepage_plan::ground::{Ground, road};
 use creepage_plan::plan_over;
 use creepage_run::answer::largest_movement_in_duct;
 use creepage_run::run::{run_over, run_shown};
 use creepage_run::{Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions};
-use creepage_scene::{CableEnd, Scene, SceneFile};
-use creepage_scene::{End, Measure};
+use creepage_scene::{CableEnd, End, Measure, Scene, SceneFile};
 
-/// Tolerance of the runs that look for the worst, if the scene's own is not looser: their mesh is the one with which a run of this
-/// tolerance begins, six nodes per depth as a rule.
-const COARSE: f64 = 0.05;
-/// What a run costs relative to one of the effort below it, as long as none was made.
-const STEP_COST: f64 = 4.0;
+/// Tolerance of rough runs, if the scene's own is not looser: their mesh is the one with which a run of this tolerance begins, six nodes
+/// per depth as a rule.
+const ROUGH: f64 = 0.05;
+/// What a run with the scene's own tolerance costs, in rough runs: 3 to 60. Both kinds are mixed, so that the progress hardly depends on it.
+const OWN_COST: usize = 20;
 
 /// The limits of a scene, with whatever clamps it has.
 pub type LimitsOf<'a> = &'a (dyn Fn(&Scene) -> Limits + Sync);
 
-/// A scene with one combination, and its ground.
-struct Case {
-    at: Vec<f64>,
-    scene: Scene,
-    ground: Arc<Ground>,
-}
-
-/// How many runs there were and will be, and what they cost \[node updates\], of each effort.
-#[derive(Debug, Clone, Copy, Default)]
-struct Work {
-    expected: [f64; 3],
-    done: [f64; 3],
-    cost: [f64; 3],
-}
-
-impl Work {
-    /// The share of the whole that is done.
-    fn share(&self) -> f64 {
-        let (mut whole, mut one) = (0.0, 1.0);
-        for effort in 0..3 {
-            one *= STEP_COST;
-            if self.done[effort] > 0.0 {
-                one = self.cost[effort] / self.done[effort];
-            }
-            whole += one * self.expected[effort].max(self.done[effort]);
-        }
-        self.cost.iter().sum::<f64>() / whole
-    }
-}
-
-/// A mesh that runs share.
-#[derive(Clone, Copy)]
-struct SharedMesh {
-    /// Node spacing and vehicle step \[m\].
-    coarse: (f64, f64),
-    finer: (f64, f64),
-    /// What one run has shown of it.
-    shown: Option<FixedMesh>,
-}
-
-/// All runs of a scene, and how many there were.
+/// All runs of a scene.
 pub struct Runs<'a> {
     file: &'a SceneFile,
-    unknowns: &'a [Unknown],
     limits: LimitsOf<'a>,
     progress: Progress<'a>,
-    work: Mutex<Work>,
-    cases: Mutex<Vec<Arc<Case>>>,
-    mesh: Option<SharedMesh>,
+    /// Node spacing and vehicle step of rough runs \[m\], and what one of them has shown.
+    mesh: (f64, f64),
+    shown: Option<FixedMesh>,
+    grounds: Mutex<Vec<(Scene, Arc<Ground>)>>,
+    /// How many there were, what they cost and what all will [rough runs].
+    made: AtomicUsize,
+    cost: AtomicUsize,
+    expected: usize,
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<'a> Runs<'a> {
-    /// Runs of which so many of each effort are expected. Those that look for the worst take the jumps of a run in the middle of what is
-    /// not known, with fixed ends or as the scene has them.
+    /// Runs of which so many are expected, rough and with the scene's own tolerance. Rough ones take the jumps of a run in the `middle` of
+    /// what is not known, with fixed ends.
     pub fn new(
         file: &'a SceneFile,
-        unknowns: &'a [Unknown],
+        middle: &Combination,
         limits: LimitsOf<'a>,
         progress: Progress<'a>,
-        expected: [usize; 3],
+        expected: [usize; 2],
     ) -> Result<Self, Error> {
-        let work = Work {
-            expected: expected.map(|count| count as f64),
-            ..Work::default()
-        };
         let mut runs = Self {
             file,
-            unknowns,
             limits,
             progress,
-            work: Mutex::new(work),
-            cases: Mutex::default(),
-            mesh: None,
+            mesh: (0.0, 0.0),
+            shown: None,
+            grounds: Mutex::default(),
+            made: AtomicUsize::new(0),
+            cost: AtomicUsize::new(0),
+            expected: expected[0] + OWN_COST * expected[1],
         };
-        let middle: Vec<f64> = unknowns.iter().map(Unknown::middle).collect();
-        let case = runs.case(&middle)?;
-        let levels = plan_over(
-            &runs.coarse(case.scene.clone(), Effort::Coarse),
-            Arc::clone(&case.ground),
-        )?
-        .levels;
-        for held in [Some(End::Fixed), None] {
-            runs.mesh = Some(SharedMesh {
-                coarse: levels.spacing(levels.first),
-                finer: levels.spacing(levels.first + 1),
-                shown: None,
-            });
-            let measure = Measure {
-                upstream: held,
-                downstream: held,
-                ..Measure::default()
-            };
-            let scene = runs.coarse(measure.applied(&case.scene), Effort::Coarse);
-            // It may be stopped, but its share of the work is not counted.
-            let options = RunOptions {
-                progress: progress.part(0.0, 0.0),
-                ..RunOptions::default()
-            };
-            let shown = run_shown(&scene, Arc::clone(&case.ground), &options);
-            match (&mut runs.mesh, shown) {
-                (_, Err(Error::Stopped)) => return Err(Error::Stopped),
-                (Some(mesh), Ok((_, shown))) => {
-                    mesh.shown = shown;
-                    break;
-                }
-                (mesh, _) => *mesh = None,
-            }
-        }
+        let mut scene = runs.scene(middle)?;
+        let ground = runs.ground(&scene)?;
+        scene.solver.tolerance = scene.solver.tolerance.max(ROUGH);
+        let levels = plan_over(&scene, Arc::clone(&ground))?.levels;
+        runs.mesh = levels.spacing(levels.first);
+        scene.ends.upstream = End::Fixed;
+        scene.ends.downstream = End::Fixed;
+        // It may be stopped, but its share of the work is not counted.
+        let options = RunOptions {
+            progress: progress.part(0.0, 0.0),
+            ..RunOptions::default()
+        };
+        runs.shown = match run_shown(&runs.rough(scene), ground, &options) {
+            Err(Error::Stopped) => return Err(Error::Stopped),
+            shown => shown.ok().and_then(|(_, shown)| shown),
+        };
         Ok(runs)
     }
 
-    /// The scene with the coarse tolerance, on the mesh that is shared.
-    fn coarse(&self, mut scene: Scene, effort: Effort) -> Scene {
-        scene.solver.tolerance = scene.solver.tolerance.max(COARSE);
-        if let Some(mesh) = self.mesh {
-            let (spacing, step) = if effort == Effort::Coarse {
-                mesh.coarse
-            } else {
-                mesh.finer
-            };
-            scene.solver.node_spacing.get_or_insert(spacing);
-            scene.solver.vehicle_step.get_or_insert(step);
-        }
+    /// The scene on the mesh that is shared.
+    fn rough(&self, mut scene: Scene) -> Scene {
+        scene.solver.tolerance = scene.solver.tolerance.max(ROUGH);
+        scene.solver.node_spacing.get_or_insert(self.mesh.0);
+        scene.solver.vehicle_step.get_or_insert(self.mesh.1);
         scene
     }
 
-    /// The scene with this combination; friction alone leaves the ground as it is.
-    fn case(&self, at: &[f64]) -> Result<Arc<Case>, Error> {
-        let all = || self.cases.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = all().iter().find(|case| case.at == at).cloned();
-        if let Some(known) = known {
-            return Ok(known);
-        }
-        let set = |(unknown, value): (&Unknown, &f64)| format!("{}={value:?}", unknown.key);
-        let overrides: Vec<String> = self.unknowns.iter().zip(at).map(set).collect();
-        let scene = self.file.with(&overrides)?.scene()?;
-        let moves_alike = |case: &&Arc<Case>| motion(&case.scene) == motion(&scene);
-        let ground = all()
-            .iter()
-            .find(moves_alike)
-            .map(|case| Arc::clone(&case.ground));
-        let ground = match ground {
-            Some(ground) => ground,
-            None => Arc::new(Ground::new(&scene, None, road::reach(&scene))?),
-        };
-        let case = Arc::new(Case {
-            at: at.to_vec(),
-            scene,
-            ground,
-        });
-        all().push(Arc::clone(&case));
-        Ok(case)
+    /// The scene with this combination.
+    fn scene(&self, at: &Combination) -> Result<Scene, Error> {
+        let overrides: Vec<String> = at.iter().map(|(key, value)| format!("{key}={value:?}")).collect();
+        Ok(self.file.with(&overrides)?.scene()?)
     }
 
-    /// What the scene comes to with `measure`. A run that fails is an outcome with its error.
+    /// The ground of a scene; friction, for one, leaves it as it is.
+    fn ground(&self, scene: &Scene) -> Result<Arc<Ground>, Error> {
+        let is_alike = |known: &&(Scene, _)| motion(&known.0) == motion(scene);
+        let known = locked(&self.grounds)
+            .iter()
+            .find(is_alike)
+            .map(|(_, ground)| Arc::clone(ground));
+        if let Some(ground) = known {
+            return Ok(ground);
+        }
+        let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
+        locked(&self.grounds).push((scene.clone(), Arc::clone(&ground)));
+        Ok(ground)
+    }
+
+    /// What the scene comes to with `measure` in each of these combinations. A run that fails is an outcome with its error.
     ///
     /// # Errors
     ///
     /// [`Error::Stopped`] where the progress stops it.
-    pub fn run(&self, measure: &Measure, at: &[f64], effort: Effort) -> Result<Outcome, Error> {
-        let (outcome, cost) = match self.computed(measure, at, effort) {
+    pub fn rough_runs(&self, measure: &Measure, all: &[Combination]) -> Result<Vec<Outcome>, Error> {
+        all.par_iter().map(|at| self.run(measure, at, true)).collect()
+    }
+
+    /// The same in one of them, rough or not.
+    pub fn run(&self, measure: &Measure, at: &Combination, rough: bool) -> Result<Outcome, Error> {
+        let mut outcome = Outcome::new(at, rough);
+        match self.computed(measure, at, rough) {
             Err(Error::Stopped) => return Err(Error::Stopped),
-            Err(error) => (Outcome::failed(at, effort, creepage_plan::with_causes(&error)), 0),
+            Err(error) => outcome.failure = Some(creepage_plan::with_causes(&error)),
             Ok((scene, run)) => {
-                let verdicts = self.limits_in_duct(&scene).verdicts(&run);
-                (
-                    Outcome::new(at, effort, verdicts, largest(&run)),
-                    run.cost.node_updates,
-                )
+                let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
+                let [forces, movements] = [Limited::Force, Limited::Movement].map(of_ends);
+                let clamps = run.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
+                let clamps = clamps.map(|clamp| run.largest(clamp, Limited::Force));
+                outcome.verdicts = self.limits_in_duct(&scene).verdicts(&run);
+                outcome.force_n = forces[0].max(forces[1]);
+                outcome.movement_m = movements[0].max(movements[1]);
+                outcome.clamp_force_n = clamps.reduce(f64::max);
             }
-        };
-        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        work.done[effort as usize] += 1.0;
-        work.cost[effort as usize] += cost as f64;
-        self.progress.report(work.share())?;
+        }
+        self.made.fetch_add(1, Ordering::Relaxed);
+        let own = if rough { 1 } else { OWN_COST };
+        let cost = own + self.cost.fetch_add(own, Ordering::Relaxed);
+        self.progress
+            .report((cost as f64 / self.expected as f64).min(1.0))?;
         Ok(outcome)
     }
 
-    fn computed(&self, measure: &Measure, at: &[f64], effort: Effort) -> Result<(Scene, Run), Error> {
-        let case = self.case(at)?;
-        let scene = measure.applied(&case.scene);
+    fn computed(&self, measure: &Measure, at: &Combination, rough: bool) -> Result<(Scene, Run), Error> {
+        let mut scene = self.scene(at)?;
+        let ground = self.ground(&scene)?;
+        scene = measure.applied(&scene);
         scene.validate()?;
         let run = |scene: &Scene, mesh| {
             let options = RunOptions {
                 mesh,
                 ..RunOptions::default()
             };
-            run_over(scene, Arc::clone(&case.ground), &options)
+            run_over(scene, Arc::clone(&ground), &options)
         };
-        let is_rough = effort != Effort::Decisive;
-        if let Some(mesh) = self.mesh.filter(|_| is_rough) {
-            let coarse = self.coarse(scene.clone(), effort);
-            if let Ok(run) = run(&coarse, mesh.shown) {
-                return Ok((scene, run));
-            }
+        if !rough {
+            return Ok((scene.clone(), run(&scene, None)?));
+        }
+        if let Ok(run) = run(&self.rough(scene.clone()), self.shown) {
+            return Ok((scene, run));
         }
         // Where that mesh is too coarse, a run finds its own.
         let mut own = scene.clone();
-        own.solver.tolerance = own.solver.tolerance.max(if is_rough { COARSE } else { 0.0 });
-        let run = run(&own, None)?;
-        Ok((scene, run))
+        own.solver.tolerance = own.solver.tolerance.max(ROUGH);
+        Ok((scene, run(&own, None)?))
     }
 
     /// The limits of a scene, and that the cable stays in its duct.
@@ -235,9 +180,8 @@ impl<'a> Runs<'a> {
     }
 
     /// How many were made.
-    pub fn count(&self) -> usize {
-        let work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        work.done.iter().sum::<f64>() as usize
+    pub fn made(&self) -> usize {
+        self.made.load(Ordering::Relaxed)
     }
 }
 
@@ -250,19 +194,4 @@ fn motion(scene: &Scene) -> impl PartialEq + use<'_> {
         &scene.heat,
         &scene.solver,
     )
-}
-
-/// The largest force on an end, movement of an end and force on a clamp.
-fn largest(run: &Run) -> [f64; 3] {
-    let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
-    let [force, movement] = [Limited::Force, Limited::Movement].map(of_ends);
-    let clamps = run
-        .restraints
-        .iter()
-        .map(|clamp| run.largest(Place::Clamp(clamp.position_m), Limited::Force));
-    [
-        force[0].max(force[1]),
-        movement[0].max(movement[1]),
-        clamps.fold(0.0, f64::max),
-    ]
 }

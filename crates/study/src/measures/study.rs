@@ -2,30 +2,25 @@
 
 use rayon::prelude::*;
 
-use super::answer::{Comparison, Effort, MeasureAnswer, Outcome, share, worst};
-use super::closer::closer;
+use super::answer::{Comparison, MeasureAnswer, Outcome, share, worst};
+use super::hill::top;
 use super::runs::{LimitsOf, Runs};
-use super::unknown::{Unknown, combinations, unknowns};
-use super::ways::{Way, parts, ways};
-use crate::design::DesignError;
-use crate::design::between;
+use super::unknown::{Combination, combinations, middle, unknowns};
+use super::ways::{Way, stiffness, ways, with_stiffness};
+use crate::design::{DesignError, between};
 use creepage_plan::ground::{Ground, road};
-use creepage_run::{Error, Progress};
-use creepage_scene::{Cost, Measure};
-use creepage_scene::{Scene, SceneFile};
+use creepage_run::{Error, Limited, Progress};
+use creepage_scene::{Cost, Measure, Scene, SceneFile, Uncertain};
 
 /// Runs closer around the worst of one measure, at most.
 const CLOSER: usize = 4;
-/// How often a stiffness or a place is looked for anew, as another combination proves worse; and combinations for which it is.
-const ROUNDS: usize = 2;
-const CRITICAL: usize = 4;
 /// A combination is as bad as the worst if it comes so near.
 const AS_BAD: f64 = 0.95;
-/// Stiffnesses of a map in a factor of ten.
+/// Stiffnesses that are read, in a factor of ten.
 const PER_DECADE: f64 = 24.0;
-/// Combinations that are run again on a finer mesh, at most, until the worst is one of them.
-const FINER: usize = 3;
-/// All combinations that are nearer to a limit than this share are run with the scene's tolerance, until one exceeds it.
+/// Runs with the scene's own tolerance, at most, until the worst is one of them.
+const DECISIVE: usize = 3;
+/// All combinations that are nearer to a limit than this share are run with that tolerance, until one exceeds it.
 const DOUBT: f64 = 0.1;
 
 /// What is to be compared.
@@ -33,8 +28,9 @@ const DOUBT: f64 = 0.1;
 pub struct Study {
     file: SceneFile,
     scene: Scene,
-    unknowns: Vec<Unknown>,
-    combinations: Vec<Vec<f64>>,
+    unknowns: Vec<Uncertain>,
+    assumed: bool,
+    combinations: Vec<Combination>,
 }
 
 /// A measure that was computed.
@@ -52,27 +48,25 @@ impl Study {
     pub fn new(file: &SceneFile) -> Result<Self, DesignError> {
         let scene = file.scene().map_err(Error::from)?;
         let ground = Ground::new(&scene, None, road::reach(&scene))?;
-        let unknowns = unknowns(&scene, &ground);
+        let (unknowns, assumed) = unknowns(&scene, &ground);
         Ok(Self {
             combinations: combinations(&unknowns)?,
             file: file.clone(),
             unknowns,
+            assumed,
             scene,
         })
     }
 
-    /// How many combinations, measures and, at most, runs there are.
+    /// How many combinations, measures and, at most, runs there are: each rough and with the scene's tolerance, and twice where a stiffness
+    /// or a place is looked for, that in two and then in three combinations.
     pub fn size(&self) -> [usize; 3] {
         let (ways, count) = (ways(&self.scene), self.combinations.len());
-        let runs = |way: &Way| match way.candidates.len() {
-            1 => count + CLOSER,
-            candidates => ROUNDS * (CRITICAL * candidates + count + CLOSER),
+        let runs = |way: &Way| match way.len() {
+            1 => 2 * (count + CLOSER),
+            candidates => 3 * (count + CLOSER) + (2 + 3) * candidates,
         };
-        let runs = ways
-            .iter()
-            .map(|way| runs(way) + FINER + count + CLOSER)
-            .sum::<usize>();
-        [count, ways.len(), runs]
+        [count, ways.len(), ways.iter().map(runs).sum()]
     }
 
     /// Compares the measures by these limits.
@@ -81,95 +75,106 @@ impl Study {
     ///
     /// [`Error`] where the middle of all intervals is no valid scene, or `progress` stops it. Every other run that fails is stated.
     pub fn compare(&self, limits: LimitsOf<'_>, progress: Progress<'_>) -> Result<Comparison, Error> {
-        let (ways, count) = (ways(&self.scene), self.combinations.len());
-        let usual = |way: &Way| match way.candidates.len() {
-            1 => count + 1,
-            candidates => 2 * candidates + count + 1,
+        let ways = ways(&self.scene);
+        let usual = |way: &Way| self.combinations.len() + if way.len() > 1 { 2 * way.len() + 1 } else { 1 };
+        let expected = [ways.iter().map(usual).sum(), ways.len()];
+        let runs = Runs::new(&self.file, &middle(&self.unknowns), limits, progress, expected)?;
+        // Stiffnesses and places are chosen for the worst combinations of what comes first.
+        let is_sought = |way: &Way| way.len() > 1;
+        let (first, others) = ways.split_at(ways.iter().position(is_sought).unwrap_or(ways.len()));
+        let of_all = |ways: &[Way], critical: &[Combination]| {
+            let decided = |way: &Way| self.decided(&runs, self.sought(&runs, way, critical)?);
+            ways.par_iter().map(decided).collect::<Result<Vec<_>, Error>>()
         };
-        let coarse = ways.iter().map(usual).sum();
-        let expected = [coarse, 2 * ways.len(), ways.len() + 1];
-        let runs = Runs::new(&self.file, &self.unknowns, limits, progress, expected)?;
-        let (plain, sought): (Vec<&Way>, Vec<&Way>) = ways.iter().partition(|way| way.candidates.len() == 1);
-        let tried = plain
-            .par_iter()
-            .map(|way| decided(&runs, self.tried(&runs, way.candidates[0].clone())?));
-        let mut tried = tried.collect::<Result<Vec<_>, _>>()?;
-        let critical = self.critical(&tried);
-        let sought = sought
-            .par_iter()
-            .map(|way| decided(&runs, self.sought(&runs, way, critical.clone())?));
-        tried.extend(sought.collect::<Result<Vec<_>, _>>()?);
-        Ok(self.answer(&runs, &tried))
+        let mut measures = of_all(first, &[])?;
+        let asked = |measure: &MeasureAnswer| {
+            let asked = measure.outcomes.iter().filter(|outcome| self.asks(outcome));
+            worst(asked).map(|outcome| outcome.at.clone())
+        };
+        let mut critical: Vec<Combination> = measures.iter().filter_map(asked).collect();
+        critical.dedup();
+        measures.extend(of_all(others, &critical)?);
+        Ok(self.answer(runs.made(), measures))
+    }
+
+    fn asks(&self, outcome: &Outcome) -> bool {
+        self.combinations.contains(&outcome.at)
+    }
+
+    /// The best of a way in the `critical` combinations, and in those that prove worse with it (cutting planes: J. E. Kelley, J. SIAM 8
+    /// (1960) 703).
+    fn sought(&self, runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Tried, Error> {
+        let first = self.tried(runs, best(runs, way, critical)?)?;
+        let (most, worst) = (largest(&first.outcomes), worst(&first.outcomes));
+        let is_as_bad =
+            |outcome: &Outcome| critical.contains(&outcome.at) && outcome.share() >= AS_BAD * most;
+        let Some(worst) =
+            worst.filter(|_| way.len() > 1 && most > 1.0 && !first.outcomes.iter().any(is_as_bad))
+        else {
+            return Ok(first);
+        };
+        let critical = [critical, &[worst.at.clone()]].concat();
+        let second = self.tried(runs, best(runs, way, &critical)?)?;
+        Ok(if largest(&second.outcomes) < most {
+            second
+        } else {
+            first
+        })
     }
 
     /// The measure in all combinations, and closer around the worst.
     fn tried(&self, runs: &Runs<'_>, measure: Measure) -> Result<Tried, Error> {
-        let run = |at: &Vec<f64>| runs.run(&measure, at, Effort::Coarse);
-        let mut outcomes = self
-            .combinations
-            .par_iter()
-            .map(run)
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut outcomes = runs.rough_runs(&measure, &self.combinations)?;
         for _ in 0..CLOSER {
-            let Some(at) = closer(&outcomes) else { break };
-            outcomes.push(run(&at)?);
+            let Some(at) = top(&outcomes) else { break };
+            outcomes.push(runs.run(&measure, &at, true)?);
         }
         Ok(Tried { measure, outcomes })
     }
 
-    /// The best of the candidates in the `critical` combinations, and in those that prove worse with it (cutting planes: J. E. Kelley,
-    /// J. SIAM 8 (1960) 703).
-    fn sought(&self, runs: &Runs<'_>, way: &Way, mut critical: Vec<Vec<f64>>) -> Result<Tried, Error> {
-        let mut best: Option<Tried> = None;
-        for _ in 0..ROUNDS {
-            let tried = self.tried(runs, best_candidate(runs, way, &critical)?)?;
-            let Some(worst) = worst(&tried.outcomes).cloned() else {
-                return Ok(tried);
+    /// The measure with its worst run with the scene's tolerance; and all that is near a limit, until it is known to exceed one or to hold.
+    fn decided(&self, runs: &Runs<'_>, mut tried: Tried) -> Result<MeasureAnswer, Error> {
+        let all = &mut tried.outcomes;
+        loop {
+            let decided = all.iter().filter(|outcome| !outcome.rough);
+            let (count, known) = (
+                decided.clone().count(),
+                decided.map(Outcome::share).fold(0.0, f64::max),
+            );
+            let Some(next) = worst(all.iter().filter(|outcome| outcome.rough)).cloned() else {
+                break;
             };
-            let is_known = |outcome: &Outcome| {
-                critical.contains(&outcome.at) && outcome.share() >= AS_BAD * worst.share()
-            };
-            let is_known = worst.holds() || tried.outcomes.iter().any(is_known);
-            let is_better = best
-                .as_ref()
-                .is_none_or(|best| worst.share() < largest(&best.outcomes));
-            if is_better {
-                best = Some(tried);
-            }
-            if is_known || critical.len() == CRITICAL {
+            let is_near = (next.share() - 1.0).abs() < DOUBT && known <= 1.0;
+            if !is_near && (count == DECISIVE || next.share() <= known) {
                 break;
             }
-            critical.push(worst.at);
+            let own = runs.run(&tried.measure, &next.at, false)?;
+            // What the scene's tolerance changes there scales the others, which are coarser (space mapping: J. W. Bandler et al., IEEE
+            // Trans. Microwave Theory Tech. 42 (1994) 2536).
+            for (limit, (old, new)) in next.verdicts.iter().zip(&own.verdicts).enumerate() {
+                let rough = all
+                    .iter_mut()
+                    .filter(|outcome| outcome.rough && old.largest > 0.0);
+                for verdict in rough.filter_map(|outcome| outcome.verdicts.get_mut(limit)) {
+                    verdict.largest *= new.largest / old.largest;
+                }
+            }
+            all.iter_mut()
+                .filter(|outcome| outcome.at == next.at)
+                .for_each(|outcome| *outcome = own.clone());
         }
-        best.map_or_else(|| self.tried(runs, way.candidates[0].clone()), Ok)
+        let (scene, middle) = (&self.scene, middle(&self.unknowns));
+        let Tried { measure, outcomes } = tried;
+        Ok(MeasureAnswer::new(
+            scene,
+            &measure,
+            outcomes,
+            &self.combinations,
+            &middle,
+        ))
     }
 
-    /// The worst combinations with the first two measures.
-    fn critical(&self, tried: &[Tried]) -> Vec<Vec<f64>> {
-        let is_asked = |outcome: &Outcome| self.combinations.contains(&outcome.at);
-        let worst = tried.iter().take(2).filter_map(|tried| {
-            let worst = tried.worst(is_asked)?;
-            Some(tried.outcomes[worst].at.clone())
-        });
-        let mut critical: Vec<Vec<f64>> = worst.collect();
-        critical.dedup();
-        critical
-    }
-
-    fn answer(&self, runs: &Runs<'_>, tried: &[Tried]) -> Comparison {
-        let answer = |tried: &Tried| {
-            let (measure, scene) = (&tried.measure, tried.measure.applied(&self.scene));
-            let outcomes = tried.outcomes.clone();
-            MeasureAnswer::new(
-                &scene,
-                measure,
-                parts(measure),
-                &self.unknowns,
-                outcomes,
-                &self.combinations,
-            )
-        };
-        let measures: Vec<MeasureAnswer> = tried.iter().map(answer).collect();
+    fn answer(&self, runs: usize, measures: Vec<MeasureAnswer>) -> Comparison {
         let recommended = recommended(&measures);
         let by_share = |a: &&MeasureAnswer, b: &&MeasureAnswer| a.share().total_cmp(&b.share());
         let nearest = measures.iter().min_by(by_share).filter(|_| recommended.is_none());
@@ -177,8 +182,9 @@ impl Study {
             title: self.scene.title.clone(),
             passes: self.scene.traffic.passes,
             uncertain: self.unknowns.clone(),
+            assumed: self.assumed,
             combinations: self.combinations.len(),
-            runs: runs.count(),
+            runs,
             recommended: recommended.map(|measure| measure.name.clone()),
             decides: nearest.and_then(|nearest| self.decides(&nearest.outcomes)),
             nearest: nearest.map(|nearest| nearest.name.clone()),
@@ -191,135 +197,63 @@ impl Study {
         let asked = || {
             outcomes
                 .iter()
-                .filter(|outcome| self.combinations.contains(&outcome.at))
+                .filter(|outcome| self.asks(outcome) && outcome.failure.is_none())
         };
-        let worst = asked().max_by(|a, b| a.share().total_cmp(&b.share()))?;
-        let least = |unknown: &usize| {
-            let differs = |outcome: &&Outcome| {
-                let mut pairs = outcome.at.iter().zip(&worst.at).enumerate();
-                outcome.failure.is_none() && pairs.all(|(index, (a, b))| index == *unknown || a == b)
-            };
-            asked()
-                .filter(differs)
-                .map(Outcome::share)
-                .fold(f64::INFINITY, f64::min)
+        let worst = worst(asked())?;
+        let least = |key: &str| {
+            let line = asked().filter(|outcome| outcome.differs_only_in(key, &worst.at));
+            line.map(Outcome::share).fold(f64::INFINITY, f64::min)
         };
-        let all = 0..self.unknowns.len();
-        let decides = all.min_by(|a, b| least(a).total_cmp(&least(b)))?;
-        Some(self.unknowns[decides].key.clone())
+        let keys = worst.at.keys();
+        keys.min_by(|a, b| least(a).total_cmp(&least(b))).cloned()
     }
 }
 
+/// The largest share of a limit; a run that failed is worse than any.
 fn largest(outcomes: &[Outcome]) -> f64 {
-    worst(outcomes).map_or(f64::INFINITY, Outcome::share)
+    let share = |outcome: &Outcome| {
+        outcome
+            .failure
+            .as_ref()
+            .map_or(outcome.share(), |_| f64::INFINITY)
+    };
+    outcomes.iter().map(share).fold(0.0, f64::max)
 }
 
 /// The candidate with the smallest largest share of a limit in the `critical` combinations; of springs that with any stiffness, as a
 /// spring against a spring is read between those that are run.
-fn best_candidate(runs: &Runs<'_>, way: &Way, critical: &[Vec<f64>]) -> Result<Measure, Error> {
-    let at_all = |measure: &Measure| {
-        let run = |at: &Vec<f64>| runs.run(measure, at, Effort::Coarse);
-        critical.par_iter().map(run).collect::<Result<Vec<_>, _>>()
-    };
-    let rows: Vec<Vec<Outcome>> = way.candidates.par_iter().map(at_all).collect::<Result<_, _>>()?;
-    if way.stiffnesses.is_empty() {
-        let best = way
-            .candidates
-            .iter()
-            .zip(&rows)
-            .min_by(|(_, a), (_, b)| largest(a).total_cmp(&largest(b)));
-        return Ok(best.map_or_else(Measure::default, |(measure, _)| measure.clone()));
+fn best(runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Measure, Error> {
+    if way.len() == 1 {
+        return Ok(way[0].clone());
     }
-    let (levels, count) = (&way.stiffnesses, critical.len());
-    let at_stiffness = |stiffness: f64| {
-        let of = |case: usize| {
-            let limits = rows[0][case].verdicts.iter().enumerate();
-            let read = limits.map(|(limit, verdict)| {
-                let inverse = between(levels, stiffness, verdict.quantity).map(|(level, weight)| {
-                    let known = rows[level][case].verdicts.get(limit);
-                    known.map_or(
-                        0.0,
-                        |known| if weight > 0.0 { weight / share(known) } else { 0.0 },
-                    )
-                });
-                1.0 / (inverse[0] + inverse[1])
-            });
-            read.fold(0.0, f64::max)
+    let rows = way.par_iter().map(|measure| runs.rough_runs(measure, critical));
+    let rows: Vec<Vec<Outcome>> = rows.collect::<Result<_, _>>()?;
+    let levels: Vec<f64> = way.iter().filter_map(stiffness).collect();
+    if levels.len() < way.len() || rows.iter().any(|row| largest(row).is_infinite()) {
+        let by_largest = |a: &usize, b: &usize| largest(&rows[*a]).total_cmp(&largest(&rows[*b]));
+        return Ok(way[(0..way.len()).min_by(by_largest).unwrap_or(0)].clone());
+    }
+    let at = |stiffness: f64| {
+        let limits = rows[0].iter().enumerate().flat_map(|(case, outcome)| {
+            let limits = outcome.verdicts.iter().enumerate();
+            limits.map(move |(limit, verdict)| (case, limit, verdict.quantity))
+        });
+        let read = |(case, limit, quantity): (usize, usize, Limited)| {
+            let there = between(&levels, stiffness, quantity)
+                .into_iter()
+                .filter(|(_, weight)| *weight > 0.0);
+            let inverse = there.map(|(row, weight)| weight / share(&rows[row][case].verdicts[limit]));
+            1.0 / inverse.sum::<f64>()
         };
-        (0..count).map(of).fold(0.0, f64::max)
+        limits.map(read).fold(0.0, f64::max)
     };
     let (first, last) = (levels[0], levels[levels.len() - 1]);
     let steps = ((last / first).log10() * PER_DECADE).ceil();
-    let trials = (0..=steps as usize).map(|i| first * (last / first).powf(i as f64 / steps));
+    let trials = (0..=steps as usize).map(|step| first * (last / first).powf(step as f64 / steps));
     // A product has a round stiffness.
     let round = |stiffness: f64| format!("{stiffness:.1e}").parse().unwrap_or(stiffness);
-    let best = trials
-        .map(round)
-        .min_by(|a, b| at_stiffness(*a).total_cmp(&at_stiffness(*b)));
-    Ok(way.with_spring(best.unwrap_or(first)))
-}
-
-/// The measure with its worst on a finer mesh and then with the scene's tolerance; and all that is near a limit, until it is known to
-/// exceed one or to hold.
-fn decided(runs: &Runs<'_>, mut tried: Tried) -> Result<Tried, Error> {
-    for (effort, most) in [(Effort::Finer, FINER), (Effort::Decisive, 1)] {
-        for _ in 0..most {
-            let Some(rough) = tried.worst(|worst| worst.effort < effort) else {
-                break;
-            };
-            if tried.outcomes[rough].share() < largest(&tried.outcomes) {
-                break;
-            }
-            tried.again(runs, rough, effort)?;
-        }
-    }
-    while let Some(rough) = tried.worst(|outcome| outcome.effort < Effort::Decisive) {
-        let exceeds = |outcome: &Outcome| outcome.effort == Effort::Decisive && outcome.share() > 1.0;
-        let is_near = (tried.outcomes[rough].share() - 1.0).abs() < DOUBT;
-        if !is_near || tried.outcomes.iter().any(exceeds) {
-            break;
-        }
-        tried.again(runs, rough, Effort::Decisive)?;
-    }
-    Ok(tried)
-}
-
-impl Tried {
-    /// The place of the worst of some outcomes.
-    fn worst(&self, is_meant: impl Fn(&Outcome) -> bool) -> Option<usize> {
-        let share = |place: &usize| self.outcomes[*place].share();
-        let all = 0..self.outcomes.len();
-        let meant = all.filter(|place| {
-            let outcome = &self.outcomes[*place];
-            outcome.failure.is_none() && is_meant(outcome)
-        });
-        meant.max_by(|a, b| share(a).total_cmp(&share(b)))
-    }
-
-    /// Runs one combination again with more effort. What the scene's tolerance changes there scales the others, which are coarser (space
-    /// mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536).
-    fn again(&mut self, runs: &Runs<'_>, place: usize, effort: Effort) -> Result<(), Error> {
-        let before = self.outcomes[place].clone();
-        self.outcomes[place] = runs.run(&self.measure, &before.at, effort)?;
-        if effort == Effort::Decisive {
-            let after = self.outcomes[place].verdicts.clone();
-            for other in self.outcomes.iter_mut().filter(|other| other.effort < effort) {
-                for (limit, (old, new)) in before.verdicts.iter().zip(&after).enumerate() {
-                    let scale = if old.largest > 0.0 {
-                        new.largest / old.largest
-                    } else {
-                        1.0
-                    };
-                    other
-                        .verdicts
-                        .get_mut(limit)
-                        .into_iter()
-                        .for_each(|own| own.largest *= scale);
-                }
-            }
-        }
-        Ok(())
-    }
+    let best = trials.map(round).min_by(|a, b| at(*a).total_cmp(&at(*b)));
+    Ok(with_stiffness(&way[0], best.unwrap_or(first)))
 }
 
 /// The scene as it is if that holds; else the cheapest measure that does, and without costs the one with the fewest parts.

@@ -1,7 +1,6 @@
 //! Measures: those of a scene, and the list built in.
 
-use creepage_scene::Scene;
-use creepage_scene::{End, Measure, Restraint};
+use creepage_scene::{End, Measure, Restraint, Scene};
 
 /// Stiffnesses of springs that are tried, as shares of the cable's own EA/L: between them both 1/F and u are read as of a spring
 /// against a spring.
@@ -9,90 +8,67 @@ const SPRINGS: [f64; 4] = [0.03, 0.2, 1.0, 6.0];
 /// Stiffness of clamps as a share of EA/L: ten times as stiff ones bear a tenth more at most.
 const CLAMP: f64 = 10.0;
 /// Places of one clamp, and of two, as shares of the duct's length.
-const ONE: [f64; 3] = [0.1, 0.5, 0.9];
-const TWO: [[f64; 2]; 3] = [[0.02, 0.98], [0.1, 0.9], [0.3, 0.7]];
+const ONE: [&[f64]; 3] = [&[0.1], &[0.5], &[0.9]];
+const TWO: [&[f64]; 3] = [&[0.02, 0.98], &[0.1, 0.9], &[0.3, 0.7]];
 
-/// A measure, or several alike of which the best is looked for.
-pub struct Way {
-    /// What is tried.
-    pub candidates: Vec<Measure>,
-    /// Stiffnesses of the candidates \[N/m\], ascending, where they differ by these alone: what lies between can be built too.
-    pub stiffnesses: Vec<f64>,
-}
+/// A measure, or several alike of which the best is looked for: springs by growing stiffness, of which those between them can be built
+/// too, or clamps at several places.
+pub type Way = Vec<Measure>;
 
-impl Way {
-    fn one(measure: Measure) -> Self {
-        Self {
-            candidates: vec![measure],
-            stiffnesses: Vec::new(),
-        }
-    }
-
-    /// The spring of this stiffness \[N/m\] where the candidates have theirs.
-    pub fn with_spring(&self, stiffness: f64) -> Measure {
-        let mut measure = self.candidates[0].clone();
-        for end in [&mut measure.upstream, &mut measure.downstream] {
-            *end = end.map(|_| End::Spring(stiffness));
-        }
-        measure
-    }
-}
-
-/// What is compared: the scene as it is, then its own measures, or those built in.
+/// What is compared: the scene as it is, then its own measures, or those built in, first what is not looked for.
 pub fn ways(scene: &Scene) -> Vec<Way> {
     let named = |name: &str| Measure {
         name: name.to_owned(),
         ..Measure::default()
     };
-    let mut ways = vec![Way::one(named("as it is"))];
+    let mut ways = vec![vec![named("as it is")]];
     if !scene.measures.is_empty() {
-        ways.extend(scene.measures.iter().cloned().map(Way::one));
+        ways.extend(scene.measures.iter().map(|measure| vec![measure.clone()]));
         return ways;
     }
-    let fixed = Measure {
-        upstream: Some(End::Fixed),
-        downstream: Some(End::Fixed),
-        ..named("both ends fixed")
-    };
-    if fixed.applied(scene) != *scene {
-        ways.push(Way::one(fixed));
-    }
-    let own = scene.cable.axial_stiffness / scene.duct.length;
-    for (name, upstream, downstream) in [
-        ("spring at the upstream end", true, false),
-        ("spring at the downstream end", false, true),
-        ("springs at both ends", true, true),
-    ] {
-        let spring = |stiffness: f64| Measure {
-            upstream: upstream.then_some(End::Spring(stiffness)),
-            downstream: downstream.then_some(End::Spring(stiffness)),
-            ..named(name)
-        };
-        let stiffnesses = SPRINGS.map(|share| share * own);
-        ways.push(Way {
-            candidates: stiffnesses.map(spring).into(),
-            stiffnesses: stiffnesses.into(),
-        });
-    }
-    let clamped = |name: &str, places: &[f64]| Measure {
-        added_restraints: places
-            .iter()
-            .map(|place| Restraint::new(place * scene.duct.length, CLAMP * own))
-            .collect(),
+    let held = |name, [upstream, downstream]: [bool; 2], by: End| Measure {
+        upstream: upstream.then_some(by),
+        downstream: downstream.then_some(by),
         ..named(name)
     };
-    let clamps = |candidates| Way {
-        candidates,
-        stiffnesses: Vec::new(),
-    };
-    ways.push(clamps(ONE.map(|place| clamped("one clamp", &[place])).into()));
-    ways.push(clamps(TWO.map(|places| clamped("two clamps", &places)).into()));
+    let fixed = held("both ends fixed", [true; 2], End::Fixed);
+    if fixed.applied(scene) != *scene {
+        ways.push(vec![fixed]);
+    }
+    let own = scene.cable.axial_stiffness / scene.duct.length;
+    for (name, ends) in [
+        ("spring at the upstream end", [true, false]),
+        ("spring at the downstream end", [false, true]),
+        ("springs at both ends", [true; 2]),
+    ] {
+        ways.push(
+            SPRINGS
+                .map(|share| held(name, ends, End::Spring(share * own)))
+                .into(),
+        );
+    }
+    let clamp = |place: &f64| Restraint::new(place * scene.duct.length, CLAMP * own);
+    for (name, places) in [("one clamp", ONE), ("two clamps", TWO)] {
+        let clamped = |places: &[f64]| Measure {
+            added_restraints: places.iter().map(clamp).collect(),
+            ..named(name)
+        };
+        ways.push(places.map(clamped).into());
+    }
     ways
 }
 
-/// How many ends and clamps a measure changes.
-pub fn parts(measure: &Measure) -> usize {
-    let ends = [measure.upstream, measure.downstream];
-    let clamps = measure.restraints.as_ref().map_or(0, Vec::len) + measure.added_restraints.len();
-    ends.iter().flatten().count() + clamps
+/// The stiffness of the springs of a measure \[N/m\]; none if it has none.
+pub fn stiffness(measure: &Measure) -> Option<f64> {
+    let end = measure.upstream.or(measure.downstream)?;
+    end.stiffness().filter(|stiffness| *stiffness > 0.0)
+}
+
+/// The measure with another stiffness of its springs \[N/m\].
+pub fn with_stiffness(measure: &Measure, stiffness: f64) -> Measure {
+    let mut measure = measure.clone();
+    for end in [&mut measure.upstream, &mut measure.downstream] {
+        *end = end.map(|_| End::Spring(stiffness));
+    }
+    measure
 }

@@ -6,6 +6,7 @@
 //! 1973, chapter 5).
 
 use super::answer::Outcome;
+use super::unknown::{Combination, with};
 
 /// Tops that are higher by less than this share than what was computed say nothing new.
 const GAIN: f64 = 0.002;
@@ -13,16 +14,15 @@ const GAIN: f64 = 0.002;
 const APART: f64 = 0.04;
 
 /// The combination at which the worst may be worse than at all `outcomes`.
-pub fn closer(outcomes: &[Outcome]) -> Option<Vec<f64>> {
+pub fn top(outcomes: &[Outcome]) -> Option<Combination> {
     let computed: Vec<&Outcome> = outcomes
         .iter()
         .filter(|outcome| outcome.failure.is_none())
         .collect();
     let highest = computed.iter().map(|outcome| outcome.share()).fold(0.0, f64::max);
-    let unknowns = computed.first()?.at.len();
     let tops = computed.iter().flat_map(|point| {
-        let of_line = |unknown| top(&computed, point, unknown);
-        (0..unknowns).filter_map(of_line)
+        let along = |key: &String| top_along(&computed, point, key);
+        point.at.keys().filter_map(along)
     });
     let higher = tops.filter(|(_, share)| *share > (1.0 + GAIN) * highest);
     let best = higher.max_by(|(_, a), (_, b)| a.total_cmp(b));
@@ -30,19 +30,12 @@ pub fn closer(outcomes: &[Outcome]) -> Option<Vec<f64>> {
 }
 
 /// The top of the hill along one unknown, if `point` is the highest of its line: where it is, and how high.
-fn top(all: &[&Outcome], point: &Outcome, unknown: usize) -> Option<(Vec<f64>, f64)> {
-    let is_beside = |other: &&&Outcome| {
-        let mut pairs = other.at.iter().zip(&point.at).enumerate();
-        pairs.all(|(index, (a, b))| index == unknown || a == b)
-    };
-    let mut line: Vec<(f64, f64)> = all
-        .iter()
-        .filter(is_beside)
-        .map(|other| (other.at[unknown], other.share()))
-        .collect();
+fn top_along(all: &[&Outcome], point: &Outcome, key: &str) -> Option<(Combination, f64)> {
+    let line = all.iter().filter(|other| other.differs_only_in(key, &point.at));
+    let mut line: Vec<(f64, f64)> = line.map(|other| (other.at[key], other.share())).collect();
     line.sort_by(|a, b| a.0.total_cmp(&b.0));
     let highest = (0..line.len()).max_by(|&a, &b| line[a].1.total_cmp(&line[b].1))?;
-    if line.len() < 3 || line[highest].0 != point.at[unknown] {
+    if line.len() < 3 || line[highest].0 != point.at[key] {
         return None;
     }
     let middle = highest.clamp(1, line.len() - 2);
@@ -56,47 +49,51 @@ fn top(all: &[&Outcome], point: &Outcome, unknown: usize) -> Option<(Vec<f64>, f
     if !(k < 0.0 && (a..=c).contains(&x) && is_apart) {
         return None;
     }
-    let mut at = point.at.clone();
-    at[unknown] = x;
-    Some((at, fb - s * s / (4.0 * k)))
+    Some((with(point.at.clone(), key, x), fb - s * s / (4.0 * k)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::answer::Effort;
     use super::*;
     use creepage_run::{Limited, Place, Verdict};
 
     /// An outcome whose only limit is 1.
-    fn outcome(at: &[f64], largest: f64) -> Outcome {
+    fn outcome(at: &[(&str, f64)], largest: f64) -> Outcome {
         let verdict = serde_json::json!({ "end": Place::Upstream, "quantity": Limited::Force, "limit": 1.0, "largest": largest,
             "reached_after": null, "doubtful": false });
         let verdict: Verdict = serde_json::from_value(verdict).expect("a verdict");
-        Outcome::new(at, Effort::Coarse, vec![verdict], [0.0; 3])
+        let at = at.iter().map(|(key, value)| ((*key).to_owned(), *value));
+        Outcome {
+            verdicts: vec![verdict],
+            ..Outcome::new(&at.collect(), true)
+        }
     }
 
     #[test]
     fn the_top_of_a_parabola_is_found_at_once_wherever_it_is() {
-        for top in [0.22, 0.3, 0.33, 0.48] {
-            let hill = |mu: f64, peak: f64| peak - (mu - top).powi(2);
+        for place in [0.22, 0.3, 0.33, 0.48] {
+            let hill = |mu: f64, peak: f64| peak - (mu - place).powi(2);
             let mut all = Vec::new();
             for mu in [0.2, 0.275, 0.35, 0.425, 0.5] {
-                all.extend([0.8, 1.0, 0.9].map(|peak| outcome(&[mu, peak], hill(mu, peak))));
+                all.extend(
+                    [0.8, 1.0, 0.9].map(|peak| outcome(&[("mu", mu), ("peak", peak)], hill(mu, peak))),
+                );
             }
-            if let Some(at) = closer(&all) {
-                assert!((at[0] - top).abs() < 1e-12 && at[1] == 1.0, "{top}: {at:?}");
+            if let Some(at) = top(&all) {
+                assert!(
+                    (at["mu"] - place).abs() < 1e-12 && at["peak"] == 1.0,
+                    "{place}: {at:?}"
+                );
             } else {
                 let found = all.iter().map(Outcome::share).fold(0.0, f64::max);
-                assert!(found > 1.0 - 2e-3, "{top}: {found}");
+                assert!(found > 1.0 - 2e-3, "{place}: {found}");
             }
         }
     }
 
     #[test]
     fn a_slope_has_its_worst_at_its_end() {
-        let all: Vec<Outcome> = (0..5)
-            .map(|i| outcome(&[f64::from(i)], 1.0 + f64::from(i)))
-            .collect();
-        assert_eq!(closer(&all), None);
+        let slope = (0..5).map(|i| outcome(&[("mu", f64::from(i))], 1.0 + f64::from(i)));
+        assert_eq!(top(&slope.collect::<Vec<_>>()), None);
     }
 }
