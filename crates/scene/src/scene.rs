@@ -9,7 +9,7 @@ use crate::content::Content;
 use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
-use crate::key::Form::{Any, Either, List, Number, Table, Text, Words};
+use crate::key::Form::{Any, Either, Intervals, List, Number, Table, Text, Words};
 use crate::key::{Form, Key, Section as _};
 use crate::range::{
     CLAMP, DEPTH, DUCT_LENGTH, HOLDS, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING,
@@ -51,7 +51,7 @@ keys! {
         /// How to compute.
         solver: Solver = Table(Solver::KEYS), "all is chosen";
         /// What is known only between two values: `creepage measures` and `report` compute all combinations.
-        uncertain: Vec<Uncertain> = Any(INTERVALS), "nothing";
+        uncertain: Vec<Uncertain> = Intervals(|| Scene::KEYS, INTERVALS), "nothing";
         /// Ways to hold the cable that `creepage measures` compares; a list built in if there are none.
         measures: Vec<Measure> = List(&[Table(Measure::KEYS)], 0, "a list of [[measures]]"), "none";
     }

@@ -2,13 +2,12 @@
 
 use serde::Serialize;
 
-use crate::Scene;
 use crate::content::{Content, Node, joined, other_name};
-use crate::error::{Result, SceneError, did_you_mean};
-use crate::key::{Form, Key, Section as _};
-use crate::names::nearest_key;
+use crate::error::{Result, SceneError};
+use crate::key::{Form, Key};
 use crate::shown::shown;
 use crate::stored::{Given, Stored};
+use crate::synonym::meant_by;
 
 /// A key of a number that lies between two values, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,15 +47,24 @@ const KEY: &str = "a key of the scene that takes a number, such as \"friction.dy
 impl Stored for Vec<Uncertain> {
     fn read(given: &Given) -> Result<Self> {
         let mut found = Self::new();
-        match given.node.content {
-            Content::Table(_) => intervals(&mut found, given, "", given.node).map(|()| found),
-            _ => Err(SceneError::value(&given.path, given.node.described(), INTERVALS)),
+        match (given.form, &given.node.content) {
+            (Form::Intervals(all, _), Content::Table(_)) => {
+                intervals(&mut found, all(), &given.path, "", given.node).map(|()| found)
+            }
+            _ => Err(SceneError::value(
+                &given.path,
+                given.node.described(),
+                given.form.allowed(),
+            )),
         }
     }
 
-    fn write(&self, _: Form) -> Content {
+    fn write(&self, form: Form) -> Content {
+        let Form::Intervals(all, _) = form else {
+            return Content::Other;
+        };
         let entry = |uncertain: &'_ Uncertain| {
-            let form = form_at(Scene::KEYS, &uncertain.key)?;
+            let form = form_at(all(), "", &uncertain.key).ok()?;
             let both = [uncertain.low, uncertain.high].map(|value| value.write(form).into());
             Some((uncertain.key.clone(), Content::List(both.into())))
         };
@@ -65,51 +73,65 @@ impl Stored for Vec<Uncertain> {
     }
 }
 
-/// Reads what stands at a key of the table that is given, or below it: `a.b = …` and `"a.b" = …` are the same.
-fn intervals(found: &mut Vec<Uncertain>, given: &Given, key: &str, node: &Node) -> Result<()> {
-    let path = joined(&given.path, key);
+/// Reads what stands at a key of the table at `path`, or below it: `a.b = …` and `"a.b" = …` are the same.
+fn intervals(
+    found: &mut Vec<Uncertain>,
+    all: &'static [Key],
+    path: &str,
+    key: &str,
+    node: &Node,
+) -> Result<()> {
+    let own = joined(path, key);
     let both = match &node.content {
         Content::Table(entries) => {
             let mut below = entries.iter();
             return below
-                .try_for_each(|entry| intervals(found, given, &joined(key, &entry.key), &entry.value));
+                .try_for_each(|entry| intervals(found, all, path, &joined(key, &entry.key), &entry.value));
         }
         Content::List(both) => both,
-        _ => return Err(SceneError::value(&path, node.described(), INTERVAL)),
+        _ => return Err(SceneError::value(&own, node.described(), INTERVAL)),
     };
-    let form = form_at(Scene::KEYS, key).ok_or_else(|| {
-        let meant = did_you_mean(nearest_key(key).as_deref());
-        SceneError::value(&path, format!("`{key}`{meant}"), KEY)
-    })?;
-    let read = |(index, node)| f64::read(&Given::new(joined(&path, index), node, form));
+    let form = form_at(all, path, key)?;
+    let read = |(index, node)| f64::read(&Given::new(joined(&own, index), node, form));
     let both = both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?;
-    let [low, high] = both[..] else {
-        return Err(SceneError::value(&path, node.described(), INTERVAL));
-    };
-    if low >= high {
-        let both = format!("[{}, {}]", shown(low), shown(high));
-        return Err(SceneError::value(&path, both, INTERVAL));
+    match both[..] {
+        [low, high] if low < high => {
+            // What was set later counts.
+            found.retain(|other| other.key != key);
+            found.push(Uncertain::new(key, low, high));
+            Ok(())
+        }
+        _ => {
+            let values = both.into_iter().map(shown).collect::<Vec<_>>().join(", ");
+            Err(SceneError::value(&own, format!("[{values}]"), INTERVAL))
+        }
     }
-    // What was set later counts.
-    found.retain(|other| other.key != key);
-    found.push(Uncertain::new(key, low, high));
-    Ok(())
 }
 
-/// The form of the number at a key such as `vehicles.0.load`, below these keys.
-fn form_at(keys: &'static [Key], path: &str) -> Option<Form> {
-    let (first, mut rest) = path.split_once('.').unwrap_or((path, ""));
+/// The form of the number at a key such as `vehicles.0.load`, below these keys, which stand at `path`.
+fn form_at(keys: &'static [Key], path: &str, key: &str) -> Result<Form> {
+    let (first, rest) = key.split_once('.').unwrap_or((key, ""));
+    let path = joined(path, first);
     let is_named = |key: &&Key| key.name == first || other_name(key.name) == Some(first);
-    let form = keys.iter().find(is_named)?.form;
-    if matches!(form, Form::List(..)) {
-        let (index, below) = rest.split_once('.')?;
-        index.parse::<usize>().ok()?;
-        rest = below;
+    let Some(Key { form, .. }) = keys.iter().find(is_named) else {
+        let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
+        return Err(SceneError::unknown(
+            &path,
+            meant_by(first, &names),
+            names.join(", "),
+        ));
+    };
+    match (form, rest.split_once('.')) {
+        (Form::List(..), Some((index, below))) if index.parse::<usize>().is_ok() => {
+            form_at(form.keys(), &joined(&path, index), below)
+        }
+        (Form::List(..), _) => Err(SceneError::value(&path, format!("`{key}`"), KEY)),
+        _ if rest.is_empty() && form.quantity().is_some() => Ok(*form),
+        _ if rest.is_empty() || form.keys().is_empty() => {
+            Err(SceneError::value(&path, format!("`{key}`"), KEY))
+        }
+        _ => form_at(form.keys(), &path, rest),
     }
-    if rest.is_empty() {
-        return form.quantity().map(|_| form);
-    }
-    form_at(form.keys(), rest)
 }
 
 /// What a measure costs.

@@ -3,13 +3,13 @@
 use std::io;
 
 use rust_xlsxwriter::XlsxError;
+use serde_json::{Map, Value, json};
 
-use crate::words::Reader;
-use crate::words::measures::{measures, recommendation};
-use creepage_run::Limited;
+use super::{table, text};
+use crate::words::{Reader, measures};
 use creepage_scene::{SceneFile, si_unit};
-use creepage_study::book::{Book, Cell, scene};
-use creepage_study::measures::Comparison;
+use creepage_study::book::{Book, scene};
+use creepage_study::measures::{Comparison, Outcome};
 
 /// The file of a workbook.
 ///
@@ -22,48 +22,37 @@ pub fn of_measures(comparison: &Comparison, reader: &Reader, file: &SceneFile) -
 
 fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<Vec<u8>, XlsxError> {
     let mut book = Book::new(&comparison.title)?;
-    let table = measures(comparison, reader);
-    let columns: Vec<(&str, &str)> = table.head.iter().map(|name| (name.as_str(), "")).collect();
+    let words = measures::measures(comparison, reader);
+    let columns: Vec<(&str, &str)> = words.head.iter().map(|name| (name.as_str(), "")).collect();
     book.sheet("measures", &columns)?;
-    for row in table.rows {
-        let cells = row.into_iter().map(|text| Cell::Text(text.replace('\u{ad}', "")));
-        book.row(cells, false)?;
+    for row in words.rows {
+        // Without soft hyphens.
+        book.row(row.iter().map(|cell| text(cell.replace('\u{ad}', ""))), false)?;
     }
-    book.row([Cell::Text(recommendation(comparison, reader))], false)?;
-    let [force, movement] = [Limited::Force, Limited::Movement].map(|quantity| reader.unit(quantity));
-    let keys = comparison.uncertain.iter().map(|unknown| &*unknown.key);
-    let keys = keys.map(|key| (key, si_unit(key).unwrap_or_default()));
-    let columns: Vec<(&str, &str)> = [("measure", "")]
-        .into_iter()
-        .chain(keys)
-        .chain([
-            ("force on an end", force.symbol()),
-            ("movement of an end", movement.symbol()),
-            ("force on a clamp", force.symbol()),
-            ("largest share of a limit", ""),
-        ])
-        .collect();
-    book.sheet("combinations", &columns)?;
-    for measure in &comparison.measures {
-        for outcome in &measure.outcomes {
-            let mut cells = vec![Cell::Text(measure.name.clone())];
-            cells.extend(
-                comparison
-                    .uncertain
-                    .iter()
-                    .map(|unknown| Cell::Number(outcome.at[&unknown.key])),
-            );
-            cells.extend([
-                Cell::Number(force.of_si(outcome.force_n)),
-                Cell::Number(movement.of_si(outcome.movement_m)),
-                outcome
-                    .clamp_force_n
-                    .map_or(Cell::Absent, |clamp| Cell::Number(force.of_si(clamp))),
-                Cell::Share(outcome.share()),
-            ]);
-            book.row(cells, outcome.failure.is_some())?;
-        }
-    }
+    book.row([text(measures::recommendation(comparison, reader))], false)?;
+    let records = comparison.measures.iter().flat_map(|measure| {
+        let outcomes = measure.outcomes.iter();
+        outcomes.map(|outcome| record(&measure.name, outcome))
+    });
+    table(&mut book, "combinations", &records.collect(), &reader.units)?;
     scene(&mut book, file)?;
     book.finish()
+}
+
+/// A row for one combination; values of keys are in SI.
+fn record(measure: &str, outcome: &Outcome) -> Value {
+    let named = |key: &String| si_unit(key).map_or(key.clone(), |unit| format!("{key}, {unit}"));
+    let keys = outcome.at.iter().map(|(key, value)| (named(key), json!(value)));
+    let mut record = Map::from_iter([("measure".to_owned(), json!(measure))]);
+    record.extend(keys);
+    for (field, value) in [
+        ("force_n", json!(outcome.force_n)),
+        ("movement_m", json!(outcome.movement_m)),
+        ("clamp_force_n", json!(outcome.clamp_force_n)),
+        ("share_of_a_limit", json!(outcome.share())),
+        ("failure", json!(outcome.failure)),
+    ] {
+        record.insert(field.to_owned(), value);
+    }
+    Value::Object(record)
 }
