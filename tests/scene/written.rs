@@ -115,6 +115,15 @@ fn passes() -> impl Strategy<Value = Passes> {
     ]
 }
 
+/// So that they are in the duct.
+fn clamps_of_measures_at(scene: &mut Scene, position: f64) {
+    for measure in &mut scene.measures {
+        let replaced = measure.restraints.iter_mut().flatten();
+        let clamps = replaced.chain(&mut measure.added_restraints);
+        clamps.for_each(|clamp| clamp.position = position);
+    }
+}
+
 fn scene() -> impl Strategy<Value = Scene> {
     let duct = (1.0..1e4, length(), -9.0..9.0);
     let scaling = option::of((any::<bool>(), 1e-6..1e-3));
@@ -196,11 +205,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                         },
                     ];
                 }
-                for measure in &mut scene.measures {
-                    let replaced = measure.restraints.iter_mut().flatten();
-                    let clamps = replaced.chain(&mut measure.added_restraints);
-                    clamps.for_each(|clamp| clamp.position = 0.4 * length);
-                }
+                clamps_of_measures_at(&mut scene, 0.4 * length);
                 scene.vehicles = vec![vehicles.0, vehicles.1, vehicles.2];
                 let traffic = &mut scene.traffic;
                 (traffic.order, traffic.seed) = (Following::Interleaved, 1);

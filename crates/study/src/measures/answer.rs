@@ -88,7 +88,7 @@ pub struct MeasureAnswer {
     pub kept: usize,
     /// The worst combination; null where every run failed.
     pub worst: Option<Outcome>,
-    /// The middle of all intervals.
+    /// The middle of all intervals, on the coarse mesh unless it is near a limit.
     pub nominal: Option<Outcome>,
     /// Runs that failed: combination and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -142,8 +142,8 @@ impl MeasureAnswer {
         scene: &Scene,
         measure: &Measure,
         outcomes: Vec<Outcome>,
+        nominal: Option<&Outcome>,
         combinations: &[Combination],
-        middle: &Combination,
     ) -> Self {
         let held = measure.applied(scene);
         let asked = outcomes
@@ -159,10 +159,7 @@ impl MeasureAnswer {
             within_limits: outcomes.iter().all(Outcome::holds),
             kept: asked.filter(|outcome| outcome.holds()).count(),
             worst: worst(&outcomes).map(Outcome::sorted),
-            nominal: outcomes
-                .iter()
-                .find(|outcome| outcome.at == *middle)
-                .map(Outcome::sorted),
+            nominal: nominal.map(Outcome::sorted),
             failures: outcomes.iter().filter_map(failure).collect(),
             outcomes,
         }

@@ -113,7 +113,7 @@ impl Study {
         else {
             return Ok(first);
         };
-        let critical = [critical, &[worst.at.clone()]].concat();
+        let critical = [critical, std::slice::from_ref(&worst.at)].concat();
         let second = self.tried(runs, best(runs, way, &critical)?)?;
         Ok(if largest(&second.outcomes) < most {
             second
@@ -135,42 +135,38 @@ impl Study {
     /// The measure with its worst run with the scene's tolerance; and all that is near a limit, until it is known to exceed one or to hold.
     fn decided(&self, runs: &Runs<'_>, mut tried: Tried) -> Result<MeasureAnswer, Error> {
         let all = &mut tried.outcomes;
-        loop {
+        let middle = middle(&self.unknowns);
+        let rough_nominal = all.iter().find(|outcome| outcome.at == middle).cloned();
+        while let Some(next) = worst(all.iter().filter(|outcome| outcome.rough)).cloned() {
             let decided = all.iter().filter(|outcome| !outcome.rough);
-            let (count, known) = (
-                decided.clone().count(),
-                decided.map(Outcome::share).fold(0.0, f64::max),
-            );
-            let Some(next) = worst(all.iter().filter(|outcome| outcome.rough)).cloned() else {
-                break;
-            };
+            let count = decided.clone().count();
+            let known = decided.map(Outcome::share).fold(0.0, f64::max);
             let is_near = (next.share() - 1.0).abs() < DOUBT && known <= 1.0;
             if !is_near && (count == DECISIVE || next.share() <= known) {
                 break;
             }
             let own = runs.run(&tried.measure, &next.at, false)?;
-            // What the scene's tolerance changes there scales the others, which are coarser (space mapping: J. W. Bandler et al., IEEE
+            // What the scene's tolerance changes there scales the others for what follows (space mapping: J. W. Bandler et al., IEEE
             // Trans. Microwave Theory Tech. 42 (1994) 2536).
-            for (limit, (old, new)) in next.verdicts.iter().zip(&own.verdicts).enumerate() {
-                let rough = all
-                    .iter_mut()
-                    .filter(|outcome| outcome.rough && old.largest > 0.0);
-                for verdict in rough.filter_map(|outcome| outcome.verdicts.get_mut(limit)) {
-                    verdict.largest *= new.largest / old.largest;
+            for outcome in all.iter_mut().filter(|outcome| outcome.rough) {
+                let known = next.verdicts.iter().zip(&own.verdicts);
+                for (verdict, (old, new)) in outcome.verdicts.iter_mut().zip(known) {
+                    let scale = new.largest / old.largest;
+                    verdict.largest *= if scale.is_finite() { scale } else { 1.0 };
                 }
             }
-            all.iter_mut()
-                .filter(|outcome| outcome.at == next.at)
-                .for_each(|outcome| *outcome = own.clone());
+            all.retain(|outcome| outcome.at != next.at);
+            all.push(own);
         }
-        let (scene, middle) = (&self.scene, middle(&self.unknowns));
         let Tried { measure, outcomes } = tried;
+        let is_nominal = |outcome: &&Outcome| outcome.at == middle && !outcome.rough;
+        let nominal = outcomes.iter().find(is_nominal).cloned().or(rough_nominal);
         Ok(MeasureAnswer::new(
-            scene,
+            &self.scene,
             &measure,
             outcomes,
+            nominal.as_ref(),
             &self.combinations,
-            &middle,
         ))
     }
 
