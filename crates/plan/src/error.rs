@@ -100,7 +100,7 @@ pub enum Error {
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
-    /// The [`Progress`](crate::Progress) callback stopped the computation.
+    /// The callback of progress stopped the computation.
     #[error("stopped before it was done")]
     Stopped,
     /// There is no pass whose answer could be told.

@@ -90,8 +90,13 @@ fn number(quantity: Quantity) -> Value {
         return number;
     };
     let units: Vec<String> = dimension.units().map(unit).collect();
-    let digits = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
-    let pattern = format!("^\\s*{digits}\\s*({})\\s*$", units.join("|"));
+    let digits = match least {
+        ..0.0 => "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
+        0.0 => "\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
+        _ => "\\+?0*\\.?0*[1-9][0-9]*\\.?[0-9]*",
+    };
+    let units = units.join("|");
+    let pattern = format!("^\\s*{digits}([eE][-+]?[0-9]+)?\\s*({units})\\s*$");
     json!({ "anyOf": [number, { "type": "string", "pattern": pattern }] })
 }
 

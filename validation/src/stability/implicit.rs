@@ -2,7 +2,7 @@
 //!
 //! Second pass over 15 m of duct with nodes 0.2 m apart. Both solve the same steps of the same chain, from the ground at rest to the ground at rest, and so does what is right:
 //! Newton's method damped by a line search on the step's convex energy, which always arrives. Plain Newton takes full steps
-//! and goes on with what it has after [`PLAIN_STEPS`], as many programs do.
+//! and goes on with what it has after `PLAIN_STEPS`, as many programs do.
 
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 //!
 //! The friction number compares the largest longitudinal displacement D of the duct with the displacement q z²/EA that
 //! friction can impose on the cable over a depth z: small, the cable follows its duct; large, it is dragged through. Right is
-//! the simulation of every pass, on the same mesh. The worst of the forces on the held end after [`PASSES`] counts, as a share of the
+//! the simulation of every pass, on the same mesh. The worst of the forces on the held end after `PASSES` counts, as a share of the
 //! larger of the right one and a tenth of the largest. With guards, jumps are held
 //! to simulated passes. Without them, jumps of fixed lengths are taken whatever their error.
 

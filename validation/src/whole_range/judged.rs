@@ -79,7 +79,7 @@ fn outcome(text: &str) -> (Outcome, Option<f64>) {
     (Outcome::Right, stated)
 }
 
-/// The run of a scene, unless it takes longer than [`GIVEN_UP`].
+/// The run of a scene, unless it takes longer than `GIVEN_UP`.
 pub fn run(scene: &Scene) -> Result<Run, Error> {
     let begun = Instant::now();
     let watch = |_: f64| {

@@ -43,7 +43,10 @@ impl Sweep {
     ///
     /// As for [`read`] and [`Sweep::of_table`].
     pub fn of_rows(file: SceneFile, table: &Path, options: &Options, samples: Samples) -> Result<Self> {
-        Self::of_table(file, read(table, options)?, samples)
+        table::ending(table)?;
+        let table = Table::from_file(table, options, &LAYOUT)?;
+        let sweep = Self::of_table(file, columns(&table)?, samples);
+        sweep.map_err(|error| error.in_table(&table.file, table.line))
     }
 }
 
@@ -57,7 +60,10 @@ impl Sweep {
 /// otherwise.
 pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>> {
     table::ending(file)?;
-    let table = Table::from_file(file, options, &LAYOUT)?;
+    columns(&Table::from_file(file, options, &LAYOUT)?)
+}
+
+fn columns(table: &Table) -> Result<Vec<(String, Vec<String>)>> {
     let value = |row: &Row, column: usize| -> Result<String> {
         let is_number = (LAYOUT.is_number)(&table.names[column]);
         let number = is_number.then(|| table.quantity(row, column, column));

@@ -13,7 +13,7 @@ pub enum SweepError {
     /// A varied key is not written as it has to be, or keys, samples and output do not fit together.
     #[error("{argument}found {found}; allowed: {allowed}")]
     Invalid {
-        /// The argument with a colon behind it; empty where it is none alone.
+        /// The argument, or the file and the line, with a colon behind it; empty if it is none alone.
         argument: String,
         /// What was found.
         found: String,
@@ -56,6 +56,16 @@ impl SweepError {
             found: found.into(),
             allowed: allowed.into(),
         }
+    }
+
+    /// The same of a table in `file`, whose header is on this line.
+    pub(super) fn in_table(mut self, file: &str, line: u64) -> Self {
+        if let Self::Invalid { argument, .. } = &mut self
+            && argument.is_empty()
+        {
+            *argument = format!("{file}:{line}: ");
+        }
+        self
     }
 
     /// Whether the input is at fault, not the computation.
