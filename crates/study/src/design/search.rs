@@ -85,7 +85,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     })
 }
 
-/// The runs of the scene, none of them rough, with one spring and with what to take of those within
+/// The runs of the scene with one spring, the rough ones, and what to take of those within
 /// all limits. Where the curve shows none, the stiffness is halved in on at which the worst limit of
 /// softer springs is as far exceeded as that of stiffer ones.
 fn one_spring<'a>(
@@ -139,26 +139,20 @@ fn one_spring<'a>(
 /// Springs that a curve of rough runs leaves open: those near a limit, or beside one on its other side, the best and those
 /// beside it, and both ends of the curve; the best one alone where a limit is out of reach.
 fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<Spring> {
-    let excess = |point: &TradeOff| point.excess(limits);
-    let all = 0..curve.len();
-    let best = all
-        .clone()
-        .min_by(|a, b| excess(&curve[*a]).total_cmp(&excess(&curve[*b])));
+    let excess = |at: usize| curve[at].excess(limits);
+    let best = (0..curve.len()).min_by(|a, b| excess(*a).total_cmp(&excess(*b)));
     let best = best.unwrap_or_default();
-    if !out_of_reach(curve, limits).is_empty() {
-        return vec![curve[best].springs[0]];
-    }
+    let is_hopeless = !out_of_reach(curve, limits).is_empty();
     let is_open = |at: &usize| {
         let around = &curve[at.saturating_sub(1)..(at + 2).min(curve.len())];
-        let is_near = (1.0 / NEAR..NEAR).contains(&excess(&curve[*at]));
-        around.len() < 3
-            || is_near
-            || around
-                .iter()
-                .any(|other| other.within_limits != curve[*at].within_limits)
+        let turns = around
+            .iter()
+            .any(|other| other.within_limits != curve[*at].within_limits);
+        let is_near = (1.0 / NEAR..NEAR).contains(&excess(*at));
+        // The search halves in beside the best, which may be the next one on a finer mesh.
+        around.len() < 3 || turns || is_near || at.abs_diff(best) <= 2
     };
-    // The search halves in beside the best, which may be the next one on a finer mesh.
-    let open = all.filter(|at| at.abs_diff(best) <= 2 || is_open(at));
+    let open = (0..curve.len()).filter(|at| if is_hopeless { *at == best } else { is_open(at) });
     open.map(|at| curve[at].springs[0]).collect()
 }
 

@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::unknown::{Combination, middle};
 use creepage_run::Verdict;
-use creepage_scene::{Cost, Ends, Measure, Restraint, Scene, Uncertain};
+use creepage_scene::{Cost, Ends, Restraint, Uncertain};
 
 /// One measure with one combination of what is not known.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Outcome {
     /// The values of all unknowns.
     pub at: Combination,
@@ -28,18 +28,6 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(at: &Combination, rough: bool) -> Self {
-        Self {
-            at: at.clone(),
-            rough,
-            verdicts: Vec::new(),
-            force_n: 0.0,
-            movement_m: 0.0,
-            clamp_force_n: None,
-            failure: None,
-        }
-    }
-
     /// What the largest is of its limit: at most 1 within all limits. Nothing is known of a run that failed.
     pub fn share(&self) -> f64 {
         self.verdicts.iter().map(share).fold(0.0, f64::max)
@@ -52,7 +40,7 @@ impl Outcome {
     }
 
     /// The same with the verdict first that is nearest to its limit.
-    fn sorted(&self) -> Self {
+    pub(super) fn sorted(&self) -> Self {
         let mut sorted = self.clone();
         sorted.verdicts.sort_by(|a, b| share(b).total_cmp(&share(a)));
         sorted
@@ -138,33 +126,6 @@ impl Comparison {
 }
 
 impl MeasureAnswer {
-    pub(super) fn new(
-        scene: &Scene,
-        measure: &Measure,
-        outcomes: Vec<Outcome>,
-        nominal: Option<&Outcome>,
-        combinations: &[Combination],
-    ) -> Self {
-        let held = measure.applied(scene);
-        let asked = outcomes
-            .iter()
-            .filter(|outcome| combinations.contains(&outcome.at));
-        let failure = |outcome: &Outcome| Some((outcome.at.clone(), outcome.failure.clone()?));
-        Self {
-            name: measure.name.clone(),
-            ends: held.ends,
-            restraints: held.restraints,
-            cost: measure.cost.clone(),
-            parts: measure.parts(),
-            within_limits: outcomes.iter().all(Outcome::holds),
-            kept: asked.filter(|outcome| outcome.holds()).count(),
-            worst: worst(&outcomes).map(Outcome::sorted),
-            nominal: nominal.map(Outcome::sorted),
-            failures: outcomes.iter().filter_map(failure).collect(),
-            outcomes,
-        }
-    }
-
     /// What the worst is of its limit.
     pub fn share(&self) -> f64 {
         worst(&self.outcomes).map_or(f64::INFINITY, Outcome::share)

@@ -64,8 +64,9 @@ mod tests {
         let verdict: Verdict = serde_json::from_value(verdict).expect("a verdict");
         let at = at.iter().map(|(key, value)| ((*key).to_owned(), *value));
         Outcome {
+            at: at.collect(),
             verdicts: vec![verdict],
-            ..Outcome::new(&at.collect(), true)
+            ..Outcome::default()
         }
     }
 

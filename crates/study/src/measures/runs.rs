@@ -122,7 +122,11 @@ impl<'a> Runs<'a> {
 
     /// The same in one of them, rough or not.
     pub fn run(&self, measure: &Measure, at: &Combination, rough: bool) -> Result<Outcome, Error> {
-        let mut outcome = Outcome::new(at, rough);
+        let mut outcome = Outcome {
+            at: at.clone(),
+            rough,
+            ..Outcome::default()
+        };
         match self.computed(measure, at, rough) {
             Err(Error::Stopped) => return Err(Error::Stopped),
             Err(error) => outcome.failure = Some(creepage_plan::with_causes(&error)),

@@ -132,11 +132,8 @@ impl Study {
         Ok(Tried { measure, outcomes })
     }
 
-    /// The measure with its worst run with the scene's tolerance; and all that is near a limit, until it is known to exceed one or to hold.
-    fn decided(&self, runs: &Runs<'_>, mut tried: Tried) -> Result<MeasureAnswer, Error> {
-        let all = &mut tried.outcomes;
-        let middle = middle(&self.unknowns);
-        let rough_nominal = all.iter().find(|outcome| outcome.at == middle).cloned();
+    /// Runs the worst with the scene's tolerance; and all that is near a limit, until the measure is known to exceed one or to hold.
+    fn decide(runs: &Runs<'_>, measure: &Measure, all: &mut Vec<Outcome>) -> Result<(), Error> {
         while let Some(next) = worst(all.iter().filter(|outcome| outcome.rough)).cloned() {
             let decided = all.iter().filter(|outcome| !outcome.rough);
             let count = decided.clone().count();
@@ -145,7 +142,7 @@ impl Study {
             if !is_near && (count == DECISIVE || next.share() <= known) {
                 break;
             }
-            let own = runs.run(&tried.measure, &next.at, false)?;
+            let own = runs.run(measure, &next.at, false)?;
             // What the scene's tolerance changes there scales the others for what follows (space mapping: J. W. Bandler et al., IEEE
             // Trans. Microwave Theory Tech. 42 (1994) 2536).
             for outcome in all.iter_mut().filter(|outcome| outcome.rough) {
@@ -158,16 +155,36 @@ impl Study {
             all.retain(|outcome| outcome.at != next.at);
             all.push(own);
         }
-        let Tried { measure, outcomes } = tried;
+        Ok(())
+    }
+
+    /// What is said of a measure.
+    fn decided(&self, runs: &Runs<'_>, tried: Tried) -> Result<MeasureAnswer, Error> {
+        let Tried {
+            measure,
+            mut outcomes,
+        } = tried;
+        let middle = middle(&self.unknowns);
+        let rough_nominal = outcomes.iter().find(|outcome| outcome.at == middle).cloned();
+        Self::decide(runs, &measure, &mut outcomes)?;
         let is_nominal = |outcome: &&Outcome| outcome.at == middle && !outcome.rough;
         let nominal = outcomes.iter().find(is_nominal).cloned().or(rough_nominal);
-        Ok(MeasureAnswer::new(
-            &self.scene,
-            &measure,
+        let held = measure.applied(&self.scene);
+        let asked = outcomes.iter().filter(|outcome| self.asks(outcome));
+        let failure = |outcome: &Outcome| Some((outcome.at.clone(), outcome.failure.clone()?));
+        Ok(MeasureAnswer {
+            name: measure.name.clone(),
+            ends: held.ends,
+            restraints: held.restraints,
+            cost: measure.cost.clone(),
+            parts: measure.parts(),
+            within_limits: outcomes.iter().all(Outcome::holds),
+            kept: asked.filter(|outcome| outcome.holds()).count(),
+            worst: worst(&outcomes).map(Outcome::sorted),
+            nominal: nominal.as_ref().map(Outcome::sorted),
+            failures: outcomes.iter().filter_map(failure).collect(),
             outcomes,
-            nominal.as_ref(),
-            &self.combinations,
-        ))
+        })
     }
 
     fn answer(&self, runs: usize, measures: Vec<MeasureAnswer>) -> Comparison {
