@@ -167,7 +167,7 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
     Table {
         head: head.map(str::to_owned).collect(),
         rows: comparison.measures.iter().map(row).collect(),
-        words: 4,
+        words: 6,
     }
 }
 
