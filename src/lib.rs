@@ -65,7 +65,7 @@ pub use ::calibrate as fitting;
 pub use creepage_scene as scene;
 pub use creepage_scene::presets;
 #[cfg(feature = "study")]
-pub use creepage_study::{design, output, sweep};
+pub use creepage_study::{design, measures, output, sweep};
 #[cfg(feature = "fem")]
 pub use layered_fem;
 #[cfg(feature = "study")]

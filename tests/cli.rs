@@ -461,7 +461,7 @@ fn help_and_version_are_no_errors_and_name_every_command() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert_says(&printed(&format!("completions {shell}")), &commands);
     }
-    for command in "run plan sweep design report explain calibrate presets".split(' ') {
+    for command in "run plan sweep design measures report explain calibrate presets".split(' ') {
         let help = printed(&format!("{command} --help"));
         assert!(help.trim_end().ends_with("130 stopped by Ctrl-C."), "{help}");
     }
@@ -545,8 +545,21 @@ fn a_new_scene_passes_the_check_and_runs() {
             written.matches('#').count() > 15 && written.contains("passes = 3"),
             "{written}"
         );
-        assert_says(&printed(&format!("check {path}")), &["valid"]);
-        assert!(last_force(&json(&format!("run {path}"))).is_finite());
+        let (status, said, warned) = output(&format!("check {path}"));
+        assert!(status == 0 && said.contains("valid"), "{said}{warned}");
+        let (document, same) = answered(&format!("run {path}"));
+        assert!(last_force(&document).is_finite());
+        // The last two grounds give way more than roads do, and nothing else is warned of.
+        let is_soft = index >= 2;
+        assert_eq!(
+            warned.contains("far above what is measured under roads"),
+            is_soft,
+            "{warned}"
+        );
+        assert!(
+            warned == same && warned.lines().count() == usize::from(is_soft),
+            "{warned}{same}"
+        );
         // It is there now, and stays as it is.
         assert_eq!(output(&format!("new {path}")).0, 2);
         assert_eq!(fs::read_to_string(&file).expect("the scene"), written);

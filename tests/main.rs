@@ -39,6 +39,8 @@ mod heat;
 mod house;
 #[path = "lanes.rs"]
 mod lanes;
+#[path = "measures.rs"]
+mod measures;
 #[path = "messages.rs"]
 mod messages;
 #[path = "methods.rs"]

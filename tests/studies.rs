@@ -1,4 +1,4 @@
-//! `creepage sweep` and `creepage design`, from outside.
+//! `creepage sweep`, `creepage design` and `creepage measures`, from outside.
 
 use std::fs;
 
@@ -126,4 +126,42 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
         "limit kept: the cable at the clamp at 13 m moves by at most ",
     ];
     assert_says(&printed(&format!("run {SHORT} {clamp} {limits}")), &parts);
+}
+
+#[test]
+fn measures_are_compared_in_words_and_as_json() {
+    const MEASURES: &str = "measures UPPER --set traffic.passes=8 --set 'duct.length=15 m' \
+                            --set 'measures=[{ name = \"fixed\", upstream = \"fixed\" }]' \
+                            --uncertain friction.dynamic_coefficient=0.2:0.4 --uncertain ground.vertical_peak=20um:40um";
+    let kept = format!("{MEASURES} --limit-force '10 kN' --limit-movement '0.1 m'");
+    let parts = [
+        "friction 0.2 to 0.4, deflection 20 µm to 40 µm; 15 combinations",
+        "Recommended: as it is: nothing needs to be fitted",
+    ];
+    assert_says(&printed(&kept), &parts);
+    let document = json(&kept);
+    assert_eq!(document["recommended"], "as it is");
+    let fixed = &document["measures"][1];
+    assert_eq!(
+        (&fixed["name"], &fixed["within_limits"]),
+        (&"fixed".into(), &true.into())
+    );
+    assert_eq!(fixed["ends"]["upstream"], "fixed");
+    assert_eq!(list(&fixed["restraints"]).len(), 0);
+    let [worst, nominal] = ["worst", "nominal"].map(|name| &fixed[name]);
+    let [largest, in_middle] = [worst, nominal].map(|outcome| number(&outcome["verdicts"][0]["largest"]));
+    assert!(
+        in_middle <= largest && largest < number(&worst["verdicts"][0]["limit"]),
+        "{fixed}"
+    );
+    assert_eq!(
+        worst["at"].as_object().map(serde_json::Map::len),
+        Some(2),
+        "{worst}"
+    );
+    // Nothing holds: what comes nearest, and status 1.
+    let (status, said, failed) = output(&format!("{MEASURES} --limit-force '1 N'"));
+    assert_eq!(status, 1);
+    assert_says(&said, &["comes nearest", "What decides most is "]);
+    assert_says(&failed, &["no measure holds in every combination"]);
 }

@@ -194,9 +194,17 @@ fn is_near(design: &Design) -> bool {
 
 /// That nothing is within the limits, and what to try.
 pub fn why_none(design: &Design) -> String {
+    let far = design.out_of_reach.first().map_or_else(String::new, |limit| {
+        let [least, limit_of] =
+            [limit.value, limit.limit].map(|value| limit.quantity.shown_in(&Units::default(), value));
+        format!(
+            ", as the {} is {least} at least, limit {limit_of}",
+            limit.quantity.at(limit.end)
+        )
+    });
     format!(
-        "{}: the nearest is on standard output, with what it exceeds; try springs at both ends or a clamp (--at), a larger limit, or less load \
-         on the duct",
+        "{}{far}: the nearest is on standard output, with what it exceeds; try springs at both ends (--at upstream+downstream), a clamp \
+         (--at \"20 m\"), a larger limit, or less load on the duct; `creepage measures` compares them",
         none(design)
     )
 }

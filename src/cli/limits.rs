@@ -195,6 +195,11 @@ impl LimitArguments {
                 limit.of.check(argument, &clamps, &there)?;
             }
         }
+        Ok(self.wherever_they_are(scene))
+    }
+
+    /// The limits of whatever ends and clamps `scene` has; those of other places are left out.
+    pub fn wherever_they_are(&self, scene: &Scene) -> Limits {
         let mut limits = Limits::default();
         for end in CableEnd::ALL {
             *limits.of_mut(end) = self.at(end.into());
@@ -210,7 +215,7 @@ impl LimitArguments {
                 });
             }
         }
-        Ok(limits)
+        limits
     }
 
     /// The limits at one place.

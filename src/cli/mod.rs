@@ -10,6 +10,7 @@ mod explain;
 mod explore;
 mod failure;
 mod limits;
+mod measures;
 mod new;
 mod outputs;
 mod plan;
@@ -68,6 +69,8 @@ enum Command {
     Sweep(Box<sweep::Arguments>),
     /// Find the springs or the clamp that stay within limits of force and movement
     Design(Box<design::Arguments>),
+    /// Compare measures, whatever is not known: does each hold, and which to take
+    Measures(Box<measures::Arguments>),
     /// Write a self-contained HTML report with figures
     Report(Box<report::Arguments>),
     /// Show a page on this machine with the scene's numbers as sliders, whose answer follows the hand
@@ -138,6 +141,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Check(arguments) => check::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
+        Command::Measures(arguments) => measures::execute(arguments),
         Command::Report(arguments) => report::execute(arguments),
         #[cfg(feature = "explore")]
         Command::Explore(arguments) => explore::execute(arguments),

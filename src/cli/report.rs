@@ -10,11 +10,15 @@ use super::limits::{CheckArgument, LimitArguments};
 use super::outputs::{Force, output};
 use super::progress::watched;
 use super::readings::ReadArguments;
-use super::shared::{Input, TrafficArguments};
+use super::shared::{Input, TrafficArguments, UncertainArguments};
 use super::state::StartArgument;
 use super::terminal;
+use crate::Scene;
+use crate::measures::Study;
 use crate::report::{Report, ReportOptions, Source};
 
+/// Share of the progress that measures have where they are compared.
+const MEASURES_SHARE: f64 = 0.9;
 /// Names the time of a page in place of the clock.
 const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
@@ -43,6 +47,8 @@ pub struct Arguments {
     #[command(flatten)]
     limits: LimitArguments,
     #[command(flatten)]
+    uncertain: UncertainArguments,
+    #[command(flatten)]
     check: CheckArgument,
     #[command(flatten)]
     force: Force,
@@ -51,7 +57,7 @@ pub struct Arguments {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::of(arguments.scene.read()?)?;
+    let input = Input::of(arguments.uncertain.on(&arguments.scene.read()?)?)?;
     let limits = arguments.limits.limits(&input.scene)?;
     arguments.check.needs(&arguments.limits)?;
     let readings = arguments
@@ -76,8 +82,21 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let allowed = "a page of HTML, such as my-duct.html, which a browser also prints to PDF";
     let page = output(&mut files, "--output", &arguments.output, "html", allowed)?;
     let start = arguments.start.start()?;
-    let words = |_| "the scene's run, then ways to hold the cable".to_owned();
+    // Days of heat take long: what nobody asked for is not assumed there.
+    let is_asked = input.scene.heat.is_none() || !input.scene.uncertain.is_empty();
+    let study = arguments.limits.are_given() && start.is_none() && is_asked;
+    let study = study.then(|| Study::new(input.file())).transpose()?;
+    let words = |_| "the scene's run, and ways to hold the cable".to_owned();
     let report = watched(1.0, words, |progress| {
+        let (of_measures, mut of_page) = (progress.part(0.0, MEASURES_SHARE), progress);
+        let mut compared = None;
+        if let Some(study) = &study {
+            compared = Some(study.compare(
+                &|scene: &Scene| arguments.limits.wherever_they_are(scene),
+                of_measures,
+            )?);
+            of_page = progress.part(MEASURES_SHARE, 1.0);
+        }
         Report::new(
             &input.scene,
             &ReportOptions {
@@ -89,7 +108,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
                 sources: &sources,
                 overrides: &overrides,
                 date: Some(&date),
-                progress,
+                compared: compared.as_ref(),
+                progress: of_page,
                 ..ReportOptions::default()
             },
         )

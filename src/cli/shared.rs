@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::failure::Failure;
 pub use super::outputs::{Force, Json, OutputArguments};
 use super::terminal;
-use crate::scene::{DAYS_PER_YEAR, PER_DAY, Quantity, YEARS};
+use crate::scene::{DAYS_PER_YEAR, PER_DAY, Quantity, YEARS, quoted};
 use crate::{Error, Scene, SceneFile};
 
 #[derive(Debug, clap::Args)]
@@ -81,6 +81,38 @@ impl TrafficArguments {
             .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
         self.file.set.iter().cloned().chain(given).collect()
     }
+}
+
+/// What one does not know of a scene.
+#[derive(Debug, clap::Args)]
+pub struct UncertainArguments {
+    /// A key of which only the lowest and the highest value are known, friction.dynamic_coefficient=0.2:0.5 or
+    /// ground.vertical_peak=90um:150um, as in [uncertain]; may be repeated
+    #[arg(long, value_name = "KEY=LOW:HIGH", value_parser = interval)]
+    uncertain: Vec<String>,
+}
+
+impl UncertainArguments {
+    /// The file with these too.
+    pub fn on(&self, file: &SceneFile) -> Result<SceneFile, Failure> {
+        Ok(file.with(&self.uncertain)?)
+    }
+}
+
+/// The override of an interval, such as `uncertain.ground.vertical_peak=["90um", "150um"]`.
+fn interval(text: &str) -> Result<String, String> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(key, both)| Some((key, both.split_once(':')?)));
+    let value = |text: &str| match text.trim().parse::<f64>() {
+        Ok(number) => format!("{number:?}"),
+        Err(_) => quoted(text.trim()),
+    };
+    let set =
+        parts.map(|(key, (low, high))| format!("uncertain.{}=[{}, {}]", key.trim(), value(low), value(high)));
+    set.ok_or_else(|| {
+        format!("found `{text}`; allowed: KEY=LOW:HIGH without spaces, such as friction.dynamic_coefficient=0.2:0.5")
+    })
 }
 
 /// Vehicles a day, in the range of the scene's own key.

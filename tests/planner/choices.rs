@@ -207,8 +207,9 @@ fn a_vehicle_near_the_speed_of_the_grounds_waves_is_warned_of() {
         let text = on(soft, POINT, PASSES).replace("40 km/h", speed);
         plan(&text).warnings
     };
-    assert!(at("60 km/h").is_empty());
-    assert!(at("90 km/h")[0].contains("shear waves"), "{:?}", at("90 km/h"));
+    let is_warned = |speed: &str| at(speed).iter().any(|warning| warning.contains("shear waves"));
+    assert!(!is_warned("60 km/h"), "{:?}", at("60 km/h"));
+    assert!(is_warned("90 km/h"), "{:?}", at("90 km/h"));
 }
 
 #[test]

@@ -6,7 +6,8 @@ use super::{FULL, read_with};
 
 /// The key with numbers of list items that the full scene has.
 fn numbered(key: &str) -> String {
-    key.replace("ground.layers.", "ground.layers.1.")
+    key.replace("measures.", "measures.0.")
+        .replace("ground.layers.", "ground.layers.1.")
         .replace("restraints.", "restraints.0.")
         .replace("route.", "route.0.")
         .replace("vehicles.", "vehicles.1.")

@@ -82,6 +82,16 @@ tolerance = "2 %"
 node_spacing = "0.1 m"
 vehicle_step = "5 cm"
 time_step = "0.1 ms"
+[uncertain]
+"friction.dynamic_coefficient" = [0.2, 0.5]
+ground.layers.1.young_modulus.top = ["50 MPa", "100 MPa"]
+[[measures]]
+name = "sprung"
+upstream = { spring = "2 MN/m" }
+downstream = { spring = "1 MN/m" }
+restraints = [{ position = "10 m", stiffness = "1 MN/m" }]
+added_restraints = [{ position = "5 m", stiffness = "2 MN/m" }]
+cost = 1200
 "#;
 
 fn read(text: &str) -> Result<Scene, SceneError> {
@@ -107,6 +117,29 @@ fn assert_override_refused(overrides: &[&str], parts: &[&str]) {
 fn every_key_is_read() {
     let scene = read(FULL).unwrap();
     assert_eq!(scene.title, "Everything");
+    let uncertain = scene
+        .uncertain
+        .iter()
+        .map(|known| (&*known.key, known.low, known.high));
+    let expected = [
+        ("friction.dynamic_coefficient", 0.2, 0.5),
+        ("ground.layers.1.young_modulus.top", 50e6, 100e6),
+    ];
+    assert_eq!(uncertain.collect::<Vec<_>>(), expected);
+    let held = scene.measures[0].applied(&scene);
+    assert_eq!(
+        (held.ends.upstream, held.ends.downstream),
+        (End::Spring(2e6), End::Spring(1e6))
+    );
+    assert_eq!(
+        held.restraints
+            .iter()
+            .map(|clamp| clamp.position)
+            .collect::<Vec<_>>(),
+        [10.0, 5.0]
+    );
+    let text = scene.to_toml();
+    assert_eq!(read(&text).unwrap(), scene, "{text}");
     assert_eq!(
         (scene.duct.length, scene.duct.depth, scene.duct.lateral_offset),
         (30.0, 1.2, -0.5)

@@ -35,7 +35,45 @@ passes = 2
 tolerance = 0.05
 "#;
 
+/// Warnings of values, not of what the duct does with them.
 fn warnings(overrides: &[&str]) -> Vec<String> {
+    let mut all = all_warnings(overrides);
+    let of_motion = |warning: &String| [DEEP, FALLING].iter().any(|words| warning.contains(words));
+    all.retain(|warning| !of_motion(warning));
+    all
+}
+
+const DEEP: &str = "far above what is measured under roads";
+const FALLING: &str = "on the falling side of a hill";
+
+/// A soft subgrade, and friction beyond that of the largest force: the force falls there, as runs say.
+#[test]
+fn a_duct_that_goes_down_far_and_friction_beyond_the_hill_are_told() {
+    let has = |overrides: &[&str], words: &str| {
+        all_warnings(overrides)
+            .iter()
+            .any(|warning| warning.contains(words))
+    };
+    assert!(has(&["ground.preset=n7-cbr6"], DEEP));
+    assert!(has(&["ground.vertical_peak=301 um"], DEEP) && !has(&["ground.vertical_peak=299 um"], DEEP));
+    let measured = ["ground.vertical_peak=120 um", "traffic.passes=100"];
+    let at = |friction: &'static str| [&measured[..], &[friction]].concat();
+    let force = |overrides: &[&str]| {
+        let file = creepage::SceneFile::from_toml("hill.toml", SCENE).and_then(|file| file.with(overrides));
+        let run = creepage::run(&file.and_then(|file| file.scene()).expect("a scene")).expect("a run");
+        run.passes.last().expect("a pass").downstream_force_n
+    };
+    let falling = [
+        "friction.dynamic_coefficient=0.4",
+        "friction.dynamic_coefficient=0.6",
+    ]
+    .map(at);
+    assert!(!has(&at("friction.dynamic_coefficient=0.2"), FALLING));
+    assert!(has(&falling[1], FALLING), "{:?}", all_warnings(&falling[1]));
+    assert!(force(&falling[0]) > force(&falling[1]));
+}
+
+fn all_warnings(overrides: &[&str]) -> Vec<String> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     let scene = creepage::SceneFile::from_toml("unusual.toml", SCENE)
         .and_then(|file| file.with(&overrides)?.scene())

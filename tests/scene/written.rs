@@ -115,6 +115,36 @@ fn passes() -> impl Strategy<Value = Passes> {
     ]
 }
 
+/// A slope, a bend and a section of other friction.
+fn route(length: f64, depth: f64, slope: f64, dynamic_coefficient: Option<f64>) -> Vec<RouteSection> {
+    vec![
+        RouteSection {
+            length: Some(0.3 * length),
+            slope,
+            ..RouteSection::default()
+        },
+        RouteSection {
+            length: Some(0.5 * length),
+            bend_radius: Some(7.0 * depth),
+            ..RouteSection::default()
+        },
+        RouteSection {
+            length: Some(length - 0.3 * length - 0.5 * length),
+            dynamic_coefficient,
+            ..RouteSection::default()
+        },
+    ]
+}
+
+/// So that they are in the duct.
+fn clamps_of_measures_at(scene: &mut Scene, position: f64) {
+    for measure in &mut scene.measures {
+        let replaced = measure.restraints.iter_mut().flatten();
+        let clamps = replaced.chain(&mut measure.added_restraints);
+        clamps.for_each(|clamp| clamp.position = position);
+    }
+}
+
 fn scene() -> impl Strategy<Value = Scene> {
     let duct = (1.0..1e4, length(), -9.0..9.0);
     let scaling = option::of((any::<bool>(), 1e-6..1e-3));
@@ -178,24 +208,9 @@ fn scene() -> impl Strategy<Value = Scene> {
                 if lateral_offset > 0.0 {
                     let slope = std::mem::take(&mut scene.duct.slope);
                     let rougher = Some(1.5 * scene.friction.dynamic_coefficient);
-                    scene.route = vec![
-                        RouteSection {
-                            length: Some(0.3 * length),
-                            slope,
-                            ..RouteSection::default()
-                        },
-                        RouteSection {
-                            length: Some(0.5 * length),
-                            bend_radius: Some(7.0 * depth),
-                            ..RouteSection::default()
-                        },
-                        RouteSection {
-                            length: Some(length - 0.3 * length - 0.5 * length),
-                            dynamic_coefficient: rougher,
-                            ..RouteSection::default()
-                        },
-                    ];
+                    scene.route = route(length, depth, slope, rougher);
                 }
+                clamps_of_measures_at(&mut scene, 0.4 * length);
                 scene.vehicles = vec![vehicles.0, vehicles.1, vehicles.2];
                 let traffic = &mut scene.traffic;
                 (traffic.order, traffic.seed) = (Following::Interleaved, 1);

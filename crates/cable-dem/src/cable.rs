@@ -6,6 +6,7 @@ use crate::{CableError, Friction, Mesh};
 
 /// What holds an end of the cable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 pub enum End {
     /// Nothing.
     #[default]
@@ -29,12 +30,16 @@ impl End {
 
 /// A clamp somewhere along the duct: a spring between cable and ground, which may slip.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Restraint {
     /// Position along the duct \[m\].
+    #[cfg_attr(feature = "serde", serde(rename = "position_m"))]
     pub position: f64,
     /// Stiffness \[N/m\].
+    #[cfg_attr(feature = "serde", serde(rename = "stiffness_n_per_m"))]
     pub stiffness: f64,
     /// Force above which it slips \[N\]; none if it never does.
+    #[cfg_attr(feature = "serde", serde(rename = "holds_n"))]
     pub holds: Option<f64>,
 }
 

@@ -57,6 +57,8 @@ pub const TABLE: [Row; 12] = [
     row(3.0, 0.0033, 0.006),
 ];
 
+/// Q of the largest Q f*/q: more friction than that makes a smaller force.
+pub const TOP: f64 = 0.6;
 /// Q above which nothing creeps.
 pub const NOTHING_ABOVE: f64 = TABLE[TABLE.len() - 1].number;
 /// Largest Q f*/q of all runs, rounded up: 0.274 with the table's sheath, 0.291 with one ten times
@@ -173,6 +175,13 @@ mod tests {
             before = share;
         }
         assert_eq!(before, 0.0);
+    }
+
+    #[test]
+    fn the_table_has_its_top_there() {
+        let force = |row: &Row| row.number * row.locked_share;
+        let top = TABLE.iter().max_by(|a, b| force(a).total_cmp(&force(b)));
+        assert_eq!(top.map(|row| row.number), Some(TOP));
     }
 
     /// f* may be a little more between the rows than at them.

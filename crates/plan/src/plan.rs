@@ -87,7 +87,7 @@ pub fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> 
         warnings: Vec::new(),
         start: None,
     };
-    plan.warnings = warnings::warnings(scene, plan.inertia())?;
+    plan.warnings = warnings::warnings(scene, plan.inertia(), &plan.ground.motions)?;
     Ok(plan)
 }
 

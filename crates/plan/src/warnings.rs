@@ -1,10 +1,11 @@
 //! What lies outside the model's range, whatever is chosen.
 
 use cable_dem::Order;
-use ground_field::Base;
+use ground_field::{Base, DuctMotion};
 
 use crate::error::Error;
 use crate::error_source::ErrorSource;
+use crate::occurrence::{Occurrence, TOP};
 use crate::period::coming;
 use crate::shown::{exact_percent, percent};
 use creepage_scene::{Scene, unusual};
@@ -15,10 +16,17 @@ const SOIL_DENSITY: f64 = 1800.0;
 /// Mach number of a vehicle in the ground above which the ground's own inertia is no longer small.
 const FAST: f64 = 0.3;
 
+/// Deflection of a duct that is hardly meant \[m\]: more than twice the 90 to 140 µm that Kashiro et al. measured at 1.2 m.
+const DEEP: f64 = 300e-6;
+/// Friction counts as above the top of the hill if Q is so many times that of the top: below, the force is within a tenth of it.
+const BEYOND: f64 = 1.5;
+
 /// What the user should know before trusting any answer, which leaves out so much `inertia`.
-pub fn warnings(scene: &Scene, inertia: f64) -> Result<Vec<String>, Error> {
+pub fn warnings(scene: &Scene, inertia: f64, motions: &[DuctMotion]) -> Result<Vec<String>, Error> {
     let mut warnings = unusual(scene);
     warnings.extend(fast(scene));
+    warnings.extend(deep(scene, motions));
+    warnings.extend(falling(scene, motions));
     if scene.warming().is_some() {
         warnings.extend(warm(scene));
     }
@@ -71,6 +79,37 @@ fn warm(scene: &Scene) -> Vec<String> {
         warnings.push(order.to_owned());
     }
     warnings
+}
+
+/// A ground that gives way more than roads do.
+fn deep(scene: &Scene, motions: &[DuctMotion]) -> Option<String> {
+    let deflections = motions.iter().map(DuctMotion::peak_vertical);
+    let deepest = deflections.fold(0.0, f64::max);
+    let key = match scene.ground.scaling() {
+        None => {
+            "a modulus from CBR or from a settlement test is several times too small for traffic, and the force may be double; measure \
+                 the deflection and give `ground.vertical_peak`"
+        }
+        Some(_) => "is the unit right?",
+    };
+    (deepest > DEEP).then(|| {
+        let micrometres = 1e6 * deepest;
+        format!("the duct goes down by {micrometres:.0} µm, far above what is measured under roads, 90 to 140 µm: {key}")
+    })
+}
+
+/// Friction above that of the largest force.
+fn falling(scene: &Scene, motions: &[DuctMotion]) -> Option<String> {
+    let occurrence = Occurrence::new(scene, motions)?;
+    let beyond = occurrence.q_number / TOP;
+    let friction = scene.friction.dynamic_coefficient;
+    (beyond > BEYOND && occurrence.creeps()).then(|| {
+        format!(
+            "`friction.dynamic_coefficient` is {friction}, on the falling side of a hill: with less friction the force grows at first, to its \
+             largest at about {:.2}; `creepage measures` looks for the worst within an interval",
+            friction / beyond
+        )
+    })
 }
 
 fn fast(scene: &Scene) -> Option<String> {

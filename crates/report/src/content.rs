@@ -27,6 +27,8 @@ pub struct ReportOptions<'a> {
     pub readings: Option<&'a Readings>,
     /// Ways to hold the cable; without any, fixed end, springs and clamps that suit the scene.
     pub measures: Option<&'a [Spring]>,
+    /// Measures in every combination of what is not known; then they take the place of the ways to hold the cable.
+    pub compared: Option<&'a creepage_study::measures::Comparison>,
     /// Limits that are judged at the top of the page.
     pub limits: Limits,
     /// Units in which the page is.
@@ -54,7 +56,8 @@ pub struct Report {
     pub(super) plan: PlanReport,
     pub(super) motion: Profile,
     pub(super) agreement: Option<Agreement>,
-    /// None if the run begins from a state.
+    pub(super) compared: Option<creepage_study::measures::Comparison>,
+    /// None if the run begins from a state, or measures are compared.
     pub(super) measures: Option<Comparison>,
     /// What the runs before have left.
     pub(super) history: Vec<PastPass>,
@@ -101,15 +104,16 @@ impl Report {
             reader: Reader::new(options.units, scene),
             plan: plan.report(),
             motion: profile_over(scene, &plan.ground, &positions(scene, options.units.length))?,
+            compared: options.compared.cloned(),
             measures: match options.start {
-                None => Some(Comparison::new(
+                None if options.compared.is_none() => Some(Comparison::new(
                     scene,
                     &plan.ground,
                     &run,
                     options.measures,
                     ways,
                 )?),
-                Some(_) => None,
+                _ => None,
             },
             history: options.start.map_or(Vec::new(), |start| start.history().to_vec()),
             verdicts: options.limits.verdicts(&run),

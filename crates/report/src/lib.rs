@@ -2,6 +2,7 @@
 
 mod agreement;
 mod cause;
+mod certainty;
 mod chart;
 mod content;
 mod force;

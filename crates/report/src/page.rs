@@ -1,6 +1,7 @@
 //! The page, from its head to its end.
 
 use super::cause::cause;
+use super::certainty::certainty;
 use super::content::Report;
 use super::force::force;
 use super::heat::heat;
@@ -8,6 +9,7 @@ use super::holding::holding;
 use super::html::{Html, escaped};
 use super::route::route;
 use super::section::section;
+use crate::words::measures::holds_for;
 use crate::words::{Table, candidates, error_parts, solved};
 use creepage_plan::shown::{percent, words_if};
 use creepage_run::Verdict;
@@ -29,12 +31,13 @@ impl Report {
             dark = dark_style(),
         ));
         self.answer_and_verdicts(&mut html);
-        let sections: [(bool, &str, Section); 9] = [
+        let sections: [(bool, &str, Section); 10] = [
             (!self.warnings.is_empty(), "Warnings", warnings),
             (true, "Scene", scene),
             (true, "Force and movement", force),
             (self.run.heat.is_some(), "Heat, day by day", heat),
             (true, "Why the cable creeps", cause),
+            (self.compared.is_some(), "What to fit", certainty),
             (self.measures.is_some(), "Ways to hold the cable", holding),
             (true, "How it was computed", computed),
             (true, "What is left out", left_out),
@@ -69,6 +72,17 @@ impl Report {
             let is_kept = !verdict.is_exceeded() && verdict.levels_off_above.is_none();
             let class = if is_kept { "kept" } else { "exceeded" };
             html.element(&format!("li class=\"{class}\""), &answer.verdict(verdict));
+        }
+        if let Some(compared) = &self.compared {
+            let as_it_is = &compared.measures[0];
+            let class = if as_it_is.within_limits {
+                "kept"
+            } else {
+                "exceeded"
+            };
+            let how = holds_for(as_it_is, compared.combinations);
+            let verdict = format!("with what is not known, the cable as it is holds for {how}");
+            html.element(&format!("li class=\"{class}\""), &verdict);
         }
         if !self.verdicts.is_empty() {
             html.raw("</ul>");

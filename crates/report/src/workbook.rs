@@ -1,6 +1,8 @@
 //! A run as a workbook. Its numbers are those of the JSON document, under the same names without the unit at their end; of clamps also the
 //! largest.
 
+mod measures;
+
 use std::io;
 
 use rust_xlsxwriter::XlsxError;
@@ -8,7 +10,9 @@ use serde_json::{Value, json};
 
 use creepage_run::{Limited, Place, Run, Units, Verdict};
 use creepage_scene::SceneFile;
+
 use creepage_study::book::{Book, Cell, scene};
+pub use measures::of_measures;
 
 /// Parts of the document that stand on the first sheet, in their order. What is a table has a sheet of its own.
 const ANSWER: [&str; 10] = [

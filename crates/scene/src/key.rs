@@ -45,11 +45,15 @@ impl Key {
 pub enum Form {
     Number(Quantity),
     Text(&'static str),
+    /// A text or a number.
+    Any(&'static str),
     /// One of these words, and what else is to be said of them.
     Words(&'static [&'static str], &'static str),
     Table(&'static [Key]),
     /// A list of so many items at least, all of one form or each of its own.
     List(&'static [Form], usize, &'static str),
+    /// A table of the lowest and the highest value of numbers below these keys.
+    Intervals(fn() -> &'static [Key], &'static str),
     /// A value that is no table, or a table. A text stands for the first key of the table.
     Either(&'static Form, &'static [Key]),
 }
@@ -77,7 +81,10 @@ impl Form {
     pub fn allowed(self) -> String {
         match self {
             Self::Number(quantity) => quantity.allowed(),
-            Self::Text(allowed) | Self::List(_, _, allowed) => allowed.to_owned(),
+            Self::Text(allowed)
+            | Self::Any(allowed)
+            | Self::Intervals(_, allowed)
+            | Self::List(_, _, allowed) => allowed.to_owned(),
             Self::Words(words, more) => listed(words.iter().copied()) + more,
             Self::Table(keys) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.name).collect();

@@ -115,11 +115,29 @@ fn lengths(scene: &Scene) -> Vec<Rule> {
             format!("at most {most:.4} m, so that three cables fit into the duct's {wide} m")),
     ];
     let has_friction = scene.friction.dynamic_coefficient > 0.0;
-    for (index, clamp) in scene.restraints.iter().enumerate() {
-        let key = |name: &str| format!("restraints.{index}.{name}");
+    let mut lists = vec![("restraints".to_owned(), &scene.restraints[..])];
+    for (index, measure) in scene.measures.iter().enumerate() {
+        let key = |name: &str| format!("measures.{index}.{name}");
+        lists.push((
+            key("restraints"),
+            measure.restraints.as_deref().unwrap_or_default(),
+        ));
+        lists.push((key("added_restraints"), &measure.added_restraints));
+        let is_new = scene.measures[..index]
+            .iter()
+            .all(|other| other.name != measure.name);
+        #[rustfmt::skip]
+        rules.push(rule(is_new, key("name"), format!("\"{}\"", measure.name), "a name in quotes that no other measure has"));
+    }
+    let every = lists.iter().flat_map(|(list, clamps)| {
+        let clamps = clamps.iter().enumerate();
+        clamps.map(move |(index, clamp)| (format!("{list}.{index}"), clamp))
+    });
+    for (at, clamp) in every {
+        let key = |name: &str| format!("{at}.{name}");
         #[rustfmt::skip]
         rules.extend([
-            rule(clamp.holds.is_none() || has_friction, key("holds"), "a clamp that slips, without friction",
+            rule(clamp.holds.is_none() || has_friction || at.starts_with("measures"), key("holds"), "a clamp that slips, without friction",
                 "only where the cable has friction"),
             suits(Some(clamp.position), 0.0..=length, key("position"), format!("a position in the duct, from 0 m to {all} m")),
         ]);

@@ -9,8 +9,8 @@ use crate::content::Content;
 use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
-use crate::key::Form::{Either, List, Number, Table, Text, Words};
-use crate::key::{Form, Key};
+use crate::key::Form::{Any, Either, Intervals, List, Number, Table, Text, Words};
+use crate::key::{Form, Key, Section as _};
 use crate::range::{
     CLAMP, DEPTH, DUCT_LENGTH, HOLDS, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING,
 };
@@ -19,6 +19,7 @@ use crate::section::keys;
 use crate::solver::Solver;
 use crate::stored::{Given, Stored, entry};
 use crate::traffic::{Following, Traffic};
+use crate::uncertain::{Cost, INTERVALS, Uncertain};
 use crate::vehicle::TrafficVehicle;
 
 keys! {
@@ -40,7 +41,7 @@ keys! {
         /// What holds the cable's two ends.
         ends: Ends = Table(Ends::KEYS);
         /// Clamps along the cable.
-        restraints: Vec<Restraint> = List(&[Table(Restraint::KEYS)], 0, "a list of [[restraints]]"), "none";
+        restraints: Vec<Restraint> = CLAMPS, "none";
         /// Who drives above the duct.
         vehicles: Vec<TrafficVehicle> = List(&[Table(TrafficVehicle::KEYS)], 1, VEHICLES), "traffic.histogram instead";
         /// How much traffic, and in which order.
@@ -49,6 +50,10 @@ keys! {
         heat: Option<Heat> = Table(Heat::KEYS), "none";
         /// How to compute.
         solver: Solver = Table(Solver::KEYS), "all is chosen";
+        /// What is known only between two values: `creepage measures` and `report` compute all combinations.
+        uncertain: Vec<Uncertain> = Intervals(|| Scene::KEYS, INTERVALS), "nothing";
+        /// Ways to hold the cable that `creepage measures` compares; a list built in if there are none.
+        measures: Vec<Measure> = List(&[Table(Measure::KEYS)], 0, "a list of [[measures]]"), "none";
     }
 }
 
@@ -75,7 +80,7 @@ keys! {
 
 keys! {
     /// What holds the cable's two ends.
-    #[derive(Copy)]
+    #[derive(Copy, serde::Serialize)]
     pub struct Ends {
         /// What holds the end at x = 0, where forward vehicles come in.
         upstream: End = END;
@@ -95,6 +100,26 @@ keys! {
     }
 }
 
+keys! {
+    /// A way to hold the cable: what it gives takes the place of what the scene has, in SI.
+    #[derive(Default)]
+    pub struct Measure {
+        /// Name of the measure in tables.
+        name: String = Text("a name in quotes that no other measure has");
+        /// What holds the end at x = 0.
+        upstream: Option<End> = END, "that of [ends]";
+        /// What holds the end at x = length.
+        downstream: Option<End> = END, "that of [ends]";
+        /// Clamps in place of all that the scene has.
+        restraints: Option<Vec<Restraint>> = CLAMPS, "those of the scene";
+        /// Clamps that join these.
+        added_restraints: Vec<Restraint> = CLAMPS, "none";
+        /// What it costs; numbers are compared, a text is only shown.
+        cost: Option<Cost> = Any("a cost as a number, or a text such as \"two weeks\""), "none";
+    }
+}
+
+const CLAMPS: Form = List(&[Table(Restraint::KEYS)], 0, "a list of [[restraints]]");
 const HELD: Form = Words(&["free", "fixed"], " or { spring = \"3 MN/m\" }");
 const ENDS: &[(&str, End)] = &[("free", End::Free), ("fixed", End::Fixed)];
 const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is understood too.";
@@ -115,6 +140,29 @@ impl Stored for End {
             Self::Fixed => Content::Text("fixed".to_owned()),
             Self::Spring(stiffness) => Content::table(entry(form.keys(), "spring", stiffness, None)),
         }
+    }
+}
+
+impl Measure {
+    /// The scene with this measure, which is not checked.
+    pub fn applied(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        scene.ends.upstream = self.upstream.unwrap_or(scene.ends.upstream);
+        scene.ends.downstream = self.downstream.unwrap_or(scene.ends.downstream);
+        scene.restraints = self.restraints.clone().unwrap_or(scene.restraints);
+        scene.restraints.extend(&self.added_restraints);
+        scene
+    }
+
+    /// How many ends and clamps it gives.
+    pub fn parts(&self) -> usize {
+        let ends = self.upstream.iter().chain(&self.downstream).count();
+        ends + self
+            .restraints
+            .iter()
+            .flatten()
+            .chain(&self.added_restraints)
+            .count()
     }
 }
 

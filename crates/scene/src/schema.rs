@@ -64,6 +64,8 @@ fn form(form: &Form, path: &str) -> Value {
         Form::Number(quantity) => number(*quantity),
         Form::Text(allowed) if is_name(allowed) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
+        Form::Any(_) => json!({ "type": ["string", "number"] }),
+        Form::Intervals(..) => json!({ "type": "object" }),
         Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List([item], least, _) => {

@@ -3,6 +3,7 @@
 #[doc(hidden)]
 pub mod book;
 pub mod design;
+pub mod measures;
 #[doc(hidden)]
 pub mod output;
 pub mod sweep;

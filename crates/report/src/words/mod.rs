@@ -2,6 +2,7 @@
 //! and sentences.
 
 mod answer;
+pub mod measures;
 mod number;
 mod reader;
 mod scene;

@@ -76,6 +76,7 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &So
         warnings: [plan.warnings.clone(), solved.warnings.clone()].concat(),
     };
     run.warn_where_it_leaves(scene);
+    run.warn_where_it_creeps_back(scene);
     Ok(run)
 }
 

@@ -33,6 +33,10 @@ pub struct Design {
     /// The limits that bind: of one spring those at the ends of its range, else those that the
     /// answer, or the nearest, is nearest to or exceeds most.
     pub binding: Vec<Binding>,
+    /// Limits that no stiffness at these places comes near, each with the least that one comes to: then
+    /// the search ends there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub out_of_reach: Vec<Binding>,
     /// Everything that was computed with the scene's own tolerance, by growing stiffness, from a
     /// free end or no clamp on.
     pub curve: Vec<TradeOff>,

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 
 use super::error::DesignError;
 use super::options::DesignOptions;
-use super::runs::{Runs, springs};
-use super::trade_off::{Limit, Spring, TradeOff, with_duct};
+use super::runs::{Runs, rough, springs};
+use super::trade_off::{Limit, Spring, TradeOff, out_of_reach, with_duct};
 use creepage_plan::ground::Ground;
 use creepage_run::{Limited, Place};
 use creepage_scene::Scene;
@@ -27,8 +27,7 @@ const POINTS_PER_DECADE: i32 = 1;
 const FINE_PER_DECADE: i32 = 48;
 /// Steps into which one of the map is divided around its best point.
 const FINER: i32 = 10;
-/// Tolerance of the rough runs, if the scene's own is not looser, and their share of the progress.
-const ROUGH: f64 = 0.05;
+/// Share of the progress that the rough runs have.
 const ROUGH_SHARE: f64 = 0.7;
 /// Runs with the scene's own tolerance, at most; map and run agree within this share.
 const MOST_RUNS: usize = 10;
@@ -38,14 +37,14 @@ const SAFE: f64 = 0.99;
 /// Points whose margins differ by less than this share are equally good.
 const EQUAL: f64 = 0.01;
 
-/// The runs of the scene, how many rough ones there were, and the pair with the largest margin to
+/// The runs of the scene, the rough ones, and the pair with the largest margin to
 /// the limits; where no movement is limited, the one with which the ends move least.
 pub fn search<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
     places: [Place; 2],
     options: &'a DesignOptions<'a>,
-) -> Result<(Runs<'a>, usize, Option<TradeOff>), DesignError> {
+) -> Result<(Runs<'a>, Vec<TradeOff>, Option<TradeOff>), DesignError> {
     let limits = &options.limits;
     let grid = |per_decade| places.map(|place| springs(scene, place, limits, per_decade));
     let levels = grid(POINTS_PER_DECADE);
@@ -53,10 +52,8 @@ pub fn search<'a>(
     for first in &levels[0] {
         pairs.extend(levels[1].iter().map(|second| vec![*first, *second]));
     }
-    let mut rough = scene.clone();
-    rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    let rough_runs = Runs::new(&rough, ground, &places, limits, progress, pairs.len())?;
+    let rough_runs = Runs::new(&rough(scene), ground, &places, limits, progress, pairs.len())?;
     let map = Map {
         points: rough_runs.run_all(pairs)?,
         levels: levels.map(|springs| stiffnesses(&springs)),
@@ -68,7 +65,8 @@ pub fn search<'a>(
     let runs = Runs::new(scene, ground, &places, limits, progress, MOST_RUNS)?;
     let trials = grid(FINE_PER_DECADE).map(|springs| stiffnesses(&springs));
     let mut scale = vec![1.0; map.limits.len()];
-    for count in 0..MOST_RUNS {
+    let is_hopeless = !out_of_reach(&map.points, limits).is_empty();
+    for count in 0..if is_hopeless { 1 } else { MOST_RUNS } {
         let rough = map.best(&trials, &scale);
         let pair = map.best(&rough.map(around), &scale);
         let expected = map.shares(pair, &scale);
@@ -89,7 +87,7 @@ pub fn search<'a>(
     let badness = |point: &TradeOff| map.badness(&map.shares_of(point));
     let kept = runs.points().into_iter().filter(|point| point.within_limits);
     let chosen = kept.min_by(|a, b| badness(a).total_cmp(&badness(b)));
-    Ok((runs, rough_runs.count() + 1, chosen))
+    Ok((runs, map.points, chosen))
 }
 
 fn largest(shares: &[f64]) -> f64 {
@@ -178,7 +176,7 @@ fn around(stiffness: f64) -> Vec<f64> {
 }
 
 /// The levels on both sides of `stiffness`, with their weights in the mean of the inverse.
-fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
+pub fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
     let above = levels.partition_point(|level| *level < stiffness);
     let above = above.min(levels.len() - 1);
     let below = above.saturating_sub(1);

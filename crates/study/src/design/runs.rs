@@ -16,6 +16,16 @@ use creepage_scene::Scene;
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
 const DECADES: i32 = 2;
 
+/// Tolerance of rough runs, if the scene's own is not looser.
+pub const ROUGH: f64 = 0.05;
+
+/// The scene with that tolerance.
+pub fn rough(scene: &Scene) -> Scene {
+    let mut rough = scene.clone();
+    rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
+    rough
+}
+
 /// A scene on the mesh that its stiffest variant needs, its ground, and what was run: runs that are
 /// to be compared are made on the same ones, and where the end is nearly free there is no force
 /// whose relative error a finer mesh could make small.

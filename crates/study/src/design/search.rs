@@ -6,14 +6,18 @@ use super::answer::{ACCURACY, Design};
 use super::error::DesignError;
 use super::options::DesignOptions;
 use super::pair_map;
-use super::runs::{Runs, springs};
-use super::trade_off::{Binding, Limit, Side, Spring, TradeOff, with_duct};
+use super::runs::{ROUGH, Runs, rough, springs};
+use super::trade_off::{Binding, Limit, Side, Spring, TradeOff, out_of_reach, with_duct};
 use creepage_plan::ground::{Ground, road};
-use creepage_run::{Error, Place};
+use creepage_run::{Error, Limits, Place};
 use creepage_scene::Scene;
 
 /// The curve of one spring has points in half decades.
 const POINTS_PER_DECADE: i32 = 2;
+/// Share of the progress of the rough runs, which come first if the scene's tolerance is below theirs; and by what factor of its limits a
+/// rough run leaves open whether they are kept.
+const ROUGH_SHARE: f64 = 0.2;
+const NEAR: f64 = 1.5;
 /// Runs that halve half a decade to that width, at two ends: only the progress depends on it.
 const HALVINGS: usize = 14;
 
@@ -40,7 +44,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     scene.validate().map_err(Error::from)?;
     let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
     let limits = &options.limits;
-    let (runs, rough_runs, chosen) = match options.places[..] {
+    let (runs, rough, chosen) = match options.places[..] {
         [one, other] => pair_map::search(scene, &ground, [one, other], options)?,
         _ => one_spring(scene, &ground, options)?,
     };
@@ -57,6 +61,10 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         (Some(found), ..) | (None, Some(found), _) => found.tightest(limits),
         (None, None, _) => Vec::new(),
     };
+    let all = [&rough[..], &curve].concat();
+    let out_of_reach = nearest
+        .as_ref()
+        .map_or(Vec::new(), |_| out_of_reach(&all, limits));
     Ok(Design {
         title: scene.title.clone(),
         place: options.places[0],
@@ -70,25 +78,45 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         answer,
         nearest,
         binding,
-        // Those of the mesh and of the answer too.
-        runs: rough_runs + curve.len() + 2,
+        // Those of the meshes and of the answer too.
+        runs: rough.len() + usize::from(!rough.is_empty()) + curve.len() + 2,
+        out_of_reach,
         curve,
     })
 }
 
-/// The runs of the scene, none of them rough, with one spring and with what to take of those within
+/// The runs of the scene with one spring, the rough ones, and what to take of those within
 /// all limits. Where the curve shows none, the stiffness is halved in on at which the worst limit of
 /// softer springs is as far exceeded as that of stiffer ones.
 fn one_spring<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
     options: &'a DesignOptions<'a>,
-) -> Result<(Runs<'a>, usize, Option<TradeOff>), DesignError> {
+) -> Result<(Runs<'a>, Vec<TradeOff>, Option<TradeOff>), DesignError> {
     let (place, limits) = (options.places[0], &options.limits);
-    let springs = springs(scene, place, limits, POINTS_PER_DECADE);
+    let mut springs = springs(scene, place, limits, POINTS_PER_DECADE);
+    let mut seen = Vec::new();
+    let mut progress = options.progress;
+    if scene.solver.tolerance < ROUGH {
+        let part = progress.part(0.0, ROUGH_SHARE);
+        let runs = Runs::new(
+            &rough(scene),
+            ground,
+            &options.places,
+            limits,
+            part,
+            springs.len(),
+        )?;
+        seen = runs.run_all(springs.iter().map(|spring| vec![*spring]).collect())?;
+        springs = decisive(&seen, limits);
+        progress = progress.part(ROUGH_SHARE, 1.0);
+    }
     let expected = springs.len() + HALVINGS;
-    let runs = Runs::new(scene, ground, &options.places, limits, options.progress, expected)?;
+    let runs = Runs::new(scene, ground, &options.places, limits, progress, expected)?;
     let curve = runs.run_all(springs.into_iter().map(|spring| vec![spring]).collect())?;
+    if !out_of_reach(&seen, limits).is_empty() {
+        return Ok((runs, seen, None));
+    }
     let pieces = curve.chunk_by(|a, b| a.within_limits == b.within_limits);
     match pieces.filter(|piece| piece[0].within_limits).count() {
         0 => approach(&runs, &curve, &with_duct(limits, scene))?,
@@ -105,7 +133,27 @@ fn one_spring<'a>(
     let chosen = kept(&points).map(|kept| choice(place, stiffnesses(&points, kept)));
     let chosen = chosen.map(|chosen| runs.run(&[Spring::new(place, chosen)]));
     let chosen = chosen.transpose()?;
-    Ok((runs, 0, chosen))
+    Ok((runs, seen, chosen))
+}
+
+/// Springs that a curve of rough runs leaves open: those near a limit, or beside one on its other side, the best and those
+/// beside it, and both ends of the curve; the best one alone where a limit is out of reach.
+fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<Spring> {
+    let excess = |at: usize| curve[at].excess(limits);
+    let best = (0..curve.len()).min_by(|a, b| excess(*a).total_cmp(&excess(*b)));
+    let best = best.unwrap_or_default();
+    let is_hopeless = !out_of_reach(curve, limits).is_empty();
+    let is_open = |at: &usize| {
+        let around = &curve[at.saturating_sub(1)..(at + 2).min(curve.len())];
+        let turns = around
+            .iter()
+            .any(|other| other.within_limits != curve[*at].within_limits);
+        let is_near = (1.0 / NEAR..NEAR).contains(&excess(*at));
+        // The search halves in beside the best, which may be the next one on a finer mesh.
+        around.len() < 3 || turns || is_near || at.abs_diff(best) <= 2
+    };
+    let open = (0..curve.len()).filter(|at| if is_hopeless { *at == best } else { is_open(at) });
+    open.map(|at| curve[at].springs[0]).collect()
 }
 
 /// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the

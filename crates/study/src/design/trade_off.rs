@@ -111,6 +111,19 @@ pub(super) fn with_duct(limits: &Limits, scene: &Scene) -> Vec<Limit> {
     limits.all().chain(in_duct).collect()
 }
 
+/// A limit is out of reach if every spring exceeds it by more than this share: a rough run is off by a quarter of it.
+const OUT_OF_REACH: f64 = 0.2;
+
+/// The limits that none of `points` comes near, each with the least that one comes to.
+pub(super) fn out_of_reach(points: &[TradeOff], limits: &Limits) -> Vec<Binding> {
+    let nearest = |limit| {
+        let by_share = |a: &&TradeOff, b: &&TradeOff| a.share(limit).total_cmp(&b.share(limit));
+        let nearest = points.iter().min_by(by_share)?;
+        (nearest.share(limit) > 1.0 + OUT_OF_REACH).then(|| nearest.binding(limit, None))
+    };
+    limits.all().filter_map(nearest).collect()
+}
+
 impl Spring {
     /// A spring of this stiffness \[N/m\] at `place`: 0 is a free end or no clamp, infinity a fixed
     /// end.

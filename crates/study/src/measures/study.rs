@@ -1,0 +1,284 @@
+//! The comparison: every measure in every combination, then closer around the worst, and what decides with the scene's tolerance.
+
+use rayon::prelude::*;
+
+use super::answer::{Comparison, MeasureAnswer, Outcome, share, worst};
+use super::hill::top;
+use super::runs::{LimitsOf, Runs};
+use super::unknown::{Combination, combinations, middle, unknowns};
+use super::ways::{Way, stiffness, ways, with_stiffness};
+use crate::design::{DesignError, between};
+use creepage_plan::ground::{Ground, road};
+use creepage_run::{Error, Limited, Progress};
+use creepage_scene::{Cost, Measure, Scene, SceneFile, Uncertain};
+
+/// Runs closer around the worst of one measure, at most.
+const CLOSER: usize = 4;
+/// A combination is as bad as the worst if it comes so near.
+const AS_BAD: f64 = 0.95;
+/// Stiffnesses that are read, in a factor of ten.
+const PER_DECADE: f64 = 24.0;
+/// Runs with the scene's own tolerance, at most, until the worst is one of them.
+const DECISIVE: usize = 3;
+/// All combinations that are nearer to a limit than this share are run with that tolerance, until one exceeds it.
+const DOUBT: f64 = 0.1;
+
+/// What is to be compared.
+#[derive(Debug, Clone)]
+pub struct Study {
+    file: SceneFile,
+    scene: Scene,
+    unknowns: Vec<Uncertain>,
+    assumed: bool,
+    combinations: Vec<Combination>,
+}
+
+/// A measure that was computed.
+struct Tried {
+    measure: Measure,
+    outcomes: Vec<Outcome>,
+}
+
+impl Study {
+    /// The measures and unknowns of the scene in `file`.
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError`] where the scene is wrong, or has more unknowns than can be combined.
+    pub fn new(file: &SceneFile) -> Result<Self, DesignError> {
+        let scene = file.scene().map_err(Error::from)?;
+        let ground = Ground::new(&scene, None, road::reach(&scene))?;
+        let (unknowns, assumed) = unknowns(&scene, &ground);
+        Ok(Self {
+            combinations: combinations(&unknowns)?,
+            file: file.clone(),
+            unknowns,
+            assumed,
+            scene,
+        })
+    }
+
+    /// How many combinations, measures and, at most, runs there are: each rough and with the scene's tolerance, and twice where a stiffness
+    /// or a place is looked for, that in two and then in three combinations.
+    pub fn size(&self) -> [usize; 3] {
+        let (ways, count) = (ways(&self.scene), self.combinations.len());
+        let runs = |way: &Way| match way.len() {
+            1 => 2 * (count + CLOSER),
+            candidates => 3 * (count + CLOSER) + (2 + 3) * candidates,
+        };
+        [count, ways.len(), ways.iter().map(runs).sum()]
+    }
+
+    /// Compares the measures by these limits.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] where the middle of all intervals is no valid scene, or `progress` stops it. Every other run that fails is stated.
+    pub fn compare(&self, limits: LimitsOf<'_>, progress: Progress<'_>) -> Result<Comparison, Error> {
+        let ways = ways(&self.scene);
+        let usual = |way: &Way| self.combinations.len() + if way.len() > 1 { 2 * way.len() + 1 } else { 1 };
+        let expected = [ways.iter().map(usual).sum(), ways.len()];
+        let runs = Runs::new(&self.file, &middle(&self.unknowns), limits, progress, expected)?;
+        // Stiffnesses and places are chosen for the worst combinations of what comes first.
+        let is_sought = |way: &Way| way.len() > 1;
+        let (first, others) = ways.split_at(ways.iter().position(is_sought).unwrap_or(ways.len()));
+        let of_all = |ways: &[Way], critical: &[Combination]| {
+            let decided = |way: &Way| self.decided(&runs, self.sought(&runs, way, critical)?);
+            ways.par_iter().map(decided).collect::<Result<Vec<_>, Error>>()
+        };
+        let mut measures = of_all(first, &[])?;
+        let asked = |measure: &MeasureAnswer| {
+            let asked = measure.outcomes.iter().filter(|outcome| self.asks(outcome));
+            worst(asked).map(|outcome| outcome.at.clone())
+        };
+        let mut critical: Vec<Combination> = measures.iter().filter_map(asked).collect();
+        critical.dedup();
+        measures.extend(of_all(others, &critical)?);
+        Ok(self.answer(runs.made(), measures))
+    }
+
+    fn asks(&self, outcome: &Outcome) -> bool {
+        self.combinations.contains(&outcome.at)
+    }
+
+    /// The best of a way in the `critical` combinations, and in those that prove worse with it (cutting planes: J. E. Kelley, J. SIAM 8
+    /// (1960) 703).
+    fn sought(&self, runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Tried, Error> {
+        let first = self.tried(runs, best(runs, way, critical)?)?;
+        let (most, worst) = (largest(&first.outcomes), worst(&first.outcomes));
+        let is_as_bad =
+            |outcome: &Outcome| critical.contains(&outcome.at) && outcome.share() >= AS_BAD * most;
+        let Some(worst) =
+            worst.filter(|_| way.len() > 1 && most > 1.0 && !first.outcomes.iter().any(is_as_bad))
+        else {
+            return Ok(first);
+        };
+        let critical = [critical, std::slice::from_ref(&worst.at)].concat();
+        let second = self.tried(runs, best(runs, way, &critical)?)?;
+        Ok(if largest(&second.outcomes) < most {
+            second
+        } else {
+            first
+        })
+    }
+
+    /// The measure in all combinations, and closer around the worst.
+    fn tried(&self, runs: &Runs<'_>, measure: Measure) -> Result<Tried, Error> {
+        let mut outcomes = runs.rough_runs(&measure, &self.combinations)?;
+        for _ in 0..CLOSER {
+            let Some(at) = top(&outcomes) else { break };
+            outcomes.push(runs.run(&measure, &at, true)?);
+        }
+        Ok(Tried { measure, outcomes })
+    }
+
+    /// Runs the worst with the scene's tolerance; and all that is near a limit, until the measure is known to exceed one or to hold.
+    fn decide(runs: &Runs<'_>, measure: &Measure, all: &mut Vec<Outcome>) -> Result<(), Error> {
+        while let Some(next) = worst(all.iter().filter(|outcome| outcome.rough)).cloned() {
+            let decided = all.iter().filter(|outcome| !outcome.rough);
+            let count = decided.clone().count();
+            let known = decided.map(Outcome::share).fold(0.0, f64::max);
+            let is_near = (next.share() - 1.0).abs() < DOUBT && known <= 1.0;
+            if !is_near && (count == DECISIVE || next.share() <= known) {
+                break;
+            }
+            let own = runs.run(measure, &next.at, false)?;
+            // What the scene's tolerance changes there scales the others for what follows (space mapping: J. W. Bandler et al., IEEE
+            // Trans. Microwave Theory Tech. 42 (1994) 2536).
+            for outcome in all.iter_mut().filter(|outcome| outcome.rough) {
+                let known = next.verdicts.iter().zip(&own.verdicts);
+                for (verdict, (old, new)) in outcome.verdicts.iter_mut().zip(known) {
+                    let scale = new.largest / old.largest;
+                    verdict.largest *= if scale.is_finite() { scale } else { 1.0 };
+                }
+            }
+            all.retain(|outcome| outcome.at != next.at);
+            all.push(own);
+        }
+        Ok(())
+    }
+
+    /// What is said of a measure.
+    fn decided(&self, runs: &Runs<'_>, tried: Tried) -> Result<MeasureAnswer, Error> {
+        let Tried {
+            measure,
+            mut outcomes,
+        } = tried;
+        let middle = middle(&self.unknowns);
+        let rough_nominal = outcomes.iter().find(|outcome| outcome.at == middle).cloned();
+        Self::decide(runs, &measure, &mut outcomes)?;
+        let is_nominal = |outcome: &&Outcome| outcome.at == middle && !outcome.rough;
+        let nominal = outcomes.iter().find(is_nominal).cloned().or(rough_nominal);
+        let held = measure.applied(&self.scene);
+        let asked = outcomes.iter().filter(|outcome| self.asks(outcome));
+        let failure = |outcome: &Outcome| Some((outcome.at.clone(), outcome.failure.clone()?));
+        Ok(MeasureAnswer {
+            name: measure.name.clone(),
+            ends: held.ends,
+            restraints: held.restraints,
+            cost: measure.cost.clone(),
+            parts: measure.parts(),
+            within_limits: outcomes.iter().all(Outcome::holds),
+            kept: asked.filter(|outcome| outcome.holds()).count(),
+            worst: worst(&outcomes).map(Outcome::sorted),
+            nominal: nominal.as_ref().map(Outcome::sorted),
+            failures: outcomes.iter().filter_map(failure).collect(),
+            outcomes,
+        })
+    }
+
+    fn answer(&self, runs: usize, measures: Vec<MeasureAnswer>) -> Comparison {
+        let recommended = recommended(&measures);
+        let by_share = |a: &&MeasureAnswer, b: &&MeasureAnswer| a.share().total_cmp(&b.share());
+        let nearest = measures.iter().min_by(by_share).filter(|_| recommended.is_none());
+        Comparison {
+            title: self.scene.title.clone(),
+            passes: self.scene.traffic.passes,
+            uncertain: self.unknowns.clone(),
+            assumed: self.assumed,
+            combinations: self.combinations.len(),
+            runs,
+            recommended: recommended.map(|measure| measure.name.clone()),
+            decides: nearest.and_then(|nearest| self.decides(&nearest.outcomes)),
+            nearest: nearest.map(|nearest| nearest.name.clone()),
+            measures,
+        }
+    }
+
+    /// The unknown whose best value helps most in the worst of the combinations.
+    fn decides(&self, outcomes: &[Outcome]) -> Option<String> {
+        let asked = || {
+            outcomes
+                .iter()
+                .filter(|outcome| self.asks(outcome) && outcome.failure.is_none())
+        };
+        let worst = worst(asked())?;
+        let least = |key: &str| {
+            let line = asked().filter(|outcome| outcome.differs_only_in(key, &worst.at));
+            line.map(Outcome::share).fold(f64::INFINITY, f64::min)
+        };
+        let keys = worst.at.keys();
+        keys.min_by(|a, b| least(a).total_cmp(&least(b))).cloned()
+    }
+}
+
+/// The largest share of a limit; a run that failed is worse than any.
+fn largest(outcomes: &[Outcome]) -> f64 {
+    let share = |outcome: &Outcome| {
+        outcome
+            .failure
+            .as_ref()
+            .map_or(outcome.share(), |_| f64::INFINITY)
+    };
+    outcomes.iter().map(share).fold(0.0, f64::max)
+}
+
+/// The candidate with the smallest largest share of a limit in the `critical` combinations; of springs that with any stiffness, as a
+/// spring against a spring is read between those that are run.
+fn best(runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Measure, Error> {
+    if way.len() == 1 {
+        return Ok(way[0].clone());
+    }
+    let rows = way.par_iter().map(|measure| runs.rough_runs(measure, critical));
+    let rows: Vec<Vec<Outcome>> = rows.collect::<Result<_, _>>()?;
+    let levels: Vec<f64> = way.iter().filter_map(stiffness).collect();
+    if levels.len() < way.len() || rows.iter().any(|row| largest(row).is_infinite()) {
+        let by_largest = |a: &usize, b: &usize| largest(&rows[*a]).total_cmp(&largest(&rows[*b]));
+        return Ok(way[(0..way.len()).min_by(by_largest).unwrap_or(0)].clone());
+    }
+    let at = |stiffness: f64| {
+        let limits = rows[0].iter().enumerate().flat_map(|(case, outcome)| {
+            let limits = outcome.verdicts.iter().enumerate();
+            limits.map(move |(limit, verdict)| (case, limit, verdict.quantity))
+        });
+        let read = |(case, limit, quantity): (usize, usize, Limited)| {
+            let there = between(&levels, stiffness, quantity)
+                .into_iter()
+                .filter(|(_, weight)| *weight > 0.0);
+            let inverse = there.map(|(row, weight)| weight / share(&rows[row][case].verdicts[limit]));
+            1.0 / inverse.sum::<f64>()
+        };
+        limits.map(read).fold(0.0, f64::max)
+    };
+    let (first, last) = (levels[0], levels[levels.len() - 1]);
+    let steps = ((last / first).log10() * PER_DECADE).ceil();
+    let trials = (0..=steps as usize).map(|step| first * (last / first).powf(step as f64 / steps));
+    // A product has a round stiffness.
+    let round = |stiffness: f64| format!("{stiffness:.1e}").parse().unwrap_or(stiffness);
+    let best = trials.map(round).min_by(|a, b| at(*a).total_cmp(&at(*b)));
+    Ok(with_stiffness(&way[0], best.unwrap_or(first)))
+}
+
+/// The scene as it is if that holds; else the cheapest measure that does, and without costs the one with the fewest parts.
+fn recommended(measures: &[MeasureAnswer]) -> Option<&MeasureAnswer> {
+    let price = |measure: &MeasureAnswer| match measure.cost {
+        Some(Cost::Number(cost)) => cost,
+        _ if measure.parts == 0 => 0.0,
+        _ => f64::INFINITY,
+    };
+    let holding = measures.iter().filter(|measure| measure.within_limits);
+    holding.min_by(|a, b| {
+        let by_price = price(a).total_cmp(&price(b)).then(a.parts.cmp(&b.parts));
+        by_price.then(a.share().total_cmp(&b.share()))
+    })
+}

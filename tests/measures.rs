@@ -1,0 +1,404 @@
+//! Measures in every combination of what is not known, against runs that know nothing of the search.
+
+use creepage::measures::{Comparison, MeasureAnswer, Study};
+use creepage::scene::{Cost, End, SceneFile};
+use creepage::{CableEnd, Error, Limited, Limits, Place, Progress, Run, Scene};
+use rayon::prelude::*;
+
+/// The upper cable of the paper's experiment on a mesh that is good enough.
+const SCENE: &str = r#"
+duct = { length = "20 m", depth = "1.2 m" }
+ground = { layers = [{ young_modulus = "800 MPa", poisson_ratio = 0.4 }] }
+cable = { weight = "108.8 N/m", axial_stiffness = "8.01e6 N" }
+friction = { dynamic_coefficient = 0.25, shape_factor = 7352941.176470588 }
+ends = { upstream = "free", downstream = "fixed" }
+vehicles = [{ name = "truck", load = "196133 N", speed = "40 km/h" }]
+traffic = { passes = 20 }
+uncertain = { "friction.dynamic_coefficient" = [0.1, 0.5], "ground.vertical_peak" = ["50 um", "90 um"] }
+"#;
+
+fn file(overrides: &[&str]) -> SceneFile {
+    let file = SceneFile::from_toml("duct.toml", SCENE);
+    file.and_then(|file| file.with(overrides))
+        .expect("a file of a scene")
+}
+
+fn limits(force_n: f64, movement_m: f64) -> Limits {
+    Limits::both(Some(force_n), Some(movement_m))
+}
+
+fn compared(file: &SceneFile, limits: &Limits) -> Comparison {
+    let study = Study::new(file).unwrap_or_else(|error| panic!("{error}"));
+    study
+        .compare(&|_: &Scene| limits.clone(), Progress::default())
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The scene of one combination, held as a measure says.
+fn held(file: &SceneFile, keys: &[&str], at: &[f64], measure: &MeasureAnswer) -> Scene {
+    let set = |(key, value): (&&str, &f64)| format!("{key}={value:?}");
+    let overrides: Vec<String> = keys.iter().zip(at).map(set).collect();
+    let mut scene = file
+        .with(&overrides)
+        .and_then(|file| file.scene())
+        .expect("a scene");
+    scene.ends = measure.ends;
+    scene.restraints.clone_from(&measure.restraints);
+    scene
+}
+
+/// The largest share of a limit, a hundredth of the duct's length being one of movement too.
+fn share(run: &Run, scene: &Scene, limits: &Limits) -> f64 {
+    let of = |(place, quantity, limit): (Place, Limited, f64)| run.largest(place, quantity) / limit;
+    let in_duct = CableEnd::ALL.map(|end| run.largest(end, Limited::Movement) / (0.01 * scene.duct.length));
+    limits.all().map(of).chain(in_duct).fold(0.0, f64::max)
+}
+
+/// Levels between the lowest and the highest value of each unknown.
+fn grid(comparison: &Comparison, counts: impl Fn(&str) -> usize) -> Vec<Vec<f64>> {
+    let mut all = vec![Vec::new()];
+    for unknown in &comparison.uncertain {
+        let count = counts(&unknown.key);
+        let level = |i: usize| unknown.low + (unknown.high - unknown.low) * i as f64 / (count - 1) as f64;
+        let extended = all.iter().flat_map(|at: &Vec<f64>| {
+            (0..count)
+                .map(|i| [&at[..], &[level(i)]].concat())
+                .collect::<Vec<_>>()
+        });
+        all = extended.collect();
+    }
+    all
+}
+
+fn keys(comparison: &Comparison) -> Vec<&str> {
+    comparison
+        .uncertain
+        .iter()
+        .map(|unknown| unknown.key.as_str())
+        .collect()
+}
+
+/// The share of the worst of runs over a grid, at a tolerance.
+fn worst_of(
+    file: &SceneFile,
+    comparison: &Comparison,
+    measure: &MeasureAnswer,
+    at: &[Vec<f64>],
+    limits: &Limits,
+    tolerance: f64,
+) -> f64 {
+    let run = |at: &Vec<f64>| {
+        let mut scene = held(file, &keys(comparison), at, measure);
+        scene.solver.tolerance = tolerance;
+        let run = creepage::run(&scene).unwrap_or_else(|error| panic!("{at:?}: {error}"));
+        share(&run, &scene, limits)
+    };
+    at.par_iter().map(run).reduce(|| 0.0, f64::max)
+}
+
+fn worst_share(measure: &MeasureAnswer) -> f64 {
+    let worst = measure.worst.as_ref().expect("a worst combination");
+    worst.verdicts[0].largest / worst.verdicts[0].limit
+}
+
+/// A cable as it is on a hill: no run of a finer grid is worse than what is said, and the run that is named is what it is said to be.
+#[test]
+fn the_worst_is_that_of_a_finer_grid() {
+    let (file, limits) = (file(&["measures=[{name=\"nothing\"}]"]), limits(400.0, 0.02));
+    let comparison = compared(&file, &limits);
+    let measure = &comparison.measures[0];
+    let finer = grid(&comparison, |key| if key.starts_with("friction") { 9 } else { 3 });
+    let (found, brute) = (
+        worst_share(measure),
+        worst_of(&file, &comparison, measure, &finer, &limits, 0.01),
+    );
+    assert!((found / brute - 1.0).abs() < 0.02, "{found} {brute}");
+    let worst = measure.worst.as_ref().unwrap();
+    let at: Vec<f64> = keys(&comparison).iter().map(|key| worst.at[*key]).collect();
+    assert!(
+        at[0] > 0.11 && at[0] < 0.49,
+        "the worst friction lies within its interval: {at:?}"
+    );
+    let again = worst_of(&file, &comparison, measure, &[at], &limits, 0.01);
+    assert!((found / again - 1.0).abs() < 0.01, "{found} {again}");
+    // The same scene by another name changes nothing.
+    assert_eq!(comparison.measures[1].worst, measure.worst);
+}
+
+/// The measure that is recommended holds in every combination, and of those that hold none has fewer parts.
+#[test]
+fn what_is_recommended_holds_and_is_the_least() {
+    let (file, limits) = (file(&[]), limits(250.0, 0.005));
+    let comparison = compared(&file, &limits);
+    let best = comparison
+        .best()
+        .filter(|_| comparison.recommended.is_some())
+        .expect("a measure that holds");
+    let all = grid(&comparison, |key| if key.starts_with("friction") { 5 } else { 3 });
+    let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
+    assert!(worst <= 1.0, "{}: {worst}", best.name);
+    for other in &comparison.measures {
+        assert_eq!(
+            other.within_limits,
+            other.kept == 15 && worst_share(other) <= 1.0,
+            "{}",
+            other.name
+        );
+        assert!(
+            !other.within_limits || other.parts >= best.parts,
+            "{}",
+            other.name
+        );
+    }
+    assert!(
+        !comparison.measures[0].within_limits,
+        "limits that the scene keeps as it is say nothing"
+    );
+}
+
+/// What a measure gives takes the place of what the scene has; added clamps join it. The cheapest that holds is recommended.
+#[test]
+fn measures_of_the_scene_replace_or_join_and_the_cheapest_is_taken() {
+    let measures = r#"measures=[
+        { name = "both", upstream = "fixed", cost = 900 },
+        { name = "bare", restraints = [], cost = 1 },
+        { name = "moved", restraints = [{ position = "20 m", stiffness = "2 MN/m" }], cost = "unknown" },
+        { name = "joined", added_restraints = [{ position = "20 m", stiffness = "2 MN/m" }], cost = 800 },
+        { name = "soft", downstream = { spring = "0.1 MN/m" }, cost = 700 }]"#;
+    let file = file(&[
+        measures,
+        "restraints=[{ position = \"10 m\", stiffness = \"1 MN/m\" }]",
+    ]);
+    let comparison = compared(&file, &limits(1e4, 1e-6));
+    let [as_it_is, both, bare, moved, joined, soft] = &comparison.measures[..] else {
+        panic!("{:?}", comparison.measures)
+    };
+    let clamps = |measure: &MeasureAnswer| -> Vec<f64> {
+        measure.restraints.iter().map(|clamp| clamp.position).collect()
+    };
+    let all = [as_it_is, both, bare, moved, joined, soft].map(clamps);
+    assert_eq!(
+        all,
+        [
+            vec![10.0],
+            vec![10.0],
+            vec![],
+            vec![20.0],
+            vec![10.0, 20.0],
+            vec![10.0]
+        ]
+    );
+    assert_eq!(
+        (both.ends.upstream, both.ends.downstream),
+        (End::Fixed, End::Fixed)
+    );
+    assert_eq!(
+        (soft.ends.upstream, soft.ends.downstream),
+        (End::Free, End::Spring(1e5))
+    );
+    assert_eq!(moved.cost, Some(Cost::Text("unknown".to_owned())));
+    assert_eq!(
+        comparison.recommended.as_deref(),
+        Some("both"),
+        "only fixed ends do not move"
+    );
+    let generous = compared(&file, &limits(1e5, 0.2));
+    assert_eq!(generous.recommended.as_deref(), Some("as it is"));
+    let none = compared(&file, &limits(1.0, 1e-6));
+    assert_eq!(
+        (none.recommended, none.nearest.is_some(), none.decides.is_some()),
+        (None, true, true)
+    );
+}
+
+/// A combination that cannot be computed is stated, and its measure is not said to hold.
+#[test]
+fn a_run_that_fails_is_a_row() {
+    // Without friction no clamp slips: the scene of that combination is refused.
+    let file = file(&[
+        "uncertain={ \"friction.dynamic_coefficient\" = [0, 0.4] }",
+        "measures=[{ name = \"slipping\", added_restraints = [{ position = 10, stiffness = 1e6, holds = 100 }] }]",
+    ]);
+    let comparison = compared(&file, &limits(1e5, 1.0));
+    let [as_it_is, slipping] = &comparison.measures[..] else {
+        panic!("{:?}", comparison.measures)
+    };
+    assert!(
+        as_it_is.within_limits && as_it_is.failures.is_empty(),
+        "{as_it_is:?}"
+    );
+    let [(at, reason)] = &slipping.failures[..] else {
+        panic!("{:?}", slipping.failures)
+    };
+    assert_eq!(at["friction.dynamic_coefficient"], 0.0);
+    assert!(reason.contains("restraints.0.holds"), "{reason}");
+    assert!(!slipping.within_limits && slipping.kept == 4, "{slipping:?}");
+}
+
+/// Where nothing is said, friction is assumed and the ground is known to a factor of two; the middle is then the scene's own ground.
+#[test]
+fn assumptions_are_marked_and_surround_the_scene() {
+    let file = file(&["uncertain=", "friction.dynamic_coefficient=0.6"]);
+    let comparison = compared(&file, &limits(1e5, 1.0));
+    let [friction, ground] = &comparison.uncertain[..] else {
+        panic!("{:?}", comparison.uncertain)
+    };
+    assert!(comparison.assumed);
+    assert_eq!((friction.low, friction.high), (0.2, 0.6));
+    let motion = creepage::profile(&file.scene().unwrap()).unwrap();
+    let peak = motion
+        .vertical_m
+        .iter()
+        .fold(0.0_f64, |most, down| most.max(down.abs()));
+    for (value, expected) in [
+        (ground.low, peak / 2.0),
+        (ground.middle(), peak),
+        (ground.high, 2.0 * peak),
+    ] {
+        assert!((value / expected - 1.0).abs() < 1e-3, "{value} {expected}");
+    }
+    assert_eq!(comparison.combinations, 15);
+}
+
+/// Progress never falls, and may stop it.
+#[test]
+fn progress_grows_and_may_stop_it() {
+    let last = std::sync::Mutex::new(0.0);
+    let stop = |share: f64| {
+        let mut last = last.lock().unwrap();
+        assert!((0.0..=1.0).contains(&share), "{share}");
+        *last = share;
+        if share > 0.3 {
+            std::ops::ControlFlow::Break(())
+        } else {
+            std::ops::ControlFlow::Continue(())
+        }
+    };
+    let study = Study::new(&file(&[])).unwrap();
+    let stopped = study.compare(&|_: &Scene| limits(300.0, 0.01), Progress::new(&stop));
+    assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");
+    assert!(*last.lock().unwrap() > 0.3);
+}
+
+/// Eight kinds of scenes, each with two unknowns and limits that some measures keep.
+const KINDS: [(&str, &[&str], f64, f64); 8] = [
+    ("one way", &["duct.length=60"], 500.0, 0.005),
+    (
+        "two ways",
+        &[
+            "vehicles=[{ name = \"out\", load = \"20 tf\", speed = \"40 km/h\", share = 0.7 }, { name = \"back\", load = \"20 tf\", speed = \"40 km/h\", share = 0.3, direction = \"reverse\", lateral_offset = 3.5 }]",
+            "traffic.passes=200",
+            "uncertain={ \"friction.dynamic_coefficient\" = [0.1, 0.5], \"cable.axial_stiffness\" = [4e6, 2e7] }",
+        ],
+        300.0,
+        0.003,
+    ),
+    (
+        "both ends sprung",
+        &[
+            "ends.upstream={spring=3e6}",
+            "ends.downstream={spring=3e6}",
+            "duct.length=60",
+            "uncertain={ \"friction.dynamic_coefficient\" = [0.15, 0.6], \"friction.shape_factor\" = [2e6, 2e7] }",
+        ],
+        300.0,
+        0.005,
+    ),
+    (
+        "heat",
+        &[
+            "traffic.passes=2400",
+            "traffic.per_day=240",
+            "heat={ expansion = 17e-6, daily_swing = 5 }",
+            "solver.tolerance=0.03",
+            "measures=[{ name = \"sprung\", downstream = { spring = 3e5 } }]",
+        ],
+        400.0,
+        0.006,
+    ),
+    (
+        "clamps",
+        &[
+            "duct.length=60",
+            "restraints=[{ position = 15, stiffness = 1e6, holds = 150 }, { position = 50, stiffness = 1e6 }]",
+        ],
+        350.0,
+        0.005,
+    ),
+    (
+        "bus lane",
+        &[
+            "vehicles=[{ name = \"bus\", speed = \"40 km/h\", wheels = [{ x = 0, load = \"115 kN\", contact_radius = 0.15 }, { x = -5.5, load = \"75 kN\", contact_radius = 0.15 }] }]",
+            "traffic.passes=300",
+            "uncertain={ \"friction.dynamic_coefficient\" = [0.1, 0.5], \"vehicles.0.wheels.0.load\" = [\"90 kN\", \"130 kN\"] }",
+        ],
+        200.0,
+        0.003,
+    ),
+    (
+        "bend",
+        &[
+            "duct.length=60",
+            "route=[{length=20}, {length=15.7, bend_radius=10}, {}]",
+        ],
+        500.0,
+        0.005,
+    ),
+    (
+        "bundle",
+        &[
+            "duct.inner_diameter=0.2",
+            "cable.diameter=0.088",
+            "cable.arrangement=trefoil-lower",
+            "duct.length=60",
+            "uncertain={ \"friction.dynamic_coefficient\" = [0.1, 0.4], \"ground.layers.0.young_modulus\" = [\"400 MPa\", \"1600 MPa\"] }",
+        ],
+        600.0,
+        0.005,
+    ),
+];
+
+/// The worst of every measure is that of a grid four times finer, to 2 %, and what is recommended holds at 0.2 % in every combination.
+#[test]
+#[ignore = "many minutes: 153 runs for each of two measures in eight scenes; KIND chooses one"]
+fn the_worst_of_eight_kinds_of_scenes_is_that_of_a_grid_four_times_finer() {
+    let chosen = std::env::var("KIND").ok();
+    for (kind, overrides, force, movement) in KINDS
+        .iter()
+        .filter(|kind| chosen.as_deref().is_none_or(|name| name == kind.0))
+    {
+        let (file, limits) = (file(overrides), limits(*force, *movement));
+        let comparison = compared(&file, &limits);
+        let finer = grid(
+            &comparison,
+            |key| if key.starts_with("friction.dyn") { 17 } else { 9 },
+        );
+        let tolerance = file.scene().unwrap().solver.tolerance;
+        let best = comparison.best().expect("a measure");
+        for measure in [&comparison.measures[0], best] {
+            let brute = worst_of(&file, &comparison, measure, &finer, &limits, tolerance);
+            let found = worst_share(measure);
+            println!(
+                "{kind}, {}: found {found:.4}, grid {brute:.4}: {:+.2} %",
+                measure.name,
+                100.0 * (found / brute - 1.0)
+            );
+            assert!(
+                (found / brute - 1.0).abs() < 0.02,
+                "{kind}, {}: {found} {brute}",
+                measure.name
+            );
+        }
+        let all = grid(
+            &comparison,
+            |key| if key.starts_with("friction.dyn") { 5 } else { 3 },
+        );
+        if comparison.recommended.is_some() {
+            let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
+            println!("{kind}, {} at 0.2 %: {worst:.4}", best.name);
+            assert!(worst <= 1.0, "{kind}, {}: {worst}", best.name);
+        } else {
+            println!("{kind}: none holds, {} is nearest", best.name);
+        }
+    }
+}
