@@ -231,7 +231,11 @@ fn random_runs(seeds: std::ops::Range<u64>, more: &[&str]) -> Vec<(u64, Result<R
             .map_err(|error| error.to_string());
         let start = std::time::Instant::now();
         let run = scene.and_then(|scene| creepage::run(&scene).map_err(|error| error.to_string()));
-        println!("{seed}: {:.1} s: {}", start.elapsed().as_secs_f64(), changes.join(" "));
+        println!(
+            "{seed}: {:.1} s: {}",
+            start.elapsed().as_secs_f64(),
+            changes.join(" ")
+        );
         (seed, run)
     };
     seeds.map(of_seed).collect()
