@@ -149,9 +149,11 @@ fn measures_are_compared_in_words_and_as_json() {
     assert_eq!(fixed["ends"]["upstream"], "fixed");
     assert_eq!(list(&fixed["restraints"]).len(), 0);
     let [worst, nominal] = ["worst", "nominal"].map(|name| &fixed[name]);
-    let [largest, in_middle] = [worst, nominal].map(|outcome| number(&outcome["verdicts"][0]["largest"]));
+    let [largest, in_middle] = [worst, nominal].map(|outcome| number(&outcome["value"]));
+    assert_eq!(worst["quantity"], worst["verdicts"][0]["quantity"]);
+    assert_eq!(worst["value"], worst["verdicts"][0]["largest"]);
     assert!(
-        in_middle <= largest && largest < number(&worst["verdicts"][0]["limit"]),
+        in_middle <= largest && largest < number(&worst["limit"]),
         "{fixed}"
     );
     assert_eq!(

@@ -74,14 +74,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .ok_or_else(|| Failure::NotKept(none.to_owned()))
 }
 
-/// Says how many runs there will be, and makes them.
+/// Makes the runs, and says how many there may be.
 pub fn compared(study: &Study, limits: &LimitArguments) -> Result<Comparison, crate::Error> {
     let [combinations, count, most] = study.size();
-    let _ = writeln!(
-        terminal::err(),
-        "progress: {count} measures in {combinations} combinations, at most {most} runs of the scene"
-    );
-    let words = |_| format!("{count} measures in {combinations} combinations");
+    let words = |_| format!("{count} measures in {combinations} combinations, at most {most} runs");
     watched(1.0, words, |progress| {
         study.compare(&|scene: &Scene| limits.wherever_they_are(scene), progress)
     })

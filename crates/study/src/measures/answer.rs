@@ -1,9 +1,9 @@
 //! What a comparison of measures answers. The names of the fields are those of the JSON document.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::unknown::{Combination, middle};
-use creepage_run::Verdict;
+use creepage_run::{Limited, Place, Verdict};
 use creepage_scene::{Cost, Ends, Restraint, Uncertain};
 
 /// One measure with one combination of what is not known.
@@ -52,6 +52,31 @@ impl Outcome {
     }
 }
 
+/// The outcome with its nearest limit beside it.
+#[expect(clippy::ref_option, reason = "serde hands fields by reference")]
+fn with_nearest<S: Serializer>(outcome: &Option<Outcome>, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Nearest<'o> {
+        end: Place,
+        quantity: Limited,
+        value: f64,
+        limit: f64,
+        #[serde(flatten)]
+        outcome: &'o Outcome,
+    }
+    let nearest = outcome.as_ref().and_then(|outcome| {
+        let verdict = outcome.verdicts.first()?;
+        Some(Nearest {
+            end: verdict.end,
+            quantity: verdict.quantity,
+            value: verdict.largest,
+            limit: verdict.limit,
+            outcome,
+        })
+    });
+    nearest.serialize(serializer)
+}
+
 /// What a verdict's value is of its limit.
 pub(super) fn share(verdict: &Verdict) -> f64 {
     verdict.largest / verdict.limit
@@ -75,8 +100,10 @@ pub struct MeasureAnswer {
     /// In how many of the combinations it keeps them.
     pub kept: usize,
     /// The worst combination; null where every run failed.
+    #[serde(serialize_with = "with_nearest")]
     pub worst: Option<Outcome>,
     /// The middle of all intervals, on the coarse mesh unless it is near a limit.
+    #[serde(serialize_with = "with_nearest")]
     pub nominal: Option<Outcome>,
     /// Runs that failed: combination and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
