@@ -34,7 +34,7 @@ pub fn command(line: &str) -> Command {
     command
 }
 
-/// Exit status, standard output, and standard error without the lines of a command that takes longer than a moment.
+/// Exit status, standard output and standard error.
 pub fn output(line: &str) -> (i32, String, String) {
     answer(command(line).output().expect("the command starts"))
 }
@@ -42,12 +42,10 @@ pub fn output(line: &str) -> (i32, String, String) {
 /// The same of an output.
 pub fn answer(output: Output) -> (i32, String, String) {
     let [said, errors] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("UTF-8"));
-    let errors = errors.lines().filter(|line| !line.starts_with("progress: "));
-    let errors = errors.fold(String::new(), |all, line| all + line + "\n");
     (output.status.code().expect("no signal"), said, errors)
 }
 
-/// What a command that succeeds prints; of standard error nothing but progress.
+/// What a command that succeeds prints, with nothing on standard error.
 #[track_caller]
 pub fn printed(line: &str) -> String {
     let (status, said, errors) = output(line);
