@@ -1,10 +1,10 @@
 //! What to fit, and what of it is certain: measures in every combination of what is not known.
 
-use super::chart::{ALONE, OTHER, figure};
+use super::chart::{ALONE, OTHER, axis, figure, over};
 use super::content::Report;
 use super::html::Html;
 use crate::words::measures::{failures, interval, measures, recommendation, uncertain};
-use creepage_run::{Limited, Verdict};
+use creepage_run::Verdict;
 use creepage_study::measures::{Combination, Comparison, FRICTION_KEY, Outcome};
 use plain_figure::{Axis, Chart, Reference, Series};
 
@@ -69,14 +69,6 @@ impl OfWorst<'_> {
         points
     }
 
-    fn axis(&self) -> Axis {
-        let name = match self.verdict.quantity {
-            Limited::Force => "force",
-            Limited::Movement => "movement",
-        };
-        Axis::linear(self.report.reader.head(name, self.verdict.quantity))
-    }
-
     /// Against friction, as a band over the other unknowns, with the scene's own place.
     fn hill(&self) -> Chart {
         let points = self.points(FRICTION_KEY);
@@ -84,7 +76,7 @@ impl OfWorst<'_> {
         // Places at which all combinations are known.
         let groups = points.chunk_by(|a, b| a.0 == b.0);
         let groups: Vec<_> = groups.filter(|group| !is_band || group.len() > 1).collect();
-        let over = |of: fn(f64, f64) -> f64| {
+        let border = |of: fn(f64, f64) -> f64| {
             let of_group = |group: &&[(f64, f64, bool)]| {
                 let values = group.iter().map(|point| point.1);
                 (group[0].0, values.reduce(of).unwrap_or_default())
@@ -94,9 +86,15 @@ impl OfWorst<'_> {
         let name = self.verdict.quantity.at(self.verdict.end);
         let title = name[..1].to_uppercase() + &name[1..];
         let limit = Reference::horizontal(self.in_unit(self.verdict.limit), "limit");
-        let mut chart = Chart::new(title, Axis::linear("friction coefficient"), self.axis()).refer(limit);
+        let mut chart = over(
+            self.report,
+            &title,
+            Axis::linear("friction coefficient"),
+            self.verdict.quantity,
+        )
+        .refer(limit);
         if is_band {
-            let line = |name: &str, of| Series::line(name, over(of)).look(1);
+            let line = |name: &str, of| Series::line(name, border(of)).look(1);
             chart = chart.with(line("highest of the others", f64::max).solid());
             chart = chart.with(line("lowest of the others", f64::min).dashed());
         }
@@ -128,7 +126,12 @@ impl OfWorst<'_> {
             .range(-0.6, bars.len() as f64 - 0.4)
             .ticks((0..bars.len()).map(|row| (row as f64, " ")));
         let limit = Reference::vertical(self.in_unit(self.verdict.limit), "limit");
-        let chart = Chart::new("What each unknown does alone", self.axis(), rows).refer(limit);
+        let chart = Chart::new(
+            "What each unknown does alone",
+            axis(self.report, self.verdict.quantity),
+            rows,
+        )
+        .refer(limit);
         let all = bars.into_iter().enumerate().rev().enumerate();
         all.fold(chart, |chart, (look, (row, (name, least, most)))| {
             let points = [(least, row as f64), (most, row as f64)];

@@ -67,13 +67,18 @@ pub fn lines<Points: IntoIterator<Item = (f64, f64)>>(
     })
 }
 
-/// A chart of force or movement over `x`, without lines yet.
-pub fn over(report: &Report, title: &str, x: Axis, quantity: Limited) -> Chart {
+/// The axis of force or movement.
+pub fn axis(report: &Report, quantity: Limited) -> Axis {
     let name = match quantity {
         Limited::Force => "force",
         Limited::Movement => "movement",
     };
-    Chart::new(title, x, Axis::linear(report.reader.head(name, quantity)))
+    Axis::linear(report.reader.head(name, quantity))
+}
+
+/// A chart of force or movement over `x`, without lines yet.
+pub fn over(report: &Report, title: &str, x: Axis, quantity: Limited) -> Chart {
+    Chart::new(title, x, axis(report, quantity))
 }
 
 /// Forces along the cable with their names.

@@ -4,46 +4,37 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use creepage_plan::ground::{Ground, road};
+use creepage_plan::ground::KnownGrounds;
 
-use crate::scene::{self, TrafficVehicle};
 use crate::{Error, Progress, Run, RunOptions, SavedState, Scene};
 
 /// Grounds that are kept: those of drafts and of answers, each before and after the last change.
 const GROUNDS: usize = 4;
 
-/// What a ground follows from: layers, vehicles; depth, offset and reach \[m\], and the tolerance.
-type Site = (scene::Ground, Vec<TrafficVehicle>, [f64; 4]);
-
-#[derive(Default)]
 pub struct Bench {
-    grounds: Vec<(Site, Arc<Ground>)>,
+    /// Of two layers and two lanes the ground takes longer than the passes of a draft.
+    pub grounds: KnownGrounds,
     /// The scene that was run last, and the cable as that leaves it.
     last: Option<(Scene, Arc<SavedState>)>,
 }
 
-impl Bench {
-    /// The ground of `scene`: of two layers and two lanes it takes longer than the passes of a draft.
-    pub fn ground(&mut self, scene: &Scene) -> Result<Arc<Ground>, Error> {
-        let (duct, reach) = (&scene.duct, road::reach(scene));
-        let numbers = [duct.depth, duct.lateral_offset, reach, scene.solver.tolerance];
-        let site = (scene.ground.clone(), scene.vehicles.clone(), numbers);
-        if let Some((_, ground)) = self.grounds.iter().find(|(known, _)| *known == site) {
-            return Ok(Arc::clone(ground));
+impl Default for Bench {
+    fn default() -> Self {
+        Self {
+            grounds: KnownGrounds::new(GROUNDS),
+            last: None,
         }
-        let ground = Arc::new(Ground::new(scene, None, reach)?);
-        self.grounds.insert(0, (site, Arc::clone(&ground)));
-        self.grounds.truncate(GROUNDS);
-        Ok(ground)
     }
+}
 
+impl Bench {
     /// Runs a valid `scene`, as [`crate::run_with`] does.
     pub fn run(&mut self, scene: &Scene, progress: Progress<'_>) -> Result<Run, Error> {
         let options = RunOptions {
             progress,
             ..RunOptions::default()
         };
-        let run = creepage_run::run::run_over(scene, self.ground(scene)?, &options)?;
+        let run = creepage_run::run::run_over(scene, self.grounds.of(scene)?, &options)?;
         self.last = run.state.clone().map(|state| (scene.clone(), Arc::new(state)));
         Ok(run)
     }

@@ -46,7 +46,7 @@ pub fn film(
     } else {
         bench.state(scene, progress)?
     };
-    let ground = bench.ground(scene)?;
+    let ground = bench.grounds.of(scene)?;
     let mut plan = plan_over(scene, ground.clone())?;
     plan.start = start.as_deref();
     let index = question.vehicle.min(scene.vehicles.len() - 1);

@@ -83,11 +83,9 @@ impl LongStep {
             self.sweeps += 1;
             // Minus the slope of the energy along the step.
             let fall = |cable: &RestingCable, residual: &[f64]| -> f64 {
-                let works = cable
-                    .chain()
-                    .free()
-                    .nodes()
-                    .map(|i| step[i] * residual[i] * cable.chain().nodes()[i].tributary);
+                let chain = cable.chain();
+                let work = |i: usize| step[i] * residual[i] * chain.nodes()[i].tributary;
+                let works = chain.free().nodes().map(work);
                 works.sum()
             };
             let start = fall(cable, residual).abs();
@@ -114,10 +112,10 @@ impl LongStep {
         let mut needed = vec![0.0; v.len()];
         cable.needed(&place.collect::<Vec<_>>(), stage.thermal_force, &mut needed);
         let (mut residual, mut slope) = (vec![0.0; v.len()], vec![1.0; v.len()]);
-        for i in cable.chain().free().nodes() {
-            let (found, steepness) =
-                self.law
-                    .with_defect(v[i], stage.defect[i], cable.chain().nodes()[i].limit);
+        let chain = cable.chain();
+        for i in chain.free().nodes() {
+            let limit = chain.nodes()[i].limit;
+            let (found, steepness) = self.law.with_defect(v[i], stage.defect[i], limit);
             residual[i] = found - needed[i];
             slope[i] = steepness;
         }

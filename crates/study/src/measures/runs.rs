@@ -1,22 +1,20 @@
 //! Runs of a scene with one measure and one combination of what is not known.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
 use super::answer::Outcome;
-use super::unknown::Combination;
-use creepage_plan::ground::{Ground, road};
+use super::unknown::{Combination, MOST_COMBINATIONS};
+use crate::design;
+use creepage_plan::ground::KnownGrounds;
 use creepage_plan::plan_over;
 use creepage_run::answer::largest_movement_in_duct;
 use creepage_run::run::{run_over, run_shown};
 use creepage_run::{Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions};
 use creepage_scene::{CableEnd, End, Measure, Scene, SceneFile};
 
-/// Tolerance of rough runs, if the scene's own is not looser: their mesh is the one with which a run of this tolerance begins, six nodes
-/// per depth as a rule.
-const ROUGH: f64 = 0.05;
 /// What a run with the scene's own tolerance costs, in rough runs: 3 to 60. Both kinds are mixed, so that the progress hardly depends on it.
 const OWN_COST: usize = 20;
 
@@ -31,15 +29,11 @@ pub struct Runs<'a> {
     /// Node spacing and vehicle step of rough runs \[m\], and what one of them has shown.
     mesh: (f64, f64),
     shown: Option<FixedMesh>,
-    grounds: Mutex<Vec<(Scene, Arc<Ground>)>>,
+    grounds: KnownGrounds,
     /// How many there were, what they cost and what all will [rough runs].
     made: AtomicUsize,
     cost: AtomicUsize,
     expected: usize,
-}
-
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<'a> Runs<'a> {
@@ -58,14 +52,14 @@ impl<'a> Runs<'a> {
             progress,
             mesh: (0.0, 0.0),
             shown: None,
-            grounds: Mutex::default(),
+            grounds: KnownGrounds::new(MOST_COMBINATIONS),
             made: AtomicUsize::new(0),
             cost: AtomicUsize::new(0),
             expected: expected[0] + OWN_COST * expected[1],
         };
         let mut scene = runs.scene(middle)?;
-        let ground = runs.ground(&scene)?;
-        scene.solver.tolerance = scene.solver.tolerance.max(ROUGH);
+        let ground = runs.grounds.of(&scene)?;
+        scene = design::rough(&scene);
         let levels = plan_over(&scene, Arc::clone(&ground))?.levels;
         runs.mesh = levels.spacing(levels.first);
         scene.ends.upstream = End::Fixed;
@@ -75,16 +69,16 @@ impl<'a> Runs<'a> {
             progress: progress.part(0.0, 0.0),
             ..RunOptions::default()
         };
-        runs.shown = match run_shown(&runs.rough(scene), ground, &options) {
+        runs.shown = match run_shown(&runs.rough(&scene), ground, &options) {
             Err(Error::Stopped) => return Err(Error::Stopped),
             shown => shown.ok().and_then(|(_, shown)| shown),
         };
         Ok(runs)
     }
 
-    /// The scene on the mesh that is shared.
-    fn rough(&self, mut scene: Scene) -> Scene {
-        scene.solver.tolerance = scene.solver.tolerance.max(ROUGH);
+    /// The scene on the mesh that is shared: the one with which a rough run begins, six nodes per depth as a rule.
+    fn rough(&self, scene: &Scene) -> Scene {
+        let mut scene = design::rough(scene);
         scene.solver.node_spacing.get_or_insert(self.mesh.0);
         scene.solver.vehicle_step.get_or_insert(self.mesh.1);
         scene
@@ -94,21 +88,6 @@ impl<'a> Runs<'a> {
     fn scene(&self, at: &Combination) -> Result<Scene, Error> {
         let overrides: Vec<String> = at.iter().map(|(key, value)| format!("{key}={value:?}")).collect();
         Ok(self.file.with(&overrides)?.scene()?)
-    }
-
-    /// The ground of a scene; friction, for one, leaves it as it is.
-    fn ground(&self, scene: &Scene) -> Result<Arc<Ground>, Error> {
-        let is_alike = |known: &&(Scene, _)| motion(&known.0) == motion(scene);
-        let known = locked(&self.grounds)
-            .iter()
-            .find(is_alike)
-            .map(|(_, ground)| Arc::clone(ground));
-        if let Some(ground) = known {
-            return Ok(ground);
-        }
-        let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
-        locked(&self.grounds).push((scene.clone(), Arc::clone(&ground)));
-        Ok(ground)
     }
 
     /// What the scene comes to with `measure` in each of these combinations. A run that fails is an outcome with its error.
@@ -151,7 +130,7 @@ impl<'a> Runs<'a> {
 
     fn computed(&self, measure: &Measure, at: &Combination, rough: bool) -> Result<(Scene, Run), Error> {
         let mut scene = self.scene(at)?;
-        let ground = self.ground(&scene)?;
+        let ground = self.grounds.of(&scene)?;
         scene = measure.applied(&scene);
         scene.validate()?;
         let run = |scene: &Scene, mesh| {
@@ -164,13 +143,12 @@ impl<'a> Runs<'a> {
         if !rough {
             return Ok((scene.clone(), run(&scene, None)?));
         }
-        if let Ok(run) = run(&self.rough(scene.clone()), self.shown) {
+        if let Ok(run) = run(&self.rough(&scene), self.shown) {
             return Ok((scene, run));
         }
         // Where that mesh is too coarse, a run finds its own.
-        let mut own = scene.clone();
-        own.solver.tolerance = own.solver.tolerance.max(ROUGH);
-        Ok((scene, run(&own, None)?))
+        let run = run(&design::rough(&scene), None)?;
+        Ok((scene, run))
     }
 
     /// The limits of a scene, and that the cable stays in its duct.
@@ -187,15 +165,4 @@ impl<'a> Runs<'a> {
     pub fn made(&self) -> usize {
         self.made.load(Ordering::Relaxed)
     }
-}
-
-/// What the motion of the duct follows from.
-fn motion(scene: &Scene) -> impl PartialEq + use<'_> {
-    (
-        &scene.ground,
-        &scene.duct,
-        &scene.vehicles,
-        &scene.heat,
-        &scene.solver,
-    )
 }

@@ -8,8 +8,7 @@ use super::runs::{LimitsOf, Runs};
 use super::unknown::{Combination, combinations, middle, unknowns};
 use super::ways::{Way, stiffness, ways, with_stiffness};
 use crate::design::{DesignError, between};
-use creepage_plan::ground::{Ground, road};
-use creepage_run::{Error, Limited, Progress};
+use creepage_run::{Error, Limited, Place, Progress};
 use creepage_scene::{Cost, Measure, Scene, SceneFile, Uncertain};
 
 /// Runs closer around the worst of one measure, at most.
@@ -47,8 +46,7 @@ impl Study {
     /// [`DesignError`] where the scene is wrong, or has more unknowns than can be combined.
     pub fn new(file: &SceneFile) -> Result<Self, DesignError> {
         let scene = file.scene().map_err(Error::from)?;
-        let ground = Ground::new(&scene, None, road::reach(&scene))?;
-        let (unknowns, assumed) = unknowns(&scene, &ground);
+        let (unknowns, assumed) = unknowns(&scene)?;
         Ok(Self {
             combinations: combinations(&unknowns)?,
             file: file.clone(),
@@ -56,6 +54,13 @@ impl Study {
             assumed,
             scene,
         })
+    }
+
+    /// The clamps of all measures that are compared.
+    pub fn clamps(&self) -> Vec<Place> {
+        let all = ways(&self.scene).into_iter().flatten();
+        let clamps = all.flat_map(|measure| measure.applied(&self.scene).restraints);
+        clamps.map(|clamp| Place::Clamp(clamp.position)).collect()
     }
 
     /// How many combinations, measures and, at most, runs there are: each rough and with the scene's tolerance, and twice where a stiffness

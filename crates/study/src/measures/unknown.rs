@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::design::DesignError;
-use creepage_plan::ground::Ground;
+use creepage_plan::ground::{Ground, road};
+use creepage_run::Error;
 use creepage_scene::{PeakScaling, Scene, Uncertain};
 
 /// Friction that is assumed where a scene does not say what is not known of it: from lubricated ducts to dry ones.
@@ -11,22 +12,24 @@ const FRICTION: [f64; 2] = [0.2, 0.5];
 /// Factor of the ground's deflection to either side that is assumed then: that of moduli from tables.
 const DEFLECTION: f64 = 2.0;
 /// Combinations at most: friction and four other keys.
-const MOST_COMBINATIONS: usize = 405;
+pub const MOST_COMBINATIONS: usize = 405;
 /// The key whose values make a hill.
 pub const FRICTION_KEY: &str = "friction.dynamic_coefficient";
 
 /// A value of each key that is not known \[SI\].
 pub type Combination = BTreeMap<String, f64>;
 
-/// What `scene`, which moves as its `ground` does, leaves open; and whether that is assumed, as it says nothing.
-pub fn unknowns(scene: &Scene, ground: &Ground) -> (Vec<Uncertain>, bool) {
+/// What `scene` leaves open; and whether that is assumed, as it says nothing.
+pub fn unknowns(scene: &Scene) -> Result<(Vec<Uncertain>, bool), Error> {
     if !scene.uncertain.is_empty() {
-        return (scene.uncertain.clone(), false);
+        return Ok((scene.uncertain.clone(), false));
     }
     let friction = scene.friction.dynamic_coefficient;
-    let (key, peak) = match scene.ground.scaling() {
-        Some(PeakScaling::Longitudinal(peak)) => ("ground.longitudinal_peak", peak),
-        _ => ("ground.vertical_peak", ground.motions[0].peak_vertical()),
+    let (key, peak) = if let Some(PeakScaling::Longitudinal(peak)) = scene.ground.scaling() {
+        ("ground.longitudinal_peak", peak)
+    } else {
+        let ground = Ground::new(scene, None, road::reach(scene))?;
+        ("ground.vertical_peak", ground.motions[0].peak_vertical())
     };
     let [low, high] = FRICTION;
     let both = [
@@ -35,7 +38,7 @@ pub fn unknowns(scene: &Scene, ground: &Ground) -> (Vec<Uncertain>, bool) {
     ];
     let there = both.into_iter().filter(|(_, own, ..)| *own > 0.0);
     let unknown = |(key, _, low, high): (&str, f64, f64, f64)| Uncertain::new(key, low, high);
-    (there.map(unknown).collect(), true)
+    Ok((there.map(unknown).collect(), true))
 }
 
 /// The values of an unknown, the middle one among them.

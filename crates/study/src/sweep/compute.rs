@@ -3,17 +3,13 @@
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use super::columns::{Answer, AnswerColumn, Row};
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::run::SweepOptions;
-use creepage_plan::{
-    error::with_causes,
-    finite,
-    ground::{Ground, road},
-};
+use creepage_plan::{error::with_causes, finite, ground::KnownGrounds};
 use creepage_run::{Error, Progress, Run, RunOptions, run::run_over};
 use creepage_scene::Scene;
 
@@ -34,17 +30,17 @@ impl Sweep {
         let within = |_| report().map_or(ControlFlow::Break(()), ControlFlow::Continue);
         let keep = Mutex::new(keep);
         let work = || -> Result<(), SweepError> {
-            let mut known = None;
+            let grounds = KnownGrounds::new(1);
             let run_options = RunOptions {
                 progress: Progress::new(&within),
                 ..RunOptions::default()
             };
-            let mut run = |scene: &Scene| match options.evaluate {
+            let run = |scene: &Scene| match options.evaluate {
                 Some(evaluate) => evaluate(scene),
-                None => run_over(scene, ground_of(scene, &mut known)?, &run_options),
+                None => run_over(scene, grounds.of(scene)?, &run_options),
             };
             while let Some(&index) = points.get(begun.fetch_add(1, Relaxed)) {
-                let row = self.computed(index, columns, &mut run)?;
+                let row = self.computed(index, columns, &run)?;
                 keep.lock().unwrap_or_else(PoisonError::into_inner)(index, row)?;
                 done.fetch_add(1, Relaxed);
                 report().map_err(|_| SweepError::Stopped)?;
@@ -64,7 +60,7 @@ impl Sweep {
         &self,
         index: usize,
         columns: &[AnswerColumn],
-        run: &mut impl FnMut(&Scene) -> Result<Run, Error>,
+        run: &impl Fn(&Scene) -> Result<Run, Error>,
     ) -> Result<Row, SweepError> {
         let compute = || -> Result<Row, Error> {
             let scene = self.scene(index)?;
@@ -88,22 +84,4 @@ impl Sweep {
         let line = error.lines().next().unwrap_or_default();
         Ok(self.row(index, Err(&line.replace(char::is_control, " ")), columns))
     }
-}
-
-/// The ground of `scene`: that of the scene before, which is `known`, where nothing differs that the
-/// motion of the duct depends on.
-fn ground_of(scene: &Scene, known: &mut Option<(Scene, Arc<Ground>)>) -> Result<Arc<Ground>, Error> {
-    let numbers = |scene: &Scene| {
-        let (duct, tolerance) = (&scene.duct, scene.solver.tolerance);
-        [duct.depth, duct.lateral_offset, road::reach(scene), tolerance]
-    };
-    if let Some((last, ground)) = known
-        && (&last.ground, &last.vehicles) == (&scene.ground, &scene.vehicles)
-        && numbers(last) == numbers(scene)
-    {
-        return Ok(Arc::clone(ground));
-    }
-    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
-    *known = Some((scene.clone(), Arc::clone(&ground)));
-    Ok(ground)
 }
