@@ -58,6 +58,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     );
     let workbook = beside(&mut files, "--xlsx", xlsx, "xlsx", allowed)?;
     let study = Study::new(input.file())?;
+    // A limit of a clamp that no measure has would say nothing.
+    arguments.limits.limits_beside(&input.scene, &study.clamps())?;
     let comparison = input.located(compared(&study, &arguments.limits))?;
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     if let Some(output) = &workbook {
