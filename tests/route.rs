@@ -242,7 +242,7 @@ fn random_runs(seeds: std::ops::Range<u64>, more: &[&str]) -> Vec<(u64, Result<R
 }
 
 #[test]
-#[ignore = "sixty scenes with a million passes: minutes"]
+#[ignore = "sixty scenes with a million passes: minutes; seed 13 has no answer to 10 % on meshes that are affordable"]
 fn sixty_random_routes_have_an_answer_after_a_million_passes() {
     let runs = random_runs(0..60, &["traffic.passes=1000000"]);
     let refused: Vec<_> = runs
@@ -260,13 +260,8 @@ fn sixty_random_routes_have_an_answer_after_a_million_passes() {
             Err(error) => println!("{seed}: {error}"),
         }
     }
-    // Seed 13 creeps to and fro under 50 N: the mesh that would show them to 10 % costs 3.4e9 node updates.
-    let is_physical = |error: &str| error.contains("slides out") || error.contains("draw the cable");
-    let others: Vec<_> = refused.iter().filter(|(_, error)| !is_physical(error)).collect();
-    let [(13, error)] = others[..] else {
-        panic!("{others:?}")
-    };
-    assert!(error.contains("solver.node_spacing"), "{error}");
+    let physical = |error: &str| error.contains("slides out") || error.contains("draw the cable");
+    assert!(refused.iter().all(|(_, error)| physical(error)), "{refused:?}");
 }
 
 #[test]
