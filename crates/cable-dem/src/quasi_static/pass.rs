@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use friction_chain::{ChainError, Contact, ImplicitStep, Load, Stretch};
+use friction_chain::{ChainError, Clamp, Contact, ImplicitStep, Load, Stretch};
 
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
@@ -118,7 +118,9 @@ impl QuasiStatic {
         first: usize,
     ) -> Result<(), CableError> {
         let travelling = self.travelling(snapshot, watched);
-        let mut windows = [&travelling[..], &self.supports.windows].concat();
+        let mut windows = travelling.clone();
+        let due = self.supports.windows.iter().filter(|(node, _)| self.is_due(*node));
+        windows.extend(due.map(|(_, window)| *window));
         window::join(&mut windows);
         self.moving.clear();
         for window in &mut windows {
@@ -241,6 +243,12 @@ impl QuasiStatic {
         let chain = &self.step.chain;
         let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
         (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes()[node].limit
+    }
+
+    /// Whether the support at `node` is no longer in balance with the cable, or slides.
+    fn is_due(&self, node: usize) -> bool {
+        let slides = |clamp: &Clamp| clamp.node == node && !clamp.is_stuck();
+        self.edge_disturbed(node) || self.step.chain.clamps().iter().any(slides)
     }
 
     /// Records the forces on ends and clamps with the vehicle at the snapshot's position.

@@ -19,7 +19,7 @@ pub(super) struct Supports {
     /// Friction law of fixed nodes.
     law: FixedEndFriction,
     /// Least windows around all of them.
-    pub windows: Vec<Stretch>,
+    pub windows: Vec<(usize, Stretch)>,
     /// Loads in the adherent frame \[N\] by node: those of the supports, and the cable's own along the duct.
     pub load: Vec<f64>,
     /// The latter alone.
@@ -42,7 +42,10 @@ impl Supports {
         let nodes = [0, last]
             .into_iter()
             .chain(chain.clamps().iter().map(|clamp| clamp.node));
-        let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
+        let around = |node: usize| {
+            let node = node.clamp(bounds.free.lo, bounds.free.hi);
+            (node, bounds.widened(Stretch { lo: node, hi: node }, bounds.margin))
+        };
         Self {
             ends,
             fixed,
