@@ -245,12 +245,17 @@ impl DuctedCable {
 
     /// The force along the duct on the nodes of `mesh` \[N\].
     pub(crate) fn body_loads(&self, mesh: &Mesh) -> Vec<f64> {
-        let body = |node| {
-            let shares = section::shares(&self.sections, mesh, node);
-            let force: f64 = shares.map(|(share, section)| share * section.body_force).sum();
-            force * mesh.tributary_length(node)
-        };
-        (0..mesh.nodes()).map(body).collect()
+        if self.sections.iter().all(|section| section.body_force == 0.0) {
+            return vec![0.0; mesh.nodes()];
+        }
+        (0..mesh.nodes()).map(|node| self.body_load(mesh, node)).collect()
+    }
+
+    /// The same on one `node` \[N\].
+    pub(crate) fn body_load(&self, mesh: &Mesh, node: usize) -> f64 {
+        let shares = section::shares(&self.sections, mesh, node);
+        let force: f64 = shares.map(|(share, section)| share * section.body_force).sum();
+        force * mesh.tributary_length(node)
     }
 
     /// Loads on the nodes of `mesh` \[N\]: the force along the duct, springs of ends that are held elsewhere than as laid, and the

@@ -62,7 +62,6 @@ impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh, moves: bool) -> Self {
         let last = mesh.elements();
         let clamps = ClampShares::new(cable, mesh).stuck(&[]);
-        let body = cable.body_loads(mesh);
         let reading = |node: usize, end: End| match end {
             End::Free | End::Spring(0.0) => Reading::Nothing,
             End::Spring(spring) if moves || clamps.iter().any(|clamp| clamp.node == node) => {
@@ -76,7 +75,7 @@ impl EndReader {
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             tributary: mesh.tributary_length(0),
             last,
-            body: [body[0], body[last]],
+            body: [0, last].map(|node| cable.body_load(mesh, node)),
         }
     }
 

@@ -44,19 +44,25 @@ impl PassOutcome {
         let (force, restraints) = (state.end_forces(cable)?, state.restraint_forces(cable)?);
         let (least, largest) = extremes(state, cable);
         Ok(Self {
-            force,
-            peak: force,
-            lowest: force,
             max_compression: largest.max(force.upstream).max(force.downstream),
             max_tension: -least.min(force.upstream).min(force.downstream),
             upstream_displacement: state.displacement[0],
             downstream_displacement: state.displacement[state.displacement.len() - 1],
+            restraint_slips: state.clamp_slips(cable),
+            ..Self::of_forces(force, restraints)
+        })
+    }
+
+    /// What is known from forces on the ends and the `restraints` \[N\] alone, before they change.
+    pub(crate) fn of_forces(force: EndForces, restraints: Vec<f64>) -> Self {
+        Self {
+            force,
+            peak: force,
+            lowest: force,
             restraint_ranges: restraints.iter().map(|force| [*force; 2]).collect(),
             restraints,
-            restraint_slips: state.clamp_slips(cable),
-            dissipated: 0.0,
-            statistics: Statistics::default(),
-        })
+            ..Self::default()
+        }
     }
 
     /// Takes account of forces on the ends \[N\] during the pass.

@@ -9,21 +9,23 @@ pub struct Row {
     pub value: f64,
 }
 
-/// What elimination makes of a row: x = factor · (the next neighbour) + value.
+/// What elimination makes of a row: pivot · x = share · (the next neighbour) + pivot · value.
 #[derive(Clone, Copy)]
 struct Eliminated {
-    factor: f64,
+    share: f64,
+    pivot: f64,
     value: f64,
 }
 
 impl Eliminated {
+    /// x = factor · (the next neighbour) + value, and the row after it.
     #[inline]
-    fn next(self, row: Row) -> Self {
-        let inverse = 1.0 / (1.0 - row.share * self.factor);
-        Self {
-            factor: row.share * inverse,
-            value: (row.value + row.share * self.value) * inverse,
-        }
+    fn next(self, row: Row) -> (Self, f64) {
+        // The next pivot waits for this division and subtraction alone.
+        let pivot = 1.0 - row.share * self.share / self.pivot;
+        let inverse = 1.0 / pivot;
+        let value = (row.value + row.share * self.value) * inverse;
+        (Self { share: row.share, pivot, value }, row.share * inverse)
     }
 }
 
@@ -41,19 +43,19 @@ pub fn solve([before, after]: [f64; 2], row: impl Fn(usize) -> Row, factors: &mu
     let count = x.len();
     let factors = &mut factors[..count];
     let middle = count / 2;
-    let held = |value| Eliminated { factor: 0.0, value };
+    let held = |value| Eliminated { share: 0.0, pivot: 1.0, value };
     let (mut low, mut high) = (held(before), held(after));
     for i in 0..middle {
-        low = low.next(row(i));
-        (factors[i], x[i]) = (low.factor, low.value);
+        (low, factors[i]) = low.next(row(i));
+        x[i] = low.value;
         let j = count - 1 - i;
         if j > middle {
-            high = high.next(row(j));
-            (factors[j], x[j]) = (high.factor, high.value);
+            (high, factors[j]) = high.next(row(j));
+            x[j] = high.value;
         }
     }
     let Row { share, value } = row(middle);
-    let met = (value + share * (low.value + high.value)) / (1.0 - share * (low.factor + high.factor));
+    let met = (value + share * (low.value + high.value)) / (1.0 - share * (low.share / low.pivot + high.share / high.pivot));
     x[middle] = met;
     let (mut left, mut right) = (met, met);
     for k in 1..=middle {

@@ -6,7 +6,7 @@ use friction_chain::{ChainError, Clamp, Contact, ImplicitStep, Load, Stretch};
 
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
-use super::window;
+use super::window::{self, Window};
 use crate::tuning::UNBALANCED_SHARE;
 use crate::{CableError, CableState, PassOutcome};
 
@@ -71,7 +71,8 @@ impl QuasiStatic {
         self.thermal_force = state.thermal_force;
         self.predicted.clear();
         self.predicted.resize(passage.points(), Contact::Stuck);
-        self.outcome = PassOutcome::at_rest(&self.cable, state)?;
+        self.outcome =
+            PassOutcome::of_forces(state.end_forces(&self.cable)?, state.restraint_forces(&self.cable)?);
         Ok(())
     }
 
@@ -117,23 +118,19 @@ impl QuasiStatic {
         watched: Stretch,
         first: usize,
     ) -> Result<(), CableError> {
-        let travelling = self.travelling(snapshot, watched);
-        let mut windows = travelling.clone();
-        let due = self.supports.windows.iter().filter(|(node, _)| self.is_due(*node));
-        windows.extend(due.map(|(_, window)| *window));
-        window::join(&mut windows);
+        let mut windows = std::mem::take(&mut self.windows);
+        self.begin_windows(snapshot, watched, &mut windows);
         self.moving.clear();
-        for window in &mut windows {
-            let (begun, before) = (*window, self.moving.len());
-            let travels = travelling.iter().any(|part| part.overlaps(begun));
-            if travels {
+        for Window { stretch, travels } in &mut windows {
+            let (begun, before) = (*stretch, self.moving.len());
+            if *travels {
                 for node in begun.nodes() {
                     self.step.trial.contact[node] = self.predicted[first + node * self.mesh.phases];
                 }
             }
-            *window = self.solve(begun, snapshot)?;
-            if travels {
-                for node in window.nodes() {
+            *stretch = self.solve(begun, snapshot)?;
+            if *travels {
+                for node in stretch.nodes() {
                     self.predicted[first + node * self.mesh.phases] = self.step.trial.contact[node];
                 }
             } else {
@@ -141,22 +138,23 @@ impl QuasiStatic {
                 self.moving.truncate(before);
             }
             let widest = &mut self.outcome.statistics.widest_window;
-            *widest = window.count().max(*widest);
+            *widest = stretch.count().max(*widest);
         }
         for window in &windows {
-            self.anchor(*window);
+            self.anchor(window.stretch);
         }
+        self.windows = windows;
         // The node beside one that moved is disturbed if the window travels on.
         for part in &mut self.moving {
-            *part = self.bounds.widened(*part, 1);
+            part.stretch = self.bounds.widened(part.stretch, 1);
         }
         window::join(&mut self.moving);
         self.record(snapshot);
         Ok(())
     }
 
-    /// The windows of a step that do not belong to supports: what moved in the last one, and what of `watched` begins to slip.
-    fn travelling(&self, snapshot: &Snapshot<'_>, watched: Stretch) -> Vec<Stretch> {
+    /// Finds the `windows` of a step: around what moved in the last one, what of `watched` begins to slip, and supports that are due.
+    fn begin_windows(&self, snapshot: &Snapshot<'_>, watched: Stretch, windows: &mut Vec<Window>) {
         let (bounds, chain) = (self.bounds, &self.step.chain);
         let above = |limit: f64| (1.0 + SLIPPING_SHARE) * limit;
         let slips =
@@ -167,31 +165,32 @@ impl QuasiStatic {
             let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
             pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
         };
-        let mut windows = self.moving.clone();
+        windows.clone_from(&self.moving);
         let (mut from, end) = (watched.lo, watched.hi + 1);
-        for known in self.moving.iter().chain([&Stretch { lo: end, hi: end }]) {
-            window::slipping(from..known.lo.min(end), may_slip, slips, |begun| {
-                windows.push(bounds.widened(begun, bounds.margin));
+        let known = self.moving.iter().map(|part| (part.stretch.lo, part.stretch.hi));
+        for (lo, hi) in known.chain([(end, end)]) {
+            window::slipping(from..lo.min(end), may_slip, slips, |begun| {
+                windows.push(Window::travelling(bounds.widened(begun, bounds.margin)));
             });
-            from = from.max(known.hi + 1);
+            from = from.max(hi + 1);
         }
-        windows
+        let due = self.supports.windows.iter().filter(|(node, _)| self.is_due(*node));
+        windows.extend(due.map(|(_, window)| Window::resting(*window)));
+        window::join(windows);
     }
 
     /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
     fn anchor(&mut self, stretch: Stretch) {
-        let (chain, nodes) = (&self.step.chain, stretch.nodes());
+        let (ImplicitStep { chain, trial, .. }, nodes) = (&self.step, stretch.nodes());
         let compliance = self.cable.friction().compliance();
-        let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
-        let anchors = self.anchor[nodes.clone()].iter_mut().zip(state);
-        let slips = anchors
-            .zip(&chain.nodes()[nodes])
-            .map(|((anchor, (r, g)), node)| {
-                let now = r + compliance * g;
-                let slip = std::mem::replace(anchor, now) - now;
-                node.tributary * node.limit * slip.abs()
-            });
-        self.outcome.dissipated += slips.sum::<f64>();
+        for i in nodes {
+            // Stuck nodes keep theirs.
+            if trial.contact[i] != Contact::Stuck {
+                let (node, now) = (&chain.nodes()[i], self.r[i] + compliance * self.g[i]);
+                let slip = std::mem::replace(&mut self.anchor[i], now) - now;
+                self.outcome.dissipated += node.tributary * node.limit * slip.abs();
+            }
+        }
     }
 
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still

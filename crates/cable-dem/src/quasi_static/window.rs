@@ -45,13 +45,34 @@ impl WindowBounds {
     }
 }
 
-/// Stretches that touch, or nearly so, become one window; `windows` are left in order.
-pub(super) fn join(windows: &mut Vec<Stretch>) {
-    windows.sort_unstable_by_key(|window| window.lo);
+/// Where a step is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Window {
+    pub stretch: Stretch,
+    /// Whether it travels with the vehicle; around a support alone none does.
+    pub travels: bool,
+}
+
+impl Window {
+    /// One that travels.
+    pub fn travelling(stretch: Stretch) -> Self {
+        Self { stretch, travels: true }
+    }
+
+    /// One around a support.
+    pub fn resting(stretch: Stretch) -> Self {
+        Self { stretch, travels: false }
+    }
+}
+
+/// Windows that touch, or nearly so, become one; they are left in order.
+pub(super) fn join(windows: &mut Vec<Window>) {
+    windows.sort_unstable_by_key(|window| window.stretch.lo);
     windows.dedup_by(|next, window| {
-        let touches = next.lo <= window.hi + GAP;
+        let touches = next.stretch.lo <= window.stretch.hi + GAP;
         if touches {
-            window.hi = window.hi.max(next.hi);
+            window.stretch = window.stretch.hull(next.stretch);
+            window.travels |= next.travels;
         }
         touches
     });
@@ -75,7 +96,7 @@ pub(super) fn grow(
 
 /// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. At least [`GAP`] quiet
 /// nodes lie between two of them.
-pub(super) fn moving(solved: Stretch, moves: impl Fn(&usize) -> bool, parts: &mut Vec<Stretch>) {
+pub(super) fn moving(solved: Stretch, moves: impl Fn(&usize) -> bool, parts: &mut Vec<Window>) {
     let mut from = solved.lo;
     while let Some(lo) = (from..=solved.hi).find(&moves) {
         let mut hi = lo;
@@ -84,10 +105,10 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(&usize) -> bool, parts: &mu
             hi = next;
         }
         from = hi + 1;
-        parts.push(Stretch {
+        parts.push(Window::travelling(Stretch {
             lo: solved.lo.max(lo.saturating_sub(1)),
             hi: solved.hi.min(hi + 1),
-        });
+        }));
     }
 }
 
@@ -133,7 +154,7 @@ mod tests {
         let mut parts = Vec::new();
         let moves = |node: &usize| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(node));
         moving(SOLVED, moves, &mut parts);
-        parts.into_iter().map(|part| (part.lo, part.hi)).collect()
+        parts.into_iter().map(|part| (part.stretch.lo, part.stretch.hi)).collect()
     }
 
     #[test]
@@ -153,7 +174,7 @@ mod tests {
 
     #[test]
     fn windows_with_less_than_a_gap_between_them_are_one() {
-        let window = |lo, hi| Stretch { lo, hi };
+        let window = |lo, hi| Window::travelling(Stretch { lo, hi });
         let mut windows = vec![
             window(100, 120),
             window(20, 40),
