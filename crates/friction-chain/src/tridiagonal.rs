@@ -25,7 +25,14 @@ impl Eliminated {
         let pivot = 1.0 - row.share * self.share / self.pivot;
         let inverse = 1.0 / pivot;
         let value = (row.value + row.share * self.value) * inverse;
-        (Self { share: row.share, pivot, value }, row.share * inverse)
+        (
+            Self {
+                share: row.share,
+                pivot,
+                value,
+            },
+            row.share * inverse,
+        )
     }
 }
 
@@ -43,7 +50,11 @@ pub fn solve([before, after]: [f64; 2], row: impl Fn(usize) -> Row, factors: &mu
     let count = x.len();
     let factors = &mut factors[..count];
     let middle = count / 2;
-    let held = |value| Eliminated { share: 0.0, pivot: 1.0, value };
+    let held = |value| Eliminated {
+        share: 0.0,
+        pivot: 1.0,
+        value,
+    };
     let (mut low, mut high) = (held(before), held(after));
     for i in 0..middle {
         (low, factors[i]) = low.next(row(i));
@@ -55,7 +66,8 @@ pub fn solve([before, after]: [f64; 2], row: impl Fn(usize) -> Row, factors: &mu
         }
     }
     let Row { share, value } = row(middle);
-    let met = (value + share * (low.value + high.value)) / (1.0 - share * (low.share / low.pivot + high.share / high.pivot));
+    let met = (value + share * (low.value + high.value))
+        / (1.0 - share * (low.share / low.pivot + high.share / high.pivot));
     x[middle] = met;
     let (mut left, mut right) = (met, met);
     for k in 1..=middle {

@@ -71,8 +71,10 @@ impl QuasiStatic {
         self.thermal_force = state.thermal_force;
         self.predicted.clear();
         self.predicted.resize(passage.points(), Contact::Stuck);
-        self.outcome =
-            PassOutcome::of_forces(state.end_forces(&self.cable)?, state.restraint_forces(&self.cable)?);
+        self.outcome = PassOutcome::of_forces(
+            state.end_forces(&self.cable)?,
+            state.restraint_forces(&self.cable)?,
+        );
         Ok(())
     }
 
@@ -174,7 +176,11 @@ impl QuasiStatic {
             });
             from = from.max(hi + 1);
         }
-        let due = self.supports.windows.iter().filter(|(node, _)| self.is_due(*node));
+        let due = self
+            .supports
+            .windows
+            .iter()
+            .filter(|(node, _)| self.is_due(*node));
         windows.extend(due.map(|(_, window)| Window::resting(*window)));
         window::join(windows);
     }
@@ -239,15 +245,20 @@ impl QuasiStatic {
 
     /// Whether the trial leaves the held node beside the window out of balance.
     fn edge_disturbed(&self, node: usize) -> bool {
-        let chain = &self.step.chain;
-        let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
-        (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.nodes()[node].limit
+        self.imbalance(node) > UNBALANCED_SHARE * self.step.chain.nodes()[node].limit
+    }
+
+    /// By how much the friction of a node is off what balances it \[N/m\].
+    fn imbalance(&self, node: usize) -> f64 {
+        let (r, load) = (&self.step.trial.r, &self.supports.load);
+        (self.step.chain.balancing_friction(r, load, node) - self.g[node]).abs()
     }
 
     /// Whether the support at `node` is no longer in balance with the cable, or slides.
     fn is_due(&self, node: usize) -> bool {
         let slides = |clamp: &Clamp| clamp.node == node && !clamp.is_stuck();
-        self.edge_disturbed(node) || self.step.chain.clamps().iter().any(slides)
+        let imbalance = self.imbalance(node) * self.step.chain.nodes()[node].tributary;
+        imbalance > self.supports.imbalance || self.step.chain.clamps().iter().any(slides)
     }
 
     /// Records the forces on ends and clamps with the vehicle at the snapshot's position.

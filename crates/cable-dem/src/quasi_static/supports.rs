@@ -1,12 +1,14 @@
 //! Ends and clamps while the vehicle passes: their loads, and where they stand, in the adherent frame.
 //!
-//! The cable around each of them is solved at every step.
+//! The cable around each of them is solved where it is out of balance, which a vehicle far away hardly puts it: solved at every step, three
+//! lanes take 1.3 times as long.
 
 use friction_chain::{Chain, Stretch, Trial};
 
 use super::passage::Snapshot;
 use super::window::WindowBounds;
 use crate::fixed_end_friction::FixedEndFriction;
+use crate::tuning::UNBALANCED_SHARE;
 use crate::{DuctedCable, Mesh};
 
 /// All supports of a cable.
@@ -18,8 +20,11 @@ pub(super) struct Supports {
     fixed: Vec<(usize, f64)>,
     /// Friction law of fixed nodes.
     law: FixedEndFriction,
-    /// Least windows around all of them.
+    /// The node of each, or the free one beside it, and the least window around it.
     pub windows: Vec<(usize, Stretch)>,
+    /// Force out of balance at one of them \[N\] that the stuck cable around it takes up: over its screening length, it adds
+    /// [`UNBALANCED_SHARE`] to the friction relative to the limit.
+    pub imbalance: f64,
     /// Loads in the adherent frame \[N\] by node: those of the supports, and the cable's own along the duct.
     pub load: Vec<f64>,
     /// The latter alone.
@@ -44,13 +49,19 @@ impl Supports {
             .chain(chain.clamps().iter().map(|clamp| clamp.node));
         let around = |node: usize| {
             let node = node.clamp(bounds.free.lo, bounds.free.hi);
-            (node, bounds.widened(Stretch { lo: node, hi: node }, bounds.margin))
+            (
+                node,
+                bounds.widened(Stretch { lo: node, hi: node }, bounds.margin),
+            )
         };
         Self {
             ends,
             fixed,
             law: FixedEndFriction::new(cable, mesh),
             windows: nodes.map(around).collect(),
+            imbalance: UNBALANCED_SHARE
+                * cable.least_limit()
+                * cable.screening_length().max(mesh.tributary_length(0)),
             load: body.clone(),
             body,
         }

@@ -56,12 +56,18 @@ pub(super) struct Window {
 impl Window {
     /// One that travels.
     pub fn travelling(stretch: Stretch) -> Self {
-        Self { stretch, travels: true }
+        Self {
+            stretch,
+            travels: true,
+        }
     }
 
     /// One around a support.
     pub fn resting(stretch: Stretch) -> Self {
-        Self { stretch, travels: false }
+        Self {
+            stretch,
+            travels: false,
+        }
     }
 }
 
@@ -154,7 +160,10 @@ mod tests {
         let mut parts = Vec::new();
         let moves = |node: &usize| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(node));
         moving(SOLVED, moves, &mut parts);
-        parts.into_iter().map(|part| (part.stretch.lo, part.stretch.hi)).collect()
+        parts
+            .into_iter()
+            .map(|part| (part.stretch.lo, part.stretch.hi))
+            .collect()
     }
 
     #[test]
