@@ -90,7 +90,7 @@ impl Passage {
 
     /// The passage of a travelling longitudinal displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the
     /// displacement positive in its direction of travel; ξ = 0 travels from `approach` \[m\] before the duct to `approach`
-    /// past it, in strides of a hundredth of its distance where that is more than the mesh's step: what the shape does should be near it.
+    /// past it, in strides of a fiftieth of its distance where that is more than the mesh's step: what the shape does should be near it.
     ///
     /// # Errors
     ///
