@@ -126,15 +126,13 @@ impl QuasiStatic {
         for Window { stretch, travels } in &mut windows {
             let (begun, before) = (*stretch, self.moving.len());
             if *travels {
-                for node in begun.nodes() {
-                    self.step.trial.contact[node] = self.predicted[first + node * self.mesh.phases];
-                }
+                let guess = &self.predicted[first + begun.lo..][..begun.count()];
+                self.step.trial.contact[begun.nodes()].copy_from_slice(guess);
             }
             *stretch = self.solve(begun, snapshot)?;
             if *travels {
-                for node in stretch.nodes() {
-                    self.predicted[first + node * self.mesh.phases] = self.step.trial.contact[node];
-                }
+                let contact = &self.step.trial.contact[stretch.nodes()];
+                self.predicted[first + stretch.lo..][..stretch.count()].copy_from_slice(contact);
             } else {
                 // Around a support nothing travels.
                 self.moving.truncate(before);

@@ -171,9 +171,10 @@ impl Passage {
         self.phases.len() * self.phases[0].adherent.len()
     }
 
-    /// Lattice point in the vehicle's frame at which node 0 stands.
+    /// Lattice point in the vehicle's frame at which node 0 stands, points of one phase side by side.
     pub(super) fn first_point(&self, snapshot: &Snapshot<'_>) -> usize {
-        (self.behind as i64 - snapshot.position) as usize
+        let (at, m) = ((self.behind as i64 - snapshot.position) as usize, self.phases.len());
+        at % m * self.phases[0].adherent.len() + at / m
     }
 
     /// The ground at rest, the vehicle having left.
