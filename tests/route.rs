@@ -242,7 +242,7 @@ fn random_runs(seeds: std::ops::Range<u64>, more: &[&str]) -> Vec<(u64, Result<R
 }
 
 #[test]
-#[ignore = "sixty scenes with a million passes: minutes; seed 13 has no answer to 10 % on meshes that are affordable"]
+#[ignore = "sixty scenes with a million passes: minutes"]
 fn sixty_random_routes_have_an_answer_after_a_million_passes() {
     let runs = random_runs(0..60, &["traffic.passes=1000000"]);
     let refused: Vec<_> = runs

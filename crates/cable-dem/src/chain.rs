@@ -2,7 +2,7 @@
 
 use friction_chain::{Chain, Clamp, rounding};
 
-use crate::section::{Section, limit_of, shares};
+use crate::section::{limit_of, shares};
 use crate::{CableError, DuctedCable, End, Mesh};
 
 /// Share of the friction limit up to which rounding may blur equilibrium.
@@ -46,9 +46,10 @@ pub(crate) fn check_precision(
     }
 }
 
-/// Nodes whose friction limit grows with the force in the cable, and the shares of the sections they lie on.
+/// Nodes whose friction limit grows with the force F in the cable: q = Σ √(a + b F²) over the sections on which a node lies, with the
+/// share s of each: a = (s μ N)², b = (s μ/R)². Node, a and b of each, node after node.
 #[derive(Debug, Clone)]
-pub(crate) struct Bends(Vec<(usize, Vec<(f64, Section)>)>);
+pub(crate) struct Bends(Vec<(usize, f64, f64)>);
 
 impl Bends {
     /// Those of `cable` on `mesh`.
@@ -57,9 +58,17 @@ impl Bends {
         if sections.iter().all(|section| section.bend == 0.0) {
             return Self(Vec::new());
         }
-        let shares = |node| shares(sections, mesh, node).map(|(share, section)| (share, *section));
-        let nodes = (0..mesh.nodes()).filter(|&node| shares(node).any(|(_, section)| section.bend > 0.0));
-        Self(nodes.map(|node| (node, shares(node).collect())).collect())
+        let bends = |&node: &usize| shares(sections, mesh, node).any(|(_, section)| section.bend > 0.0);
+        let parts = |node| {
+            shares(sections, mesh, node).map(move |(share, section)| {
+                (
+                    node,
+                    (share * section.limit).powi(2),
+                    (share * section.bend).powi(2),
+                )
+            })
+        };
+        Self((0..mesh.nodes()).filter(bends).flat_map(parts).collect())
     }
 
     /// Whether the duct is straight.
@@ -69,16 +78,18 @@ impl Bends {
 
     /// Lets the cable of `chain` press on the bends with the force that displacements `u` \[m\] and the `thermal_force` \[N\] make. Returned:
     /// the largest change of a friction limit, as a share of it.
+    #[inline]
     pub fn press(&self, chain: &mut Chain, u: impl Fn(usize) -> f64, thermal_force: f64) -> f64 {
-        let last = chain.nodes().len() - 1;
+        let (last, stiffness) = (chain.nodes().len() - 1, chain.stiffness());
         let mut change = 0.0_f64;
-        for (i, shares) in &self.0 {
+        for parts in self.0.chunk_by(|one, next| one.0 == next.0) {
+            let i = parts[0].0;
             let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
             let stretch = (u(after) - u(before)) / (after - before) as f64;
-            let shares = shares.iter().map(|(share, section)| (*share, section));
-            let limit = limit_of(shares, thermal_force - chain.stiffness() * stretch);
-            change = change.max((limit - chain.nodes()[*i].limit).abs() / limit);
-            chain.set_limit(*i, limit);
+            let squared = (thermal_force - stiffness * stretch).powi(2);
+            let limit: f64 = parts.iter().map(|(_, a, b)| (a + b * squared).sqrt()).sum();
+            change = change.max((limit - chain.nodes()[i].limit).abs() / limit);
+            chain.set_limit(i, limit);
         }
         change
     }

@@ -173,7 +173,10 @@ impl Passage {
 
     /// Lattice point in the vehicle's frame at which node 0 stands, points of one phase side by side.
     pub(super) fn first_point(&self, snapshot: &Snapshot<'_>) -> usize {
-        let (at, m) = ((self.behind as i64 - snapshot.position) as usize, self.phases.len());
+        let (at, m) = (
+            (self.behind as i64 - snapshot.position) as usize,
+            self.phases.len(),
+        );
         at % m * self.phases[0].adherent.len() + at / m
     }
 
