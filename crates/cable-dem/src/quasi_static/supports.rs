@@ -8,7 +8,6 @@ use friction_chain::{Chain, Stretch, Trial};
 use super::passage::Snapshot;
 use super::window::WindowBounds;
 use crate::fixed_end_friction::FixedEndFriction;
-use crate::tuning::UNBALANCED_SHARE;
 use crate::{DuctedCable, Mesh};
 
 /// All supports of a cable.
@@ -22,9 +21,6 @@ pub(super) struct Supports {
     law: FixedEndFriction,
     /// The node of each, or the free one beside it, and the least window around it.
     pub windows: Vec<(usize, Stretch)>,
-    /// Force out of balance at one of them \[N\] that the stuck cable around it takes up: over its screening length, it adds
-    /// [`UNBALANCED_SHARE`] to the friction relative to the limit.
-    pub imbalance: f64,
     /// Loads in the adherent frame \[N\] by node: those of the supports, and the cable's own along the duct.
     pub load: Vec<f64>,
     /// The latter alone.
@@ -59,9 +55,6 @@ impl Supports {
             fixed,
             law: FixedEndFriction::new(cable, mesh),
             windows: nodes.map(around).collect(),
-            imbalance: UNBALANCED_SHARE
-                * cable.least_limit()
-                * cable.screening_length().max(mesh.tributary_length(0)),
             load: body.clone(),
             body,
         }

@@ -26,11 +26,11 @@ fn a_quasi_static_pass() -> Outcome {
     for law in [STIFF_SHEATH, FrictionLaw::Coulomb] {
         for length in [30.0, 300.0] {
             let scene = Scene::new((law, LIMIT), EA, End::Fixed, (length, spacing, 0.05), &motion)?;
-            // From a hundred strides before the duct to as far behind it each stride is one step of the vehicle, beyond that two.
+            // On either side 100 steps of the vehicle near the duct, and beyond them strides of 2 up to 150 steps from it, of 3 up to
+            // 200, of 4 up to 250 and of 5 up to the 300 of the approach.
             let step = scene.mesh.vehicle_step();
-            let near = 200.0 * step;
-            let road = length + 2.0 * near + (APPROACH - near);
-            let positions = (road / step).round() as usize;
+            let outside = 100 + 50 / 2 + 51 / 3 + 52 / 4 + 50 / 5;
+            let positions = (length / step).round() as usize + 2 * outside;
             let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
             for passes in [1, 10] {
                 let work = scene.quasi_static(passes)?.statistics;
