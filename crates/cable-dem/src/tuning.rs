@@ -10,7 +10,7 @@
 /// scenes with [`WATCHED_SHARE`] of 0.05, but for one cable held by nothing: 5e-4).
 pub const UNBALANCED_SHARE: f64 = 1e-3;
 
-/// Share of the force on the ends before a pass by which ends and clamps may be out of balance besides, while it lasts. With 0 three
+/// Share of the force on the ends before a pass up to which ends and clamps may also be out of balance during it. With 0 three
 /// lanes take 1.1 times the node updates; the force of 5000 passes changes by 1e-9.
 pub const UNBALANCED_FORCE: f64 = 2e-6;
 
