@@ -1,29 +1,37 @@
 //! What a document holds: texts, numbers, lists and tables, each with the place where it was written.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use serde::{Serialize, Serializer};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
+use crate::error::{Result, SceneError};
+use crate::location::Location;
 use crate::shown::{quoted, shortened, shown};
 
 /// A place in a file, a preset or an override.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Place {
-    /// The number of the text in its document.
     pub source: usize,
     pub bytes: Range<usize>,
 }
 
 /// A value where it was written; the place of one that a program has means nothing.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[serde(transparent)]
 pub struct Node {
+    #[serde(skip)]
     pub place: Place,
     /// Its text, the first line of it.
+    #[serde(skip)]
     pub written: String,
     pub content: Content,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
 pub enum Content {
     Text(String),
     /// A whole number of at least 0 that fits, however it is written.
@@ -33,6 +41,7 @@ pub enum Content {
     Other,
     List(Vec<Node>),
     /// In the order of the file.
+    #[serde(serialize_with = "as_map")]
     Table(Vec<Entry>),
 }
 
@@ -43,19 +52,8 @@ pub struct Entry {
     pub value: Node,
 }
 
-impl Serialize for Content {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Text(text) => text.serialize(serializer),
-            Self::Whole(whole) => whole.serialize(serializer),
-            Self::Number(value) => value.serialize(serializer),
-            Self::Other => serializer.serialize_unit(),
-            Self::List(items) => serializer.collect_seq(items.iter().map(|item| &item.content)),
-            Self::Table(entries) => {
-                serializer.collect_map(entries.iter().map(|entry| (&entry.key, &entry.value.content)))
-            }
-        }
-    }
+fn as_map<S: Serializer>(entries: &[Entry], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|entry| (&entry.key, &entry.value)))
 }
 
 /// A value that a program has is written as a file would have it.
@@ -67,9 +65,8 @@ impl From<Content> for Node {
             Content::Number(value) => shown(*value),
             _ => String::new(),
         };
-        let place = Place::default();
         Self {
-            place,
+            place: Place::default(),
             written,
             content,
         }
@@ -80,15 +77,12 @@ impl Content {
     /// A number that may be whole: `1e6` passes are as good as `1000000`.
     pub fn number(value: f64) -> Self {
         let whole = value as u64;
-        let is_whole = whole as f64 == value && value.is_sign_positive();
-        if is_whole {
-            Self::Whole(whole)
-        } else {
-            Self::Number(value)
+        match whole as f64 == value && value.is_sign_positive() {
+            true => Self::Whole(whole),
+            false => Self::Number(value),
         }
     }
 
-    /// The number, if it is one.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Self::Whole(whole) => Some(*whole as f64),
@@ -97,7 +91,6 @@ impl Content {
         }
     }
 
-    /// The text, if it is one.
     pub fn as_text(&self) -> Option<&str> {
         match self {
             Self::Text(text) => Some(text),
@@ -105,36 +98,35 @@ impl Content {
         }
     }
 
-    /// The entries of a table; none of anything else.
-    pub fn entries(&self) -> &[Entry] {
-        match self {
-            Self::Table(entries) => entries,
-            _ => &[],
-        }
-    }
-
-    /// A table with these values.
-    pub fn table<'k>(values: impl IntoIterator<Item = (&'k str, Content)>) -> Self {
-        let entry = |(key, value): (&str, Self)| Entry {
-            key: key.to_owned(),
-            place: Place::default(),
-            value: value.into(),
+    /// A table with the values that there are.
+    pub fn table<'k>(values: impl IntoIterator<Item = (&'k str, Option<Self>)>) -> Self {
+        let entry = |(key, value): (&str, Option<Self>)| {
+            Some(Entry {
+                key: key.to_owned(),
+                place: Place::default(),
+                value: value?.into(),
+            })
         };
-        Self::Table(values.into_iter().map(entry).collect())
+        Self::Table(values.into_iter().filter_map(entry).collect())
     }
 
-    /// The entry of this name, or of its other name.
+    /// The entry of a table of exactly this name.
     pub fn entry(&self, key: &str) -> Option<&Entry> {
-        let named = |key: &str| self.entries().iter().find(|entry| entry.key == key);
-        named(key).or_else(|| named(other_name(key)?))
+        match self {
+            Self::Table(entries) => entries.iter().find(|entry| entry.key == key),
+            _ => None,
+        }
     }
 
-    /// The value of a table at this key, or of a list at this index.
+    /// The value of a table at this key, or at its other name, or of a list at this index.
     pub fn get(&self, segment: &str) -> Option<&Node> {
-        match self {
-            Self::List(items) => items.get(segment.parse::<usize>().ok()?),
-            _ => self.entry(segment).map(|entry| &entry.value),
+        if let Self::List(items) = self {
+            return items.get(segment.parse::<usize>().ok()?);
         }
+        let entry = self.entry(segment);
+        entry
+            .or_else(|| self.entry(other_name(segment)?))
+            .map(|entry| &entry.value)
     }
 }
 
@@ -145,10 +137,9 @@ impl Node {
         let all = text.get(place.bytes.clone()).unwrap_or_default();
         let line = all.lines().next().unwrap_or_default();
         let more = if line.len() < all.len() { "…" } else { "" };
-        let written = shortened(line, LONGEST) + more;
         Self {
             place,
-            written,
+            written: shortened(line, LONGEST) + more,
             content,
         }
     }
@@ -165,21 +156,22 @@ impl Node {
         format!("{kind}{}", self.written)
     }
 
-    /// Calls `visit` with every value below this one that is no table and no list, and its key.
-    pub fn each_value(&self, key: &str, visit: &mut impl FnMut(&str, &Self)) {
-        match &self.content {
+    /// Every value below this one that is no table and no list, with its key.
+    pub fn values(&self, key: &str) -> Vec<(String, &Self)> {
+        let inner: Vec<(String, &Self)> = match &self.content {
             Content::Table(entries) => {
-                for entry in entries {
-                    entry.value.each_value(&joined(key, &entry.key), visit);
-                }
+                let entries = entries.iter();
+                entries
+                    .map(|entry| (joined(key, &entry.key), &entry.value))
+                    .collect()
             }
             Content::List(items) => {
-                for (index, item) in items.iter().enumerate() {
-                    item.each_value(&joined(key, index), visit);
-                }
+                let items = items.iter().enumerate();
+                items.map(|(index, item)| (joined(key, index), item)).collect()
             }
-            _ => visit(key, self),
-        }
+            _ => return vec![(key.to_owned(), self)],
+        };
+        inner.iter().flat_map(|(key, node)| node.values(key)).collect()
     }
 }
 
@@ -204,5 +196,58 @@ pub fn other_name(key: &str) -> Option<&'static str> {
         "spring" => Some("stiffness"),
         "stiffness" => Some("spring"),
         _ => None,
+    }
+}
+
+/// The entries of a text, which is the source of this number; `name` stands for it in errors.
+pub fn entries_of(name: &str, text: &str, source: usize) -> Result<Vec<Entry>> {
+    let table = DeTable::parse(text).map_err(|error| syntax_error(name, text, &error))?;
+    Ok(entries(table.get_ref(), source, text))
+}
+
+/// In the order of the text.
+fn entries(table: &DeTable, source: usize, text: &str) -> Vec<Entry> {
+    let mut pairs: Vec<_> = table.iter().collect();
+    pairs.sort_by_key(|(key, _)| key.span().start);
+    let entry = |(key, value): (&Spanned<Cow<str>>, _)| {
+        let bytes = key.span();
+        Entry {
+            key: key.get_ref().to_string(),
+            place: Place { source, bytes },
+            value: node(value, source, text),
+        }
+    };
+    pairs.into_iter().map(entry).collect()
+}
+
+pub fn node(value: &Spanned<DeValue>, source: usize, text: &str) -> Node {
+    let content = match value.get_ref() {
+        DeValue::String(text) => Content::Text(text.to_string()),
+        DeValue::Integer(number) => match i128::from_str_radix(number.as_str(), number.radix()) {
+            // Whole numbers are needed exactly only where they are small: elsewhere this is a quantity in SI.
+            Ok(whole) => u64::try_from(whole).map_or(Content::Number(whole as f64), Content::Whole),
+            Err(_) => Content::Number(f64::INFINITY),
+        },
+        DeValue::Float(number) => number.as_str().parse().map_or(Content::Other, Content::number),
+        DeValue::Boolean(_) | DeValue::Datetime(_) => Content::Other,
+        DeValue::Array(items) => Content::List(items.iter().map(|item| node(item, source, text)).collect()),
+        DeValue::Table(table) => Content::Table(entries(table, source, text)),
+    };
+    let bytes = value.span();
+    Node::new(Place { source, bytes }, text, content)
+}
+
+/// Why the parser gave up on a text, and where.
+fn syntax_error(name: &str, text: &str, error: &toml::de::Error) -> SceneError {
+    // The parser does not say where keys are nested too deep.
+    let deepest = || {
+        let line = text.lines().max_by_key(|line| line.matches('.').count());
+        text.find(line.unwrap_or_default()).unwrap_or_default()
+    };
+    let mut span = error.span().unwrap_or_else(|| deepest()..deepest());
+    span.start = span.start.min(text.trim_end().len());
+    SceneError::Syntax {
+        location: Location::new(name, text, span, true),
+        message: error.message().to_owned(),
     }
 }

@@ -1,17 +1,9 @@
 //! The values of a scene file with what was set on top of it, each with the text in which it stands.
 
-use crate::content::{Node, Place};
-use crate::error::{SceneError, did_you_mean};
+use crate::content::{Entry, Node, Place, entries_of};
+use crate::error::{Result, SceneError, did_you_mean};
 use crate::location::Location;
 use crate::names::elsewhere;
-
-/// The texts, and the tree of their values.
-#[derive(Debug, Clone)]
-pub struct Document {
-    /// The file, and behind it presets and overrides as they are named.
-    pub sources: Vec<Source>,
-    pub root: Node,
-}
 
 /// The text of the file, of an override or of a preset.
 #[derive(Debug, Clone)]
@@ -21,30 +13,52 @@ pub struct Source {
     pub is_preset: bool,
 }
 
-impl Document {
-    pub fn new(root: Node) -> Self {
-        let sources = Vec::new();
-        Self { sources, root }
-    }
+/// The text of a scene and what was set on top of it.
+///
+/// A [`Scene`] is plain data; this is for who needs many scenes of one file, or the line of a key.
+///
+/// ```
+/// use creepage_scene::SceneFile;
+///
+/// let text = std::fs::read_to_string("../../examples/scenes/full-scale-upper.toml")?;
+/// let file = SceneFile::from_toml("upper.toml", &text)?;
+/// let deeper = file.with(&["duct.depth=2 m"])?.scene()?;
+/// assert_eq!((file.scene()?.duct.depth, deeper.duct.depth), (1.2, 2.0));
+/// assert!(file.locate("duct.depth").unwrap().text.starts_with("depth = \"1.2 m\""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    /// The file, and behind it presets and overrides as they are named.
+    pub(crate) sources: Vec<Source>,
+    /// The values.
+    pub(crate) root: Node,
+}
 
+impl SceneFile {
     /// Adds a text: its number.
-    pub fn add(&mut self, name: String, text: &str, is_preset: bool) -> usize {
-        let text = text.to_owned();
+    pub(crate) fn add(&mut self, name: String, text: &str, is_preset: bool) -> usize {
         self.sources.push(Source {
             name,
-            text,
+            text: text.to_owned(),
             is_preset,
         });
         self.sources.len() - 1
     }
 
+    /// Adds a text of TOML: its entries.
+    pub(crate) fn parsed(&mut self, name: String, text: &str, is_preset: bool) -> Result<Vec<Entry>> {
+        let source = self.add(name, text, is_preset);
+        entries_of(&self.sources[source].name, text, source)
+    }
+
     /// The text in which a value stands.
-    pub fn source(&self, node: &Node) -> &Source {
+    pub(crate) fn source(&self, node: &Node) -> &Source {
         &self.sources[node.place.source]
     }
 
     /// The value of `key`, or else the section that would hold it; and whether it is the value.
-    pub fn find(&self, key: &str) -> (&Node, bool) {
+    pub(crate) fn find(&self, key: &str) -> (&Node, bool) {
         let mut node = &self.root;
         for segment in key.split('.') {
             match node.content.get(segment) {
@@ -56,7 +70,7 @@ impl Document {
     }
 
     /// A place as a message shows it.
-    pub fn location(&self, place: &Place) -> Location {
+    pub(crate) fn location(&self, place: &Place) -> Location {
         let Source { name, text, .. } = &self.sources[place.source];
         if *place != self.root.place {
             return Location::new(name, text, place.bytes.clone(), place.source == 0);
@@ -71,7 +85,7 @@ impl Document {
     }
 
     /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
-    pub fn located(&self, error: SceneError) -> SceneError {
+    pub(crate) fn located(&self, error: SceneError) -> SceneError {
         let SceneError::Wrong(mut wrong) = error else {
             return error;
         };

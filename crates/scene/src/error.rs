@@ -1,7 +1,5 @@
 //! What can be wrong with a scene.
 
-use std::fmt;
-
 use crate::location::{Location, counted};
 use crate::shown::shortened;
 
@@ -28,7 +26,8 @@ pub enum SceneError {
 }
 
 /// A wrong key or value.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{}{found}; allowed: {}{}", place(.location), shortened(.allowed, LONGEST), excerpt(.location))]
 #[non_exhaustive]
 pub struct Wrong {
     /// The key, with its section.
@@ -50,17 +49,12 @@ impl SceneError {
     /// A value that is wrong: of the wrong type or unit, outside its range, or at odds with another one.
     pub(crate) fn value(key: &str, found: impl AsRef<str>, allowed: impl Into<String>) -> Self {
         let found = format!("{}: found {}", named(key), shortened(found.as_ref(), LONGEST));
-        Self::wrong(key, false, found, allowed.into())
+        Self::wrong(key, false, found, allowed)
     }
 
     /// A key that is missing.
     pub(crate) fn missing(key: &str, allowed: impl Into<String>) -> Self {
-        Self::wrong(
-            key,
-            false,
-            format!("key {} is missing", named(key)),
-            allowed.into(),
-        )
+        Self::wrong(key, false, format!("key {} is missing", named(key)), allowed)
     }
 
     /// A key that is not known.
@@ -69,14 +63,13 @@ impl SceneError {
         Self::wrong(key, true, found, allowed)
     }
 
-    fn wrong(key: &str, is_unknown: bool, found: String, allowed: String) -> Self {
-        let (key, location) = (key.to_owned(), None);
+    fn wrong(key: &str, is_unknown: bool, found: String, allowed: impl Into<String>) -> Self {
         Self::Wrong(Box::new(Wrong {
-            key,
+            key: key.to_owned(),
             is_unknown,
             found,
-            allowed,
-            location,
+            allowed: allowed.into(),
+            location: None,
         }))
     }
 
@@ -98,22 +91,15 @@ impl SceneError {
     }
 }
 
-impl fmt::Display for Wrong {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(location) = &self.location {
-            write!(f, "{location}: ")?;
-        }
-        let excerpt = self.location.as_ref().map_or_else(String::new, Location::excerpt);
-        write!(
-            f,
-            "{}; allowed: {}{excerpt}",
-            self.found,
-            shortened(&self.allowed, LONGEST)
-        )
-    }
+fn place(location: &Option<Location>) -> String {
+    location
+        .as_ref()
+        .map_or_else(String::new, |location| format!("{location}: "))
 }
 
-impl std::error::Error for Wrong {}
+fn excerpt(location: &Option<Location>) -> String {
+    location.as_ref().map_or_else(String::new, Location::excerpt)
+}
 
 /// A key as messages show it.
 fn named(key: &str) -> String {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use creepage_tables::{Kind, Layout, Options, Row, Table, TableError};
 
-use crate::content::Content;
+use crate::content::Node;
 use crate::error::{Result, SceneError};
 use crate::key::Form::{Either, Number, Text};
 use crate::key::{Form, Section};
@@ -120,13 +120,10 @@ impl Histogram {
     fn options(&self) -> Result<Options> {
         let mut options = Options::default();
         // The first is the file.
-        for entry in self.write(HISTOGRAM).entries().iter().skip(1) {
-            let text = match &entry.value.content {
-                Content::Whole(number) => number.to_string(),
-                content => content.as_text().unwrap_or_default().to_owned(),
-            };
-            let wrong = |why| SceneError::value(&format!("{KEY}.{}", entry.key), format!("\"{text}\""), why);
-            options.set(&entry.key, &text).map_err(wrong)?;
+        for (key, node) in Node::from(self.write(HISTOGRAM)).values("").iter().skip(1) {
+            let text = node.content.as_text().unwrap_or(&node.written);
+            let wrong = |why| SceneError::value(&format!("{KEY}.{key}"), format!("\"{text}\""), why);
+            options.set(key, text).map_err(wrong)?;
         }
         Ok(options)
     }
@@ -137,12 +134,9 @@ impl Histogram {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
         table.and_then(|table| classes(table, speed)).map_err(|error| {
             let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
-            let allowed = match &error {
-                TableError::Line { allowed, .. } => allowed,
-                _ => LAYOUT.allowed,
-            };
-            let found = error.to_string().replace(&format!("; allowed: {allowed}"), "");
-            SceneError::value(KEY, found + &why, allowed)
+            let said = error.to_string() + &why;
+            let (found, allowed) = said.split_once("; allowed: ").unwrap_or((&said, LAYOUT.allowed));
+            SceneError::value(KEY, found, allowed)
         })
     }
 }

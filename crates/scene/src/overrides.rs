@@ -2,10 +2,9 @@
 
 use toml::de::DeTable;
 
-use crate::content::{Content, Entry, Node, Place, joined};
-use crate::document::Document;
+use crate::content::{Content, Entry, Node, Place, joined, node};
+use crate::document::SceneFile;
 use crate::error::{Result, SceneError};
-use crate::parsed::node;
 use crate::rivals::gives_way;
 
 /// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
@@ -15,7 +14,7 @@ const DEEPEST: usize = 8;
 type Refused = (String, String);
 
 /// Sets one key of the file, or removes it if the value is empty.
-pub fn apply(file: &mut Document, text: &str) -> Result<()> {
+pub fn apply(file: &mut SceneFile, text: &str) -> Result<()> {
     let source = file.add(format!("--set {text}"), text, false);
     let key = text.split('=').next().unwrap_or_default();
     let bytes = 0..key.len();
@@ -30,30 +29,26 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         let allowed = "KEY=VALUE, such as friction.dynamic_coefficient=0.3";
         return Err((format!("`{text}`, without `=`"), allowed.to_owned()));
     };
+    let refused = |allowed: String| Err((format!("`{}`", key.trim()), allowed));
     if key.contains('[') {
         let plain = key.trim().replace('[', ".").replace(']', "");
-        return Err((
-            format!("`{}`", key.trim()),
-            format!("`{plain}`: an item of a list by its number"),
-        ));
+        return refused(format!("`{plain}`: an item of a list by its number"));
     }
     let keys: Vec<&str> = key.split('.').map(str::trim).collect();
     if keys.len() > DEEPEST || keys.contains(&"") {
-        let allowed = "a key such as duct.length or vehicles.0.speed";
-        return Err((format!("`{}`", key.trim()), allowed.to_owned()));
+        return refused("a key such as duct.length or vehicles.0.speed".to_owned());
     }
-    let is_given = !value.trim().is_empty();
+    if value.trim().is_empty() {
+        return set(root, "", &keys, None, place);
+    }
     // The table of axles stands in place of `[[vehicles]]`.
-    let rivals = match &keys[..] {
-        ["vehicles"] => &["traffic", "histogram"][..],
-        ["traffic", "histogram"] => &["vehicles"],
-        _ => &[],
-    };
-    if is_given && !rivals.is_empty() {
-        set(root, "", rivals, None, place).unwrap_or_default();
+    match &keys[..] {
+        ["vehicles"] => set(root, "", &["traffic", "histogram"], None, place).unwrap_or_default(),
+        ["traffic", "histogram"] => set(root, "", &["vehicles"], None, place).unwrap_or_default(),
+        _ => (),
     }
-    let value = is_given.then(|| parsed(text, key.len() + 1, place.source));
-    set(root, "", &keys, value, place)
+    let value = parsed(text, key.len() + 1, place.source);
+    set(root, "", &keys, Some(value), place)
 }
 
 /// The value that begins at a byte of an override: TOML, or a text if it is not.
@@ -77,7 +72,6 @@ fn parsed(text: &str, start: usize, source: usize) -> Node {
     Node::new(Place { source, bytes }, text, content)
 }
 
-/// The place of an item in a list.
 fn index(items: &[Node], number: &str) -> Result<usize, Refused> {
     let allowed = match items.len() {
         0 => "nothing: the list is empty".to_owned(),
@@ -117,22 +111,18 @@ fn set(
         return Ok(());
     };
     let known = entries.iter().position(|entry| entry.key == *key);
+    if is_removed && let Some(at) = known {
+        entries.remove(at);
+        return Ok(());
+    }
     if known.is_none() && value.is_none() {
         let found = "an empty value, which removes the key".to_owned();
         return Err((found, "a value, or a key that the scene holds".to_owned()));
     }
-    let at = known.unwrap_or_else(|| {
-        let (key, place) = ((*key).to_owned(), place.clone());
-        entries.push(Entry {
-            key,
-            place,
-            value: table(),
-        });
-        entries.len() - 1
-    });
-    if is_removed {
-        entries.remove(at);
-        return Ok(());
+    let at = known.unwrap_or(entries.len());
+    if at == entries.len() {
+        let (key, place, value) = ((*key).to_owned(), place.clone(), table());
+        entries.push(Entry { key, place, value });
     }
     set(&mut entries[at].value, &path_of_key, below, value, place)?;
     if below.is_empty() {

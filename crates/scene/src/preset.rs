@@ -3,27 +3,28 @@
 //! Keys given next to a preset override it, whichever stands first. A preset that an override names later wins over what was written before it.
 
 use crate::content::{Content, Entry, Node, joined};
-use crate::document::Document;
+use crate::document::SceneFile;
 use crate::error::Result;
 use crate::key::Form;
-use crate::parsed::entries_of;
 use crate::presets::{Preset, of_section};
 use crate::rivals::gives_way;
 use crate::shown::listed;
 use crate::stored::Given;
 
 /// Puts the values of presets into the sections that name one.
-pub fn expand(file: &mut Document) -> Result<()> {
+pub fn expand(file: &mut SceneFile) -> Result<()> {
     let mut root = file.root.clone();
     if let Content::Table(sections) = &mut root.content {
         for Entry { key, value, .. } in sections {
             let presets: Vec<(&str, &Preset)> =
                 of_section(key).map(|preset| (&*preset.name, preset)).collect();
+            if presets.is_empty() {
+                continue;
+            }
             match &mut value.content {
                 Content::List(items) => {
-                    for (index, item) in items.iter_mut().enumerate() {
-                        fill(file, &joined(&*key, index), &presets, item)?;
-                    }
+                    let mut items = items.iter_mut().enumerate();
+                    items.try_for_each(|(index, item)| fill(file, &joined(&*key, index), &presets, item))?;
                 }
                 _ => fill(file, key, &presets, value)?,
             }
@@ -33,15 +34,11 @@ pub fn expand(file: &mut Document) -> Result<()> {
     Ok(())
 }
 
-fn fill(file: &mut Document, path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
+fn fill(file: &mut SceneFile, path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
     let Content::Table(entries) = &mut section.content else {
         return Ok(());
     };
-    let Some(place) = entries
-        .iter()
-        .position(|entry| entry.key == "preset")
-        .filter(|_| !presets.is_empty())
-    else {
+    let Some(place) = entries.iter().position(|entry| entry.key == "preset") else {
         return Ok(());
     };
     let allowed = listed(presets.iter().map(|(name, _)| *name));
@@ -51,9 +48,7 @@ fn fill(file: &mut Document, path: &str, presets: &[(&str, &Preset)], section: &
     let named = entries.remove(place).place.source;
     // An earlier preset goes, and so does what was set before this one was named: in the file, or by another override.
     entries.retain(|entry| !file.source(&entry.value).is_preset);
-    let name = format!("preset {}", preset.name);
-    let source = file.add(name.clone(), &preset.toml, true);
-    for entry in entries_of(&name, &preset.toml, source)? {
+    for entry in file.parsed(format!("preset {}", preset.name), &preset.toml, true)? {
         let excludes = |present: &Entry| present.key == entry.key || gives_way(path, present, &entry);
         let stands = |present: &Entry| present.place.source == named && excludes(present);
         if !entries.iter().any(stands) {

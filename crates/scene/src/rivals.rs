@@ -84,10 +84,8 @@ pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
 pub fn contradiction(path: &str, table: &Node) -> Result<()> {
     // Each by its own name: a spring is not a stiffness here.
     let value_at = |key: &str| {
-        key.split('.').try_fold(table, |node, key| {
-            let mut entries = node.content.entries().iter();
-            Some(&entries.find(|entry| entry.key == key)?.value)
-        })
+        let mut keys = key.split('.');
+        keys.try_fold(table, |node, key| Some(&node.content.entry(key)?.value))
     };
     for rule @ (_, key, _, other, allowed) in rules(&without_numbers(path)) {
         let (value, Some(rival)) = (value_at(key), value_at(other)) else {

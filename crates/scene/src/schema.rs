@@ -3,7 +3,6 @@
 use serde_json::{Map, Value, json};
 
 use crate::content::{joined, other_name};
-use crate::key::is_name;
 use crate::key::{Form, Key, Section};
 use crate::presets::of_section;
 use crate::range::Quantity;
@@ -62,7 +61,7 @@ fn table(keys: &[Key], path: &str) -> Value {
 fn form(form: &Form, path: &str) -> Value {
     match form {
         Form::Number(quantity) => number(*quantity),
-        Form::Text(allowed) if is_name(allowed) => json!({ "type": "string", "pattern": "\\S" }),
+        Form::Name(_) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
         Form::Any(_) => json!({ "type": ["string", "number"] }),
         Form::Intervals(..) => json!({ "type": "object" }),
