@@ -22,6 +22,11 @@ pub struct Place {
 #[derive(Debug, Clone, Serialize)]
 #[serde(transparent)]
 pub struct Node {
+    /// Its key in a table.
+    #[serde(skip)]
+    pub key: String,
+    #[serde(skip)]
+    pub key_place: Place,
     #[serde(skip)]
     pub place: Place,
     /// Its text, the first line of it.
@@ -42,18 +47,11 @@ pub enum Content {
     List(Vec<Node>),
     /// In the order of the file.
     #[serde(serialize_with = "as_map")]
-    Table(Vec<Entry>),
+    Table(Vec<Node>),
 }
 
-#[derive(Debug, Clone)]
-pub struct Entry {
-    pub key: String,
-    pub place: Place,
-    pub value: Node,
-}
-
-fn as_map<S: Serializer>(entries: &[Entry], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(entries.iter().map(|entry| (&entry.key, &entry.value)))
+fn as_map<S: Serializer>(entries: &[Node], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|node| (&node.key, node)))
 }
 
 /// A value that a program has is written as a file would have it.
@@ -66,9 +64,8 @@ impl From<Content> for Node {
             _ => String::new(),
         };
         Self {
-            place: Place::default(),
             written,
-            content,
+            ..Self::new(Place::default(), "", content)
         }
     }
 }
@@ -100,20 +97,15 @@ impl Content {
 
     /// A table with the values that there are.
     pub fn table<'k>(values: impl IntoIterator<Item = (&'k str, Option<Self>)>) -> Self {
-        let entry = |(key, value): (&str, Option<Self>)| {
-            Some(Entry {
-                key: key.to_owned(),
-                place: Place::default(),
-                value: value?.into(),
-            })
-        };
-        Self::Table(values.into_iter().filter_map(entry).collect())
+        let values = values.into_iter();
+        let entry = |(key, value): (&str, Option<Self>)| Some(Node::from(value?).named(key));
+        Self::Table(values.filter_map(entry).collect())
     }
 
-    /// The entry of a table of exactly this name.
-    pub fn entry(&self, key: &str) -> Option<&Entry> {
+    /// The value of a table at exactly this key.
+    pub fn entry(&self, key: &str) -> Option<&Node> {
         match self {
-            Self::Table(entries) => entries.iter().find(|entry| entry.key == key),
+            Self::Table(entries) => entries.iter().find(|node| node.key == key),
             _ => None,
         }
     }
@@ -123,10 +115,8 @@ impl Content {
         if let Self::List(items) = self {
             return items.get(segment.parse::<usize>().ok()?);
         }
-        let entry = self.entry(segment);
-        entry
-            .or_else(|| self.entry(other_name(segment)?))
-            .map(|entry| &entry.value)
+        let other = || self.entry(other_name(segment)?);
+        self.entry(segment).or_else(other)
     }
 }
 
@@ -138,10 +128,18 @@ impl Node {
         let line = all.lines().next().unwrap_or_default();
         let more = if line.len() < all.len() { "…" } else { "" };
         Self {
+            key: String::new(),
+            key_place: place.clone(),
             place,
             written: shortened(line, LONGEST) + more,
             content,
         }
+    }
+
+    /// The same at this key of a table.
+    pub fn named(self, key: &str) -> Self {
+        let key = key.to_owned();
+        Self { key, ..self }
     }
 
     /// What stands there, with its kind.
@@ -158,20 +156,17 @@ impl Node {
 
     /// Every value below this one that is no table and no list, with its key.
     pub fn values(&self, key: &str) -> Vec<(String, &Self)> {
-        let inner: Vec<(String, &Self)> = match &self.content {
-            Content::Table(entries) => {
-                let entries = entries.iter();
-                entries
-                    .map(|entry| (joined(key, &entry.key), &entry.value))
-                    .collect()
-            }
-            Content::List(items) => {
-                let items = items.iter().enumerate();
-                items.map(|(index, item)| (joined(key, index), item)).collect()
-            }
-            _ => return vec![(key.to_owned(), self)],
+        let key_of = |index, node: &Self| match self.content {
+            Content::List(_) => joined(key, index),
+            _ => joined(key, &node.key),
         };
-        inner.iter().flat_map(|(key, node)| node.values(key)).collect()
+        let (Content::List(inner) | Content::Table(inner)) = &self.content else {
+            return vec![(key.to_owned(), self)];
+        };
+        let inner = inner.iter().enumerate();
+        inner
+            .flat_map(|(index, node)| node.values(&key_of(index, node)))
+            .collect()
     }
 }
 
@@ -200,24 +195,21 @@ pub fn other_name(key: &str) -> Option<&'static str> {
 }
 
 /// The entries of a text, which is the source of this number; `name` stands for it in errors.
-pub fn entries_of(name: &str, text: &str, source: usize) -> Result<Vec<Entry>> {
+pub fn entries_of(name: &str, text: &str, source: usize) -> Result<Vec<Node>> {
     let table = DeTable::parse(text).map_err(|error| syntax_error(name, text, &error))?;
     Ok(entries(table.get_ref(), source, text))
 }
 
-/// In the order of the text.
-fn entries(table: &DeTable, source: usize, text: &str) -> Vec<Entry> {
-    let mut pairs: Vec<_> = table.iter().collect();
-    pairs.sort_by_key(|(key, _)| key.span().start);
+fn entries(table: &DeTable, source: usize, text: &str) -> Vec<Node> {
     let entry = |(key, value): (&Spanned<Cow<str>>, _)| {
         let bytes = key.span();
-        Entry {
-            key: key.get_ref().to_string(),
-            place: Place { source, bytes },
-            value: node(value, source, text),
-        }
+        let mut node = node(value, source, text).named(key.get_ref());
+        node.key_place = Place { source, bytes };
+        node
     };
-    pairs.into_iter().map(entry).collect()
+    let mut entries: Vec<Node> = table.iter().map(entry).collect();
+    entries.sort_by_key(|node| node.key_place.bytes.start);
+    entries
 }
 
 pub fn node(value: &Spanned<DeValue>, source: usize, text: &str) -> Node {

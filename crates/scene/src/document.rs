@@ -1,6 +1,6 @@
 //! The values of a scene file with what was set on top of it, each with the text in which it stands.
 
-use crate::content::{Entry, Node, Place, entries_of};
+use crate::content::{Node, Place, entries_of};
 use crate::error::{Result, SceneError, did_you_mean};
 use crate::location::Location;
 use crate::names::elsewhere;
@@ -47,7 +47,7 @@ impl SceneFile {
     }
 
     /// Adds a text of TOML: its entries.
-    pub(crate) fn parsed(&mut self, name: String, text: &str, is_preset: bool) -> Result<Vec<Entry>> {
+    pub(crate) fn parsed(&mut self, name: String, text: &str, is_preset: bool) -> Result<Vec<Node>> {
         let source = self.add(name, text, is_preset);
         entries_of(&self.sources[source].name, text, source)
     }
@@ -92,7 +92,7 @@ impl SceneFile {
         let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
         let entry = self.find(section).0.content.entry(key);
         let unknown = entry.filter(|_| wrong.is_unknown);
-        let place = unknown.map_or(&self.find(&wrong.key).0.place, |entry| &entry.place);
+        let place = unknown.map_or(&self.find(&wrong.key).0.place, |node| &node.key_place);
         wrong.location = Some(self.location(place));
         if wrong.is_unknown {
             let (other, words) = elsewhere(key);

@@ -149,38 +149,20 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
     };
     // Axles and shares are numbers, whatever the header says of them.
     table.names[count].unit = None;
-    let is_sum = |row: &&Row| {
-        let label = row.cells.iter().find(|cell| !cell.is_empty());
-        label.is_some_and(|label| LAYOUT.name(label, &Options::default()).has(TOTAL))
-    };
-    let rows: Vec<&Row> = table.rows.iter().filter(|row| !is_sum(row)).collect();
-    let is_percent = |row: &&&Row| row.cell(count).contains('%');
-    let bare = rows.iter().find(|row| !is_percent(row));
-    if let (Some(row), true) = (bare, rows.iter().any(|row| is_percent(&row))) {
-        let found = format!("count: found \"{}\" beside others in %", row.cell(count));
-        return Err(table.wrong(row.line, found, "all in %, or none"));
-    }
     let is_grouped = table.names.iter().any(|name| name.has(GROUP));
-    let axle = if is_grouped { AXLE_GROUP } else { AXLE };
+    let name = if is_grouped { AXLE_GROUP } else { AXLE };
     let (mut axles, mut heaviest) = (Vec::new(), None::<(f64, &Row)>);
-    for row in rows {
+    for row in rows(&table, count)? {
         let value = |column| table.value(row, column, column);
         let (share, force) = (value(count)?, value(load)?);
-        let contact_radius = radius.map_or(Ok(0.0), value)?;
+        let mut wheel = Wheel::default();
+        (wheel.load, wheel.contact_radius) = (force, radius.map_or(Ok(0.0), value)?);
         // Classes that nothing was counted in are common.
         if share > 0.0 {
-            let wheel = Wheel {
-                load: force,
-                contact_radius,
-                ..Wheel::default()
-            };
-            let axle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), force, speed);
-            axles.push(TrafficVehicle {
-                share,
-                load: None,
-                wheels: vec![wheel],
-                ..axle
-            });
+            let name = format!("{name} {}", axles.len() + 1);
+            let mut axle = TrafficVehicle::point(&name, force, speed);
+            (axle.share, axle.load, axle.wheels) = (share, None, vec![wheel]);
+            axles.push(axle);
             if heaviest.is_none_or(|(most, _)| force > most) {
                 heaviest = Some((force, row));
             }
@@ -200,5 +182,22 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
             Err(table.wrong(row.line, found, allowed))
         }
         _ => Ok(axles),
+    }
+}
+
+/// The rows of classes of axles, without those that sum up the others.
+fn rows(table: &Table, count: usize) -> Result<Vec<&Row>, TableError> {
+    let is_class = |row: &&Row| {
+        let label = row.cells.iter().find(|cell| !cell.is_empty());
+        label.is_none_or(|label| !LAYOUT.name(label, &Options::default()).has(TOTAL))
+    };
+    let rows: Vec<&Row> = table.rows.iter().filter(is_class).collect();
+    let is_bare = |row: &&&Row| !row.cell(count).contains('%');
+    match rows.iter().find(is_bare) {
+        Some(row) if !rows.iter().all(|row| is_bare(&row)) => {
+            let found = format!("count: found \"{}\" beside others in %", row.cell(count));
+            Err(table.wrong(row.line, found, "all in %, or none"))
+        }
+        _ => Ok(rows),
     }
 }

@@ -2,7 +2,7 @@
 
 use toml::de::DeTable;
 
-use crate::content::{Content, Entry, Node, Place, joined, node};
+use crate::content::{Content, Node, Place, joined, node};
 use crate::document::SceneFile;
 use crate::error::{Result, SceneError};
 use crate::rivals::gives_way;
@@ -90,7 +90,8 @@ fn set(
     place: &Place,
 ) -> Result<(), Refused> {
     let Some((key, below)) = keys.split_first() else {
-        *node = value.unwrap_or_else(|| node.clone());
+        let key = node.key.clone();
+        *node = value.unwrap_or_else(|| node.clone()).named(&key);
         return Ok(());
     };
     let (path_of_key, is_removed) = (joined(path, key), value.is_none() && below.is_empty());
@@ -105,30 +106,30 @@ fn set(
     let table = || Node::new(place.clone(), "", Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
         // `ends.downstream.spring=…` on `downstream = "fixed"`
-        *node = table();
+        *node = table().named(&node.key);
     }
     let Content::Table(entries) = &mut node.content else {
         return Ok(());
     };
-    let known = entries.iter().position(|entry| entry.key == *key);
-    if is_removed && let Some(at) = known {
-        entries.remove(at);
-        return Ok(());
+    let known = entries.iter().position(|node| node.key == *key);
+    match known {
+        Some(at) if is_removed => {
+            entries.remove(at);
+            return Ok(());
+        }
+        None if value.is_none() => {
+            let found = "an empty value, which removes the key".to_owned();
+            return Err((found, "a value, or a key that the scene holds".to_owned()));
+        }
+        None => entries.push(table().named(key)),
+        Some(_) => (),
     }
-    if known.is_none() && value.is_none() {
-        let found = "an empty value, which removes the key".to_owned();
-        return Err((found, "a value, or a key that the scene holds".to_owned()));
-    }
-    let at = known.unwrap_or(entries.len());
-    if at == entries.len() {
-        let (key, place, value) = ((*key).to_owned(), place.clone(), table());
-        entries.push(Entry { key, place, value });
-    }
-    set(&mut entries[at].value, &path_of_key, below, value, place)?;
+    let at = known.unwrap_or(entries.len() - 1);
+    set(&mut entries[at], &path_of_key, below, value, place)?;
     if below.is_empty() {
-        entries[at].place = place.clone();
-        let entry = entries[at].clone();
-        entries.retain(|present| !gives_way(path, present, &entry));
+        entries[at].key_place = place.clone();
+        let node = entries[at].clone();
+        entries.retain(|present| !gives_way(path, present, &node));
     }
     Ok(())
 }

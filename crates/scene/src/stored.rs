@@ -1,6 +1,6 @@
 //! Types whose values stand in a file. Each is read beside the form of its key: an error says what is allowed.
 
-use crate::content::{Content, Entry, Node, joined};
+use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError, did_you_mean};
 use crate::key::{Form, unknown_key};
 use crate::nearest::nearest;
@@ -46,9 +46,9 @@ impl<'n> Given<'n> {
             _ => return Err(self.of_other_kind()),
         };
         let keys = self.form.keys();
-        let is_unknown = |entry: &&Entry| !keys.iter().any(|key| key.is_named(&entry.key));
+        let is_unknown = |node: &&Node| !keys.iter().any(|key| key.is_named(&node.key));
         match entries.iter().find(is_unknown) {
-            Some(entry) => Err(unknown_key(&self.path, &entry.key, keys)),
+            Some(node) => Err(unknown_key(&self.path, &node.key, keys)),
             None => contradiction(&self.path, self.node),
         }
     }

@@ -80,10 +80,8 @@ fn intervals(
     let own = joined(path, key);
     let both = match &node.content {
         Content::Table(entries) => {
-            let mut entries = entries
-                .iter()
-                .map(|entry| (joined(key, &entry.key), &entry.value));
-            return entries.try_for_each(|(key, value)| intervals(found, keys, path, &key, value));
+            let mut entries = entries.iter();
+            return entries.try_for_each(|node| intervals(found, keys, path, &joined(key, &node.key), node));
         }
         Content::List(both) => both,
         _ => return Err(SceneError::value(&own, node.described(), INTERVAL)),
