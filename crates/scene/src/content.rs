@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 use toml::Spanned;
@@ -11,14 +12,50 @@ use crate::error::{Result, SceneError};
 use crate::location::Location;
 use crate::shown::{quoted, shortened, shown};
 
-/// A place in a file, a preset or an override.
-#[derive(Debug, Clone, Default, PartialEq)]
+/// A text and what it is called.
+#[derive(Debug, Default)]
+pub struct Source {
+    pub name: String,
+    pub text: String,
+    pub kind: SourceKind,
+}
+
+#[derive(Debug, Default, PartialEq)]
+pub enum SourceKind {
+    File,
+    Preset,
+    #[default]
+    Override,
+}
+
+impl Source {
+    pub fn new(kind: SourceKind, name: String, text: &str) -> Arc<Self> {
+        let text = text.to_owned();
+        Arc::new(Self { name, text, kind })
+    }
+}
+
+/// A place in a text.
+#[derive(Debug, Clone, Default)]
 pub struct Place {
-    pub source: usize,
+    pub source: Arc<Source>,
     pub bytes: Range<usize>,
 }
 
-/// A value where it was written; the place of one that a program has means nothing.
+impl Place {
+    pub fn new(source: &Arc<Source>, bytes: Range<usize>) -> Self {
+        let source = source.clone();
+        Self { source, bytes }
+    }
+
+    /// The place as a message shows it.
+    pub fn location(&self) -> Location {
+        let Source { name, text, kind } = &*self.source;
+        Location::new(name, text, self.bytes.clone(), *kind == SourceKind::File)
+    }
+}
+
+/// A value where it was written; the place of one that a program has is in no text.
 #[derive(Debug, Clone, Serialize)]
 #[serde(transparent)]
 pub struct Node {
@@ -29,9 +66,6 @@ pub struct Node {
     pub key_place: Place,
     #[serde(skip)]
     pub place: Place,
-    /// Its text, the first line of it.
-    #[serde(skip)]
-    pub written: String,
     pub content: Content,
 }
 
@@ -54,19 +88,9 @@ fn as_map<S: Serializer>(entries: &[Node], serializer: S) -> Result<S::Ok, S::Er
     serializer.collect_map(entries.iter().map(|node| (&node.key, node)))
 }
 
-/// A value that a program has is written as a file would have it.
 impl From<Content> for Node {
     fn from(content: Content) -> Self {
-        let written = match &content {
-            Content::Text(text) => quoted(text),
-            Content::Whole(whole) => whole.to_string(),
-            Content::Number(value) => shown(*value),
-            _ => String::new(),
-        };
-        Self {
-            written,
-            ..Self::new(Place::default(), "", content)
-        }
+        Self::new(Place::default(), content)
     }
 }
 
@@ -121,17 +145,11 @@ impl Content {
 }
 
 impl Node {
-    /// A value that stands at this place of a text.
-    pub fn new(place: Place, text: &str, content: Content) -> Self {
-        const LONGEST: usize = 60;
-        let all = text.get(place.bytes.clone()).unwrap_or_default();
-        let line = all.lines().next().unwrap_or_default();
-        let more = if line.len() < all.len() { "…" } else { "" };
+    pub fn new(place: Place, content: Content) -> Self {
         Self {
             key: String::new(),
             key_place: place.clone(),
             place,
-            written: shortened(line, LONGEST) + more,
             content,
         }
     }
@@ -140,6 +158,21 @@ impl Node {
     pub fn named(self, key: &str) -> Self {
         let key = key.to_owned();
         Self { key, ..self }
+    }
+
+    /// What stands there, the first line of it; what a program has as a file would have it.
+    pub fn written(&self) -> String {
+        const LONGEST: usize = 60;
+        let text = &self.place.source.text;
+        let all = text.get(self.place.bytes.clone()).unwrap_or_default();
+        match (all.lines().next(), &self.content) {
+            (Some(line), _) if line.len() < all.len() => shortened(line, LONGEST) + "…",
+            (Some(line), _) => shortened(line, LONGEST),
+            (None, Content::Text(text)) => quoted(text),
+            (None, Content::Whole(whole)) => whole.to_string(),
+            (None, Content::Number(value)) => shown(*value),
+            (None, _) => String::new(),
+        }
     }
 
     /// What stands there, with its kind.
@@ -151,7 +184,7 @@ impl Node {
             Content::List(_) => "the list ",
             Content::Table(_) => "the table ",
         };
-        format!("{kind}{}", self.written)
+        format!("{kind}{}", self.written())
     }
 
     /// Every value below this one that is no table and no list, with its key.
@@ -194,17 +227,16 @@ pub fn other_name(key: &str) -> Option<&'static str> {
     }
 }
 
-/// The entries of a text, which is the source of this number; `name` stands for it in errors.
-pub fn entries_of(name: &str, text: &str, source: usize) -> Result<Vec<Node>> {
-    let table = DeTable::parse(text).map_err(|error| syntax_error(name, text, &error))?;
-    Ok(entries(table.get_ref(), source, text))
+/// The entries of a text of TOML.
+pub fn entries_of(source: &Arc<Source>) -> Result<Vec<Node>> {
+    let table = DeTable::parse(&source.text).map_err(|error| syntax_error(source, &error))?;
+    Ok(entries(table.get_ref(), source))
 }
 
-fn entries(table: &DeTable, source: usize, text: &str) -> Vec<Node> {
+fn entries(table: &DeTable, source: &Arc<Source>) -> Vec<Node> {
     let entry = |(key, value): (&Spanned<Cow<str>>, _)| {
-        let bytes = key.span();
-        let mut node = node(value, source, text).named(key.get_ref());
-        node.key_place = Place { source, bytes };
+        let mut node = node(value, source).named(key.get_ref());
+        node.key_place = Place::new(source, key.span());
         node
     };
     let mut entries: Vec<Node> = table.iter().map(entry).collect();
@@ -212,26 +244,26 @@ fn entries(table: &DeTable, source: usize, text: &str) -> Vec<Node> {
     entries
 }
 
-pub fn node(value: &Spanned<DeValue>, source: usize, text: &str) -> Node {
+pub fn node(value: &Spanned<DeValue>, source: &Arc<Source>) -> Node {
     let content = match value.get_ref() {
         DeValue::String(text) => Content::Text(text.to_string()),
         DeValue::Integer(number) => match i128::from_str_radix(number.as_str(), number.radix()) {
-            // Whole numbers are needed exactly only where they are small: elsewhere this is a quantity in SI.
+            // Whole numbers beyond these are quantities in SI.
             Ok(whole) => u64::try_from(whole).map_or(Content::Number(whole as f64), Content::Whole),
             Err(_) => Content::Number(f64::INFINITY),
         },
         DeValue::Float(number) => number.as_str().parse().map_or(Content::Other, Content::number),
         DeValue::Boolean(_) | DeValue::Datetime(_) => Content::Other,
-        DeValue::Array(items) => Content::List(items.iter().map(|item| node(item, source, text)).collect()),
-        DeValue::Table(table) => Content::Table(entries(table, source, text)),
+        DeValue::Array(items) => Content::List(items.iter().map(|item| node(item, source)).collect()),
+        DeValue::Table(table) => Content::Table(entries(table, source)),
     };
-    let bytes = value.span();
-    Node::new(Place { source, bytes }, text, content)
+    Node::new(Place::new(source, value.span()), content)
 }
 
 /// Why the parser gave up on a text, and where.
-fn syntax_error(name: &str, text: &str, error: &toml::de::Error) -> SceneError {
+fn syntax_error(source: &Arc<Source>, error: &toml::de::Error) -> SceneError {
     // The parser does not say where keys are nested too deep.
+    let text = &source.text;
     let deepest = || {
         let line = text.lines().max_by_key(|line| line.matches('.').count());
         text.find(line.unwrap_or_default()).unwrap_or_default()
@@ -239,7 +271,7 @@ fn syntax_error(name: &str, text: &str, error: &toml::de::Error) -> SceneError {
     let mut span = error.span().unwrap_or_else(|| deepest()..deepest());
     span.start = span.start.min(text.trim_end().len());
     SceneError::Syntax {
-        location: Location::new(name, text, span, true),
+        location: Place::new(source, span).location(),
         message: error.message().to_owned(),
     }
 }

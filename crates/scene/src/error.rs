@@ -27,7 +27,12 @@ pub enum SceneError {
 
 /// A wrong key or value.
 #[derive(Debug, thiserror::Error)]
-#[error("{}{found}; allowed: {}{}", place(.location), shortened(.allowed, LONGEST), excerpt(.location))]
+#[error(
+    "{}{found}; allowed: {}{}",
+    .location.as_ref().map_or_else(String::new, |location| format!("{location}: ")),
+    shortened(.allowed, LONGEST),
+    .location.as_ref().map_or_else(String::new, Location::excerpt),
+)]
 #[non_exhaustive]
 pub struct Wrong {
     /// The key, with its section.
@@ -73,10 +78,10 @@ impl SceneError {
         }))
     }
 
-    /// The same of an override at this place, which is none or has nothing at its key.
-    pub(crate) fn of_override(mut self, location: Location) -> Self {
+    /// The same at this place, and whether nothing is at the key that could be changed.
+    pub(crate) fn at(mut self, location: Location, is_unknown: bool) -> Self {
         if let Self::Wrong(wrong) = &mut self {
-            (wrong.is_unknown, wrong.location) = (true, Some(location));
+            (wrong.is_unknown, wrong.location) = (is_unknown, Some(location));
         }
         self
     }
@@ -89,16 +94,6 @@ impl SceneError {
             Self::Wrong(wrong) => wrong.location.as_ref(),
         }
     }
-}
-
-fn place(location: &Option<Location>) -> String {
-    location
-        .as_ref()
-        .map_or_else(String::new, |location| format!("{location}: "))
-}
-
-fn excerpt(location: &Option<Location>) -> String {
-    location.as_ref().map_or_else(String::new, Location::excerpt)
 }
 
 /// A key as messages show it.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
-use crate::content::{Content, Node};
+use crate::content::{Content, Node, Place, Source, SourceKind, entries_of};
 use crate::document::SceneFile;
 use crate::error::{Result, SceneError};
 use crate::key::{Form, Section};
@@ -44,11 +44,12 @@ impl SceneFile {
     ///
     /// As for [`SceneFile::read`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self> {
-        let (sources, root) = (Vec::new(), Content::Other.into());
-        let mut file = Self { sources, root };
-        file.root.content = Content::Table(file.parsed(name.to_owned(), text, false)?);
-        preset::expand(&mut file)?;
-        Ok(file)
+        let end = text.trim_end().len();
+        let source = Source::new(SourceKind::File, name.to_owned(), text);
+        let content = Content::Table(entries_of(&source)?);
+        let mut root = Node::new(Place::new(&source, end..end), content);
+        preset::expand(&mut root)?;
+        Ok(Self { root })
     }
 
     /// The file with each `KEY=VALUE` of `overrides` set in turn.
@@ -59,15 +60,15 @@ impl SceneFile {
     pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self> {
         let mut file = self.clone();
         for text in overrides {
-            overrides::apply(&mut file, text.as_ref())?;
-            preset::expand(&mut file)?;
+            overrides::apply(&mut file.root, text.as_ref())?;
+            preset::expand(&mut file.root)?;
         }
         Ok(file)
     }
 
     /// The text of the file, without what was set on top of it.
     pub fn text(&self) -> &str {
-        &self.sources[0].text
+        &self.root.place.source.text
     }
 
     /// The scene.
@@ -78,7 +79,7 @@ impl SceneFile {
     pub fn scene(&self) -> Result<Scene> {
         let read = || {
             let mut scene = read(&self.root)?;
-            scene.resolve(&self.sources[0].name)?;
+            scene.resolve(&self.root.place.source.name)?;
             rules::check(&scene).map(|()| scene)
         };
         read().map_err(|error| self.located(error))
@@ -87,14 +88,14 @@ impl SceneFile {
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
         let (node, _) = self.find(key);
-        (node.place != self.root.place).then(|| self.location(&node.place))
+        (!std::ptr::eq(node, &self.root)).then(|| node.place.location())
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
         let slip = |(key, node): (String, &Node)| {
             let words = unusual::slip(&key, node)?;
-            Some((self.location(&node.place), words))
+            Some((node.place.location(), words))
         };
         self.root.values("").into_iter().filter_map(slip).collect()
     }
@@ -110,7 +111,7 @@ impl SceneFile {
             return None;
         };
         let text = node.content.get("file").unwrap_or(node).content.as_text();
-        text.map(|text| histogram::beside(&self.sources[0].name, text))
+        text.map(|text| histogram::beside(&self.root.place.source.name, text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
@@ -121,9 +122,9 @@ impl SceneFile {
             let text = text.or_else(|| number.map(|number| number.to_string()));
             Typed {
                 key,
-                text: text.unwrap_or_else(|| node.written.clone()),
+                text: text.unwrap_or_else(|| node.written()),
                 is_number: number.is_some(),
-                source: self.source(node).name.clone(),
+                source: node.place.source.name.clone(),
             }
         };
         self.root.values("").into_iter().map(typed).collect()
@@ -132,7 +133,7 @@ impl SceneFile {
     /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
     pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
         let (node, is_value) = self.find(key);
-        let is_typed = is_value && !self.source(node).is_preset;
+        let is_typed = is_value && node.place.source.kind != SourceKind::Preset;
         dimension.unit_of(node.content.as_text().filter(|_| is_typed)?)
     }
 }

@@ -91,15 +91,6 @@ file_words! {
     "; odemark is no longer there: the exact \"burmister\" costs no more than that approximation"
 }
 
-/// A measured peak displacement of the duct that the ground model is scaled to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PeakScaling {
-    /// `max|D_l|` of each vehicle \[m\], positive: each vehicle gets its own factor.
-    Longitudinal(f64),
-    /// `max|D_v|` of the first vehicle \[m\], positive: all vehicles get the factor of the first.
-    Vertical(f64),
-}
-
 impl Ground {
     /// Its layers on what is below them.
     ///
@@ -135,11 +126,5 @@ impl Ground {
     /// The thickness of all layers \[m\]; one without end has none.
     pub fn thickness(&self) -> f64 {
         self.rigid_base_depth.unwrap_or_else(|| self.upper_thickness())
-    }
-
-    /// What its displacements are scaled to, if they are.
-    pub fn scaling(&self) -> Option<PeakScaling> {
-        let longitudinal = self.longitudinal_peak.map(PeakScaling::Longitudinal);
-        longitudinal.or(self.vertical_peak.map(PeakScaling::Vertical))
     }
 }

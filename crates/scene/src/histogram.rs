@@ -121,7 +121,8 @@ impl Histogram {
         let mut options = Options::default();
         // The first is the file.
         for (key, node) in Node::from(self.write(HISTOGRAM)).values("").iter().skip(1) {
-            let text = node.content.as_text().unwrap_or(&node.written);
+            let written = node.written();
+            let text = node.content.as_text().unwrap_or(&written);
             let wrong = |why| SceneError::value(&format!("{KEY}.{key}"), format!("\"{text}\""), why);
             options.set(key, text).map_err(wrong)?;
         }

@@ -101,7 +101,8 @@ pub fn unknown_key(path: &str, name: &str, keys: &[Key]) -> SceneError {
     SceneError::unknown(&joined(path, name), meant_by(name, &names), names.join(", "))
 }
 
-/// The form of the number at a key below these keys, such as `vehicles.0.load`; it is named in the table at `path`.
+/// The form of the number at a key below these, such as `vehicles.0.load`, which the table at `path`
+/// names.
 pub fn number_at(keys: &'static [Key], path: &str, key: &str) -> Result<Form> {
     const ALLOWED: &str = "a key of the scene that takes a number, such as \"friction.dynamic_coefficient\" (`creepage explain` lists \
                            them)";

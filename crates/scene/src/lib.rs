@@ -42,7 +42,7 @@ pub use cable_end::CableEnd;
 pub use document::SceneFile;
 pub use error::{SceneError, Wrong, did_you_mean};
 pub use file::Typed;
-pub use ground::{Ground, GroundModel, Layer, PeakScaling};
+pub use ground::{Ground, GroundModel, Layer};
 pub use heat::Heat;
 pub use histogram::Histogram;
 pub use location::Location;

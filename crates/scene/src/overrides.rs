@@ -1,9 +1,10 @@
 //! `KEY=VALUE` on top of a scene file.
 
+use std::sync::Arc;
+
 use toml::de::DeTable;
 
-use crate::content::{Content, Node, Place, joined, node};
-use crate::document::SceneFile;
+use crate::content::{Content, Node, Place, Source, SourceKind, joined, node};
 use crate::error::{Result, SceneError};
 use crate::rivals::gives_way;
 
@@ -13,15 +14,13 @@ const DEEPEST: usize = 8;
 /// What was found, and what is allowed.
 type Refused = (String, String);
 
-/// Sets one key of the file, or removes it if the value is empty.
-pub fn apply(file: &mut SceneFile, text: &str) -> Result<()> {
-    let source = file.add(format!("--set {text}"), text, false);
+/// Sets one key of a file's tree, or removes it if the value is empty.
+pub fn apply(root: &mut Node, text: &str) -> Result<()> {
+    let source = Source::new(SourceKind::Override, format!("--set {text}"), text);
     let key = text.split('=').next().unwrap_or_default();
-    let bytes = 0..key.len();
-    let place = Place { source, bytes };
-    set_text(&mut file.root, text, &place).map_err(|(found, allowed)| {
-        SceneError::value(key.trim(), found, allowed).of_override(file.location(&place))
-    })
+    let place = Place::new(&source, 0..key.len());
+    set_text(root, text, &place)
+        .map_err(|(found, allowed)| SceneError::value(key.trim(), found, allowed).at(place.location(), true))
 }
 
 fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
@@ -47,18 +46,19 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         ["traffic", "histogram"] => set(root, "", &["vehicles"], None, place).unwrap_or_default(),
         _ => (),
     }
-    let value = parsed(text, key.len() + 1, place.source);
+    let value = parsed(&place.source, key.len() + 1);
     set(root, "", &keys, Some(value), place)
 }
 
 /// The value that begins at a byte of an override: TOML, or a text if it is not.
-fn parsed(text: &str, start: usize, source: usize) -> Node {
+fn parsed(source: &Arc<Source>, start: usize) -> Node {
+    let text = &source.text;
     // Behind a key that is as long, so that all places are those in the override.
     let line = format!("{:1$}={2}", "x", start - 1, &text[start..]);
     if let Ok(table) = DeTable::parse(&line)
         && let (Some(value), 1) = (table.get_ref().get("x"), table.get_ref().len())
     {
-        return node(value, source, text);
+        return node(value, source);
     }
     let value = text[start..].trim();
     let start = text.len() - text[start..].trim_start().len();
@@ -68,8 +68,7 @@ fn parsed(text: &str, start: usize, source: usize) -> Node {
         Ok(value) if numeric => Content::number(value),
         _ => Content::Text(value.to_owned()),
     };
-    let bytes = start..start + value.len();
-    Node::new(Place { source, bytes }, text, content)
+    Node::new(Place::new(source, start..start + value.len()), content)
 }
 
 fn index(items: &[Node], number: &str) -> Result<usize, Refused> {
@@ -103,7 +102,7 @@ fn set(
         }
         return set(&mut items[index], &path_of_key, below, value, place);
     }
-    let table = || Node::new(place.clone(), "", Content::Table(Vec::new()));
+    let table = || Node::new(place.clone(), Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
         // `ends.downstream.spring=…` on `downstream = "fixed"`
         *node = table().named(&node.key);

@@ -98,8 +98,8 @@ pub fn contradiction(path: &str, table: &Node) -> Result<()> {
         }
         let found = match value {
             Some(_) if *allowed == ONE => format!("both `{key}` and `{other}`"),
-            Some(value) => format!("{} with `{key}` = {}", rival.written, value.written),
-            None => format!("{} with no `{key}`", rival.written),
+            Some(value) => format!("{} with `{key}` = {}", rival.written(), value.written()),
+            None => format!("{} with no `{key}`", rival.written()),
         };
         return Err(SceneError::value(&joined(path, other), found, *allowed));
     }

@@ -75,7 +75,7 @@ impl<'n> Given<'n> {
         let known = words.iter().find(|(word, _)| *word == text);
         known.map(|(_, value)| *value).ok_or_else(|| {
             let meant = did_you_mean(nearest(text, words.iter().map(|(word, _)| *word)));
-            SceneError::value(&self.path, self.node.written.clone() + &meant, allowed)
+            SceneError::value(&self.path, self.node.written() + &meant, allowed)
         })
     }
 }
@@ -87,7 +87,7 @@ pub fn written<T: Stored + PartialEq>(value: &T, form: Form, absent: Option<T>) 
 
 impl Stored for f64 {
     fn read(given: &Given) -> Result<Self> {
-        let (content, written) = (&given.node.content, &given.node.written);
+        let (content, written) = (&given.node.content, given.node.written());
         let Some(quantity) = given.form.quantity() else {
             return Err(given.of_other_kind());
         };
@@ -123,7 +123,7 @@ impl Stored for u64 {
         f64::read(given)?;
         match given.node.content {
             Content::Whole(whole) => Ok(whole),
-            _ => Err(given.wrong(&given.node.written)),
+            _ => Err(given.wrong(given.node.written())),
         }
     }
 

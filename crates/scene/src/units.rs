@@ -129,7 +129,8 @@ const IN_WORDS: &[(&str, &str)] = &[
     ("kg", "kgf"), ("kg", "kg/m"), ("kg/mm", "kgf/mm"), ("t", "tf"), ("ton", "tf"), ("tonnes", "tf"), ("sqmm", "mm2"),
 ];
 
-/// A unit of a scene file: one of it is `scale.0 / scale.1 · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
+/// A unit of a scene file: one of it is `scale.0 / scale.1 · 10^exponent` in SI; for a slope that is
+/// the angle, and its tangent counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     pub(crate) symbol: &'static str,

@@ -177,7 +177,7 @@ fn contrast(scene: &Scene) -> Option<String> {
 /// The warning for a number without a unit that was meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h, and for
 /// decimals that may be thousands, `passes = 292.000`, and for a mass that stands for a weight.
 pub fn slip(key: &str, node: &Node) -> Option<String> {
-    let (name, found) = (key.rsplit('.').next()?, &node.written);
+    let (name, found) = (key.rsplit('.').next()?, &node.written());
     if let (Some(text), "weight") = (node.content.as_text(), name) {
         let is_mass = text.to_lowercase().replace("kgf", "").contains("kg");
         let weight = four_digits(Dimension::Weight.parse(text).ok()?);
