@@ -13,7 +13,7 @@ use crate::location::Location;
 use crate::shown::{quoted, shortened, shown};
 
 /// A text and what it is called.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Source {
     pub name: String,
     pub text: String,
@@ -36,7 +36,7 @@ impl Source {
 }
 
 /// A place in a text.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Place {
     pub source: Arc<Source>,
     pub bytes: Range<usize>,
@@ -98,9 +98,11 @@ impl Content {
     /// A number that may be whole: `1e6` passes are as good as `1000000`.
     pub fn number(value: f64) -> Self {
         let whole = value as u64;
-        match whole as f64 == value && value.is_sign_positive() {
-            true => Self::Whole(whole),
-            false => Self::Number(value),
+        let is_whole = whole as f64 == value && value.is_sign_positive();
+        if is_whole {
+            Self::Whole(whole)
+        } else {
+            Self::Number(value)
         }
     }
 

@@ -5,10 +5,10 @@ use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
 use crate::content::{Content, Node, Place, Source, SourceKind, entries_of};
-use crate::document::SceneFile;
-use crate::error::{Result, SceneError};
-use crate::key::{Form, Section};
+use crate::error::{Result, SceneError, did_you_mean};
+use crate::key::Form;
 use crate::location::Location;
+use crate::names::elsewhere;
 use crate::scene::Scene;
 use crate::stored::{Given, Stored};
 use crate::units::{Dimension, Unit};
@@ -17,6 +17,26 @@ use crate::{histogram, overrides, preset, rules, unusual};
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
 const SCENE: Form = Form::Table(Scene::KEYS);
+
+/// The text of a scene and what was set on top of it.
+///
+/// A [`Scene`] is plain data; this is for who needs many scenes of one file, or the line of a key.
+///
+/// ```
+/// use creepage_scene::SceneFile;
+///
+/// let text = std::fs::read_to_string("../../examples/scenes/full-scale-upper.toml")?;
+/// let file = SceneFile::from_toml("upper.toml", &text)?;
+/// let deeper = file.with(&["duct.depth=2 m"])?.scene()?;
+/// assert_eq!((file.scene()?.duct.depth, deeper.duct.depth), (1.2, 2.0));
+/// assert!(file.locate("duct.depth").unwrap().text.starts_with("depth = \"1.2 m\""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    /// Its values; its own place is the end of the file.
+    root: Node,
+}
 
 impl SceneFile {
     /// Reads the file at `path`.
@@ -88,7 +108,7 @@ impl SceneFile {
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
         let (node, _) = self.find(key);
-        (!std::ptr::eq(node, &self.root)).then(|| node.place.location())
+        (node.place != self.root.place).then(|| node.place.location())
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
@@ -135,6 +155,43 @@ impl SceneFile {
         let (node, is_value) = self.find(key);
         let is_typed = is_value && node.place.source.kind != SourceKind::Preset;
         dimension.unit_of(node.content.as_text().filter(|_| is_typed)?)
+    }
+
+    /// The value of `key`, or else the section that would hold it; and whether it is the value.
+    fn find(&self, key: &str) -> (&Node, bool) {
+        let mut node = &self.root;
+        for segment in key.split('.') {
+            match node.content.get(segment) {
+                Some(inner) => node = inner,
+                None => return (node, false),
+            }
+        }
+        (node, true)
+    }
+
+    /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
+    fn located(&self, error: SceneError) -> SceneError {
+        let SceneError::Wrong(mut wrong) = error else {
+            return error;
+        };
+        let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
+        let (node, _) = self.find(&wrong.key);
+        let unknown = self.find(section).0.content.entry(key);
+        let unknown = unknown.filter(|_| wrong.is_unknown);
+        let mut location = unknown.map_or(&node.place, |node| &node.key_place).location();
+        // What the top level lacks would be added at the end, but is not on its last line.
+        if unknown.is_none() && node.place == self.root.place {
+            (location.text, location.marked) = (String::new(), 0..0);
+        }
+        wrong.location = Some(location);
+        if wrong.is_unknown {
+            let (other, words) = elsewhere(key);
+            if !wrong.found.ends_with("?)") {
+                wrong.found += &did_you_mean(other);
+            }
+            wrong.allowed += words;
+        }
+        SceneError::Wrong(wrong)
     }
 }
 

@@ -4,8 +4,8 @@ use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 
 use crate::content::Content;
 use crate::error::Result;
+use crate::key::Form;
 use crate::key::Form::{Either, List, Number, Table};
-use crate::key::{Form, Section as _};
 use crate::range;
 use crate::section::{file_words, keys};
 use crate::stored::{Given, Stored};

@@ -7,8 +7,8 @@ use creepage_tables::{Kind, Layout, Options, Row, Table, TableError};
 
 use crate::content::Node;
 use crate::error::{Result, SceneError};
+use crate::key::Form;
 use crate::key::Form::{Either, Number, Text};
-use crate::key::{Form, Section};
 use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS};
 use crate::section::keys;
 use crate::stored::Stored;

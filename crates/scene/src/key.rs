@@ -6,11 +6,6 @@ use crate::nearest::meant_by;
 use crate::range::Quantity;
 use crate::shown::listed;
 
-/// A type that is a table of the file.
-pub trait Section {
-    const KEYS: &'static [Key];
-}
-
 /// A key and what is to be said of it.
 pub struct Key {
     pub name: &'static str,

@@ -3,10 +3,11 @@
 use std::sync::LazyLock;
 
 use crate::content::joined;
-use crate::key::{Key, Section, number_at};
+use crate::key::{Key, number_at};
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::scene::Scene;
+use crate::stored::Stored;
 
 /// What a key of a scene means.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]

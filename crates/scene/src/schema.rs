@@ -3,11 +3,12 @@
 use serde_json::{Map, Value, json};
 
 use crate::content::{joined, other_name};
-use crate::key::{Form, Key, Section};
+use crate::key::{Form, Key};
 use crate::presets::of_section;
 use crate::range::Quantity;
 use crate::rivals::rivals;
 use crate::scene::Scene;
+use crate::stored::Stored;
 
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
 /// holds between several keys it says which of them exclude each other.

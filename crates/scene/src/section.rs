@@ -39,7 +39,7 @@ macro_rules! keys {
         $(preset $preset:literal;)?
         $($(#[doc = $meaning:literal])+ $key:ident = $form:expr $(, $absent:literal $(=> $value:expr)?)?;)+
     }) => {
-        impl $crate::key::Section for $name {
+        impl $crate::stored::Stored for $name {
             const KEYS: &'static [$crate::key::Key] = &[
                 $($crate::key::Key::preset($preset),)?
                 $($crate::key::Key {
@@ -49,9 +49,7 @@ macro_rules! keys {
                     absent: [$($absent)?].first().copied(),
                 },)+
             ];
-        }
 
-        impl $crate::stored::Stored for $name {
             fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
                 given.check_table()?;
                 Ok(Self { $($key: given.value(stringify!($key), $form, $crate::section::absent!($($absent $(=> $value)?)?))?,)+ })
@@ -60,7 +58,7 @@ macro_rules! keys {
             fn write(&self, _: $crate::key::Form) -> $crate::content::Content {
                 $crate::content::Content::table([$((
                     stringify!($key),
-                    $crate::stored::written(&self.$key, $form, $crate::section::absent!($($absent $(=> $value)?)?)),
+                    $crate::stored::written(&self.$key, $form, $crate::section::absent!($($absent $(=> $value)?)?).as_ref()),
                 ),)+])
             }
         }

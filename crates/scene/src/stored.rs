@@ -2,13 +2,15 @@
 
 use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError, did_you_mean};
-use crate::key::{Form, unknown_key};
+use crate::key::{Form, Key, unknown_key};
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::rivals::contradiction;
 
 /// A type whose values stand in a file.
 pub trait Stored: Sized {
+    /// The keys of a type that is a table of the file.
+    const KEYS: &'static [Key] = &[];
     /// The value in SI.
     fn read(given: &Given) -> Result<Self>;
     /// The value as it is written, quantities in SI with their units.
@@ -81,8 +83,8 @@ impl<'n> Given<'n> {
 }
 
 /// The value as it is written at its key, unless it counts without being written.
-pub fn written<T: Stored + PartialEq>(value: &T, form: Form, absent: Option<T>) -> Option<Content> {
-    (absent.as_ref() != Some(value)).then(|| value.write(form))
+pub fn written<T: Stored + PartialEq>(value: &T, form: Form, absent: Option<&T>) -> Option<Content> {
+    (absent != Some(value)).then(|| value.write(form))
 }
 
 impl Stored for f64 {

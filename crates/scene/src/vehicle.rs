@@ -4,8 +4,8 @@ use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle};
 
 use crate::content::Content;
 use crate::error::Result;
+use crate::key::Form;
 use crate::key::Form::{List, Name, Number, Table, Words};
-use crate::key::{Form, Section as _};
 use crate::range::{CONTACT_RADIUS, LANE, LOAD, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y};
 use crate::section::keys;
 use crate::stored::{Given, Stored};
