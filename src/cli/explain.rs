@@ -22,7 +22,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let all = key_meanings();
     let Some(asked) = &arguments.key else {
-        return arguments.json.print(&all, || list(&all));
+        return arguments.json.print(&all, || list(all));
     };
     let is_name = |part: &&str| part.parse::<usize>().is_err();
     let wanted = asked.split('.').filter(is_name).collect::<Vec<_>>().join(".");

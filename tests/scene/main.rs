@@ -16,7 +16,7 @@ use std::path::Path;
 
 use approx::assert_relative_eq;
 use creepage::scene::{
-    End, FrictionLaw, GroundModel, Order, PeakScaling, Restraint, Scene, SceneError, Solver, SolverMethod,
+    End, FrictionLaw, GroundModel, Order, Restraint, Scene, SceneError, Solver, SolverMethod,
 };
 use ground_field::{Base, Direction, Modulus};
 
@@ -148,7 +148,7 @@ fn every_key_is_read() {
     assert_relative_eq!(scene.body_force(), 108.8 * 0.03_f64.atan().sin());
     assert_relative_eq!(scene.friction_limit(), 0.25 * 163.2 * 0.03_f64.atan().cos());
     assert_eq!(scene.ground.model, GroundModel::FiniteElements);
-    assert_eq!(scene.ground.scaling(), Some(PeakScaling::Longitudinal(35.7e-6)));
+    assert_eq!(scene.ground.longitudinal_peak, Some(35.7e-6));
     let profile = scene.ground.profile().expect("layers");
     let layers = profile.layers();
     assert_eq!(layers.len(), 3);
@@ -223,10 +223,9 @@ fn what_may_be_left_out_has_a_default() {
     let scene = Scene::from_toml("somewhere/short.toml", text).unwrap();
     assert_eq!(scene.title, "short");
     assert_eq!((scene.duct.lateral_offset, scene.duct.slope), (0.0, 0.0));
-    assert_eq!(
-        (scene.ground.model, scene.ground.scaling()),
-        (GroundModel::Auto, None)
-    );
+    assert_eq!(scene.ground.model, GroundModel::Auto);
+    let peaks = [scene.ground.longitudinal_peak, scene.ground.vertical_peak];
+    assert_eq!(peaks, [None; 2]);
     assert_eq!(
         scene
             .ground

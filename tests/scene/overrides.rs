@@ -1,6 +1,6 @@
 //! `KEY=VALUE` on top of a scene.
 
-use creepage::scene::{End, FrictionLaw, Order, PeakScaling, SolverMethod};
+use creepage::scene::{End, FrictionLaw, Order, SolverMethod};
 use ground_field::{Base, Modulus};
 
 use super::{FULL, assert_override_refused, read_with};
@@ -75,7 +75,11 @@ fn an_override_beats_a_key_of_the_file_that_excludes_it() {
         FrictionLaw::Coulomb
     );
     let vertical = read_with(&["ground.vertical_peak=90 um"]).unwrap();
-    assert_eq!(vertical.ground.scaling(), Some(PeakScaling::Vertical(90e-6)));
+    let ground = &vertical.ground;
+    assert_eq!(
+        (ground.longitudinal_peak, ground.vertical_peak),
+        (None, Some(90e-6))
+    );
     let wheels = read_with(&["vehicles.0.wheels=[{ load = 1 }, { x = 3, load = 2 }]"]).unwrap();
     assert_eq!(wheels.vehicles[0].weight(), 3.0);
     let ordered = read_with(&["traffic.order=interleaved"]).unwrap();

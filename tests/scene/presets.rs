@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use creepage::presets::{Preset, PresetKind, all, of};
+use creepage::presets::{Preset, PresetKind, all};
 use creepage::scene::{End, Scene};
 use ground_field::{Base, Modulus};
 
@@ -104,7 +104,7 @@ fn every_value_has_a_source_or_is_marked_as_assumed() {
         }
     }
     let wheelbase = |s: &&creepage::presets::Source| s.key == "wheels.x";
-    let truck = of(PresetKind::Vehicle).find(|p| p.name == "t-25").unwrap();
+    let truck = all().iter().find(|p| p.name == "t-25").unwrap();
     assert!(truck.sources.iter().find(wheelbase).unwrap().assumed);
 }
 
@@ -172,7 +172,7 @@ fn pavements_have_the_equivalent_thickness_of_their_class() {
     for (class, passes) in [("n5", 1e6_f64), ("n6", 7e6), ("n7", 35e6)] {
         for cbr in [3.0_f64, 6.0, 12.0] {
             let name = format!("{class}-cbr{cbr}");
-            let preset = of(PresetKind::Pavement).find(|p| p.name == name).unwrap();
+            let preset = all().iter().find(|p| p.name == name).unwrap();
             let (found, found_cbr) = worth(preset);
             assert!((found_cbr - cbr).abs() < 1e-9);
             let needed = 3.84 * passes.powf(0.16) / cbr.powf(0.3);

@@ -85,7 +85,8 @@ fn warm(scene: &Scene) -> Vec<String> {
 fn deep(scene: &Scene, motions: &[DuctMotion]) -> Option<String> {
     let deflections = motions.iter().map(DuctMotion::peak_vertical);
     let deepest = deflections.fold(0.0, f64::max);
-    let key = match scene.ground.scaling() {
+    let measured = scene.ground.longitudinal_peak.or(scene.ground.vertical_peak);
+    let key = match measured {
         None => {
             "a modulus from CBR or from a settlement test is several times too small for traffic, and the force may be double; measure \
                  the deflection and give `ground.vertical_peak`"

@@ -14,7 +14,7 @@
 //! (R. C. Rifenburg, Trans. AIEE 72 (1953) 1275). They are factors for cables that are computed one by one: computed together, the lower ones
 //! also carry the upper one's friction.
 
-use crate::words::file_words;
+use crate::section::file_words;
 
 /// Least D/d with which three cables fit into a duct: 1 + 2/√3.
 pub const CLOSEST: f64 = 2.154_700_538_379_251_5;

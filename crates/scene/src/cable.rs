@@ -5,13 +5,9 @@ use cable_dem::FrictionLaw;
 use crate::arrangement::Arrangement;
 use crate::error::{Result, SceneError};
 use crate::key::Form::Number;
-use crate::range::{
-    AXIAL_STIFFNESS, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, Quantity,
-    SHAPE_FACTOR, WEIGHT,
-};
-use crate::section::keys;
+use crate::range::{self, Quantity};
+use crate::section::{file_words, keys};
 use crate::shown::shown;
-use crate::words::file_words;
 
 keys! {
     /// The cable, in SI.
@@ -20,17 +16,17 @@ keys! {
     pub struct Cable {
         preset "A cable by its name; keys beside it override its values.";
         /// Weight of the cable per length; a mass per length is multiplied by g.
-        weight: f64 = Number(WEIGHT);
+        weight: f64 = Number(range::WEIGHT);
         /// Young's modulus times cross-section, EA.
-        axial_stiffness: f64 = Number(AXIAL_STIFFNESS), "`young_modulus` and `conductor_area` instead";
+        axial_stiffness: f64 = Number(range::AXIAL_STIFFNESS), "`young_modulus` and `conductor_area` instead";
         /// Young's modulus of the cable as a whole, relative to the area of its conductors.
-        young_modulus: Option<f64> = Number(CONDUCTOR_MODULUS), "`axial_stiffness` instead";
+        young_modulus: Option<f64> = Number(range::CONDUCTOR_MODULUS), "`axial_stiffness` instead";
         /// Area of its conductors; with `young_modulus` it gives EA.
-        conductor_area: Option<f64> = Number(CONDUCTOR_AREA), "`axial_stiffness` instead";
+        conductor_area: Option<f64> = Number(range::CONDUCTOR_AREA), "`axial_stiffness` instead";
         /// Normal force on the duct, in weights of the cable.
-        normal_load_factor: Option<f64> = Number(LOAD_FACTOR), "1";
+        normal_load_factor: Option<f64> = Number(range::LOAD_FACTOR), "1";
         /// Diameter of the cable; of several in a duct it sets the normal load factor.
-        diameter: Option<f64> = Number(DIAMETER), "none";
+        diameter: Option<f64> = Number(range::DIAMETER), "none";
         /// How it lies beside others in its duct.
         arrangement: Arrangement = Arrangement::FORM, "\"single\"";
     }
@@ -42,17 +38,17 @@ impl Cable {
         let missing = |key, quantity: Quantity| Err(SceneError::missing(key, quantity.allowed()));
         let (modulus, area) = match (self.young_modulus.take(), self.conductor_area.take()) {
             (Some(modulus), Some(area)) => (modulus, area),
-            (Some(_), None) => return missing("cable.conductor_area", CONDUCTOR_AREA),
-            (None, Some(_)) => return missing("cable.young_modulus", CONDUCTOR_MODULUS),
+            (Some(_), None) => return missing("cable.conductor_area", range::CONDUCTOR_AREA),
+            (None, Some(_)) => return missing("cable.young_modulus", range::CONDUCTOR_MODULUS),
             (None, None) => return Ok(()),
         };
         self.axial_stiffness = modulus * area;
-        if AXIAL_STIFFNESS.contains(self.axial_stiffness) {
+        if range::AXIAL_STIFFNESS.contains(self.axial_stiffness) {
             return Ok(());
         }
         let [modulus, area, force] = [modulus, area, self.axial_stiffness].map(shown);
         let found = format!("{modulus} Pa times {area} m2, {force} N");
-        let allowed = format!("a product {}", AXIAL_STIFFNESS.words);
+        let allowed = format!("a product {}", range::AXIAL_STIFFNESS.words);
         Err(SceneError::value("cable.young_modulus", found, allowed))
     }
 }
@@ -65,9 +61,9 @@ keys! {
         /// How friction follows slip.
         law: Law = Law::FORM, "\"elastic-plastic\"";
         /// Friction of the slipping cable in normal forces, μ_d.
-        dynamic_coefficient: f64 = Number(COEFFICIENT);
+        dynamic_coefficient: f64 = Number(range::COEFFICIENT);
         /// How steeply friction builds up before the cable slips, b: the slope is q b/2.
-        shape_factor: Option<f64> = Number(SHAPE_FACTOR), "required, but not with Coulomb's law";
+        shape_factor: Option<f64> = Number(range::SHAPE_FACTOR), "required, but not with Coulomb's law";
     }
 }
 

@@ -1,29 +1,76 @@
 //! What a document holds: texts, numbers, lists and tables, each with the place where it was written.
 
+use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
+use crate::error::{Result, SceneError};
+use crate::location::Location;
 use crate::shown::{quoted, shortened, shown};
 
-/// A place in a file, a preset or an override.
+/// A text and what it is called.
+#[derive(Debug, Default, PartialEq)]
+pub struct Source {
+    pub name: String,
+    pub text: String,
+    pub kind: SourceKind,
+}
+
+#[derive(Debug, Default, PartialEq)]
+pub enum SourceKind {
+    File,
+    Preset,
+    #[default]
+    Override,
+}
+
+impl Source {
+    pub fn new(kind: SourceKind, name: String, text: &str) -> Arc<Self> {
+        let text = text.to_owned();
+        Arc::new(Self { name, text, kind })
+    }
+}
+
+/// A place in a text.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Place {
-    /// The number of the text in its document.
-    pub source: usize,
+    pub source: Arc<Source>,
     pub bytes: Range<usize>,
 }
 
-/// A value where it was written; the place of one that a program has means nothing.
-#[derive(Debug, Clone)]
+impl Place {
+    pub fn new(source: &Arc<Source>, bytes: Range<usize>) -> Self {
+        let source = source.clone();
+        Self { source, bytes }
+    }
+
+    /// The place as a message shows it.
+    pub fn location(&self) -> Location {
+        let Source { name, text, kind } = &*self.source;
+        Location::new(name, text, self.bytes.clone(), *kind == SourceKind::File)
+    }
+}
+
+/// A value where it was written; the place of one that a program has is in no text.
+#[derive(Debug, Clone, Serialize)]
+#[serde(transparent)]
 pub struct Node {
+    /// Its key in a table.
+    #[serde(skip)]
+    pub key: String,
+    #[serde(skip)]
+    pub key_place: Place,
+    #[serde(skip)]
     pub place: Place,
-    /// Its text, the first line of it.
-    pub written: String,
     pub content: Content,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
 pub enum Content {
     Text(String),
     /// A whole number of at least 0 that fits, however it is written.
@@ -33,46 +80,17 @@ pub enum Content {
     Other,
     List(Vec<Node>),
     /// In the order of the file.
-    Table(Vec<Entry>),
+    #[serde(serialize_with = "as_map")]
+    Table(Vec<Node>),
 }
 
-#[derive(Debug, Clone)]
-pub struct Entry {
-    pub key: String,
-    pub place: Place,
-    pub value: Node,
+fn as_map<S: Serializer>(entries: &[Node], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|node| (&node.key, node)))
 }
 
-impl Serialize for Content {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Text(text) => text.serialize(serializer),
-            Self::Whole(whole) => whole.serialize(serializer),
-            Self::Number(value) => value.serialize(serializer),
-            Self::Other => serializer.serialize_unit(),
-            Self::List(items) => serializer.collect_seq(items.iter().map(|item| &item.content)),
-            Self::Table(entries) => {
-                serializer.collect_map(entries.iter().map(|entry| (&entry.key, &entry.value.content)))
-            }
-        }
-    }
-}
-
-/// A value that a program has is written as a file would have it.
 impl From<Content> for Node {
     fn from(content: Content) -> Self {
-        let written = match &content {
-            Content::Text(text) => quoted(text),
-            Content::Whole(whole) => whole.to_string(),
-            Content::Number(value) => shown(*value),
-            _ => String::new(),
-        };
-        let place = Place::default();
-        Self {
-            place,
-            written,
-            content,
-        }
+        Self::new(Place::default(), content)
     }
 }
 
@@ -88,7 +106,6 @@ impl Content {
         }
     }
 
-    /// The number, if it is one.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Self::Whole(whole) => Some(*whole as f64),
@@ -97,7 +114,6 @@ impl Content {
         }
     }
 
-    /// The text, if it is one.
     pub fn as_text(&self) -> Option<&str> {
         match self {
             Self::Text(text) => Some(text),
@@ -105,51 +121,59 @@ impl Content {
         }
     }
 
-    /// The entries of a table; none of anything else.
-    pub fn entries(&self) -> &[Entry] {
+    /// A table with the values that there are.
+    pub fn table<'k>(values: impl IntoIterator<Item = (&'k str, Option<Self>)>) -> Self {
+        let values = values.into_iter();
+        let entry = |(key, value): (&str, Option<Self>)| Some(Node::from(value?).named(key));
+        Self::Table(values.filter_map(entry).collect())
+    }
+
+    /// The value of a table at exactly this key.
+    pub fn entry(&self, key: &str) -> Option<&Node> {
         match self {
-            Self::Table(entries) => entries,
-            _ => &[],
+            Self::Table(entries) => entries.iter().find(|node| node.key == key),
+            _ => None,
         }
     }
 
-    /// A table with these values.
-    pub fn table<'k>(values: impl IntoIterator<Item = (&'k str, Content)>) -> Self {
-        let entry = |(key, value): (&str, Self)| Entry {
-            key: key.to_owned(),
-            place: Place::default(),
-            value: value.into(),
-        };
-        Self::Table(values.into_iter().map(entry).collect())
-    }
-
-    /// The entry of this name, or of its other name.
-    pub fn entry(&self, key: &str) -> Option<&Entry> {
-        let named = |key: &str| self.entries().iter().find(|entry| entry.key == key);
-        named(key).or_else(|| named(other_name(key)?))
-    }
-
-    /// The value of a table at this key, or of a list at this index.
+    /// The value of a table at this key, or at its other name, or of a list at this index.
     pub fn get(&self, segment: &str) -> Option<&Node> {
-        match self {
-            Self::List(items) => items.get(segment.parse::<usize>().ok()?),
-            _ => self.entry(segment).map(|entry| &entry.value),
+        if let Self::List(items) = self {
+            return items.get(segment.parse::<usize>().ok()?);
         }
+        let other = || self.entry(other_name(segment)?);
+        self.entry(segment).or_else(other)
     }
 }
 
 impl Node {
-    /// A value that stands at this place of a text.
-    pub fn new(place: Place, text: &str, content: Content) -> Self {
-        const LONGEST: usize = 60;
-        let all = text.get(place.bytes.clone()).unwrap_or_default();
-        let line = all.lines().next().unwrap_or_default();
-        let more = if line.len() < all.len() { "…" } else { "" };
-        let written = shortened(line, LONGEST) + more;
+    pub fn new(place: Place, content: Content) -> Self {
         Self {
+            key: String::new(),
+            key_place: place.clone(),
             place,
-            written,
             content,
+        }
+    }
+
+    /// The same at this key of a table.
+    pub fn named(self, key: &str) -> Self {
+        let key = key.to_owned();
+        Self { key, ..self }
+    }
+
+    /// What stands there, the first line of it; what a program has as a file would have it.
+    pub fn written(&self) -> String {
+        const LONGEST: usize = 60;
+        let text = &self.place.source.text;
+        let all = text.get(self.place.bytes.clone()).unwrap_or_default();
+        match (all.lines().next(), &self.content) {
+            (Some(line), _) if line.len() < all.len() => shortened(line, LONGEST) + "…",
+            (Some(line), _) => shortened(line, LONGEST),
+            (None, Content::Text(text)) => quoted(text),
+            (None, Content::Whole(whole)) => whole.to_string(),
+            (None, Content::Number(value)) => shown(*value),
+            (None, _) => String::new(),
         }
     }
 
@@ -162,24 +186,22 @@ impl Node {
             Content::List(_) => "the list ",
             Content::Table(_) => "the table ",
         };
-        format!("{kind}{}", self.written)
+        format!("{kind}{}", self.written())
     }
 
-    /// Calls `visit` with every value below this one that is no table and no list, and its key.
-    pub fn each_value(&self, key: &str, visit: &mut impl FnMut(&str, &Self)) {
-        match &self.content {
-            Content::Table(entries) => {
-                for entry in entries {
-                    entry.value.each_value(&joined(key, &entry.key), visit);
-                }
-            }
-            Content::List(items) => {
-                for (index, item) in items.iter().enumerate() {
-                    item.each_value(&joined(key, index), visit);
-                }
-            }
-            _ => visit(key, self),
-        }
+    /// Every value below this one that is no table and no list, with its key.
+    pub fn values(&self, key: &str) -> Vec<(String, &Self)> {
+        let key_of = |index, node: &Self| match self.content {
+            Content::List(_) => joined(key, index),
+            _ => joined(key, &node.key),
+        };
+        let (Content::List(inner) | Content::Table(inner)) = &self.content else {
+            return vec![(key.to_owned(), self)];
+        };
+        let inner = inner.iter().enumerate();
+        inner
+            .flat_map(|(index, node)| node.values(&key_of(index, node)))
+            .collect()
     }
 }
 
@@ -204,5 +226,54 @@ pub fn other_name(key: &str) -> Option<&'static str> {
         "spring" => Some("stiffness"),
         "stiffness" => Some("spring"),
         _ => None,
+    }
+}
+
+/// The entries of a text of TOML.
+pub fn entries_of(source: &Arc<Source>) -> Result<Vec<Node>> {
+    let table = DeTable::parse(&source.text).map_err(|error| syntax_error(source, &error))?;
+    Ok(entries(table.get_ref(), source))
+}
+
+fn entries(table: &DeTable, source: &Arc<Source>) -> Vec<Node> {
+    let entry = |(key, value): (&Spanned<Cow<str>>, _)| {
+        let mut node = node(value, source).named(key.get_ref());
+        node.key_place = Place::new(source, key.span());
+        node
+    };
+    let mut entries: Vec<Node> = table.iter().map(entry).collect();
+    entries.sort_by_key(|node| node.key_place.bytes.start);
+    entries
+}
+
+pub fn node(value: &Spanned<DeValue>, source: &Arc<Source>) -> Node {
+    let content = match value.get_ref() {
+        DeValue::String(text) => Content::Text(text.to_string()),
+        DeValue::Integer(number) => match i128::from_str_radix(number.as_str(), number.radix()) {
+            // Whole numbers beyond these are quantities in SI.
+            Ok(whole) => u64::try_from(whole).map_or(Content::Number(whole as f64), Content::Whole),
+            Err(_) => Content::Number(f64::INFINITY),
+        },
+        DeValue::Float(number) => number.as_str().parse().map_or(Content::Other, Content::number),
+        DeValue::Boolean(_) | DeValue::Datetime(_) => Content::Other,
+        DeValue::Array(items) => Content::List(items.iter().map(|item| node(item, source)).collect()),
+        DeValue::Table(table) => Content::Table(entries(table, source)),
+    };
+    Node::new(Place::new(source, value.span()), content)
+}
+
+/// Why the parser gave up on a text, and where.
+fn syntax_error(source: &Arc<Source>, error: &toml::de::Error) -> SceneError {
+    // The parser does not say where keys are nested too deep.
+    let text = &source.text;
+    let deepest = || {
+        let line = text.lines().max_by_key(|line| line.matches('.').count());
+        text.find(line.unwrap_or_default()).unwrap_or_default()
+    };
+    let mut span = error.span().unwrap_or_else(|| deepest()..deepest());
+    span.start = span.start.min(text.trim_end().len());
+    SceneError::Syntax {
+        location: Place::new(source, span).location(),
+        message: error.message().to_owned(),
     }
 }

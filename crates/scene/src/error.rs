@@ -1,7 +1,5 @@
 //! What can be wrong with a scene.
 
-use std::fmt;
-
 use crate::location::{Location, counted};
 use crate::shown::shortened;
 
@@ -28,7 +26,13 @@ pub enum SceneError {
 }
 
 /// A wrong key or value.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{}{found}; allowed: {}{}",
+    .location.as_ref().map_or_else(String::new, |location| format!("{location}: ")),
+    shortened(.allowed, LONGEST),
+    .location.as_ref().map_or_else(String::new, Location::excerpt),
+)]
 #[non_exhaustive]
 pub struct Wrong {
     /// The key, with its section.
@@ -50,17 +54,12 @@ impl SceneError {
     /// A value that is wrong: of the wrong type or unit, outside its range, or at odds with another one.
     pub(crate) fn value(key: &str, found: impl AsRef<str>, allowed: impl Into<String>) -> Self {
         let found = format!("{}: found {}", named(key), shortened(found.as_ref(), LONGEST));
-        Self::wrong(key, false, found, allowed.into())
+        Self::wrong(key, false, found, allowed)
     }
 
     /// A key that is missing.
     pub(crate) fn missing(key: &str, allowed: impl Into<String>) -> Self {
-        Self::wrong(
-            key,
-            false,
-            format!("key {} is missing", named(key)),
-            allowed.into(),
-        )
+        Self::wrong(key, false, format!("key {} is missing", named(key)), allowed)
     }
 
     /// A key that is not known.
@@ -69,21 +68,20 @@ impl SceneError {
         Self::wrong(key, true, found, allowed)
     }
 
-    fn wrong(key: &str, is_unknown: bool, found: String, allowed: String) -> Self {
-        let (key, location) = (key.to_owned(), None);
+    fn wrong(key: &str, is_unknown: bool, found: String, allowed: impl Into<String>) -> Self {
         Self::Wrong(Box::new(Wrong {
-            key,
+            key: key.to_owned(),
             is_unknown,
             found,
-            allowed,
-            location,
+            allowed: allowed.into(),
+            location: None,
         }))
     }
 
-    /// The same of an override at this place, which is none or has nothing at its key.
-    pub(crate) fn of_override(mut self, location: Location) -> Self {
+    /// The same at this place, and whether nothing is at the key that could be changed.
+    pub(crate) fn at(mut self, location: Location, is_unknown: bool) -> Self {
         if let Self::Wrong(wrong) = &mut self {
-            (wrong.is_unknown, wrong.location) = (true, Some(location));
+            (wrong.is_unknown, wrong.location) = (is_unknown, Some(location));
         }
         self
     }
@@ -97,23 +95,6 @@ impl SceneError {
         }
     }
 }
-
-impl fmt::Display for Wrong {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(location) = &self.location {
-            write!(f, "{location}: ")?;
-        }
-        let excerpt = self.location.as_ref().map_or_else(String::new, Location::excerpt);
-        write!(
-            f,
-            "{}; allowed: {}{excerpt}",
-            self.found,
-            shortened(&self.allowed, LONGEST)
-        )
-    }
-}
-
-impl std::error::Error for Wrong {}
 
 /// A key as messages show it.
 fn named(key: &str) -> String {

@@ -4,12 +4,11 @@ use std::fs::File;
 use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
-use crate::content::{Content, Node};
-use crate::document::Document;
-use crate::error::{Result, SceneError};
-use crate::key::{Form, Section};
+use crate::content::{Content, Node, Place, Source, SourceKind, entries_of};
+use crate::error::{Result, SceneError, did_you_mean};
+use crate::key::Form;
 use crate::location::Location;
-use crate::parsed::entries_of;
+use crate::names::elsewhere;
 use crate::scene::Scene;
 use crate::stored::{Given, Stored};
 use crate::units::{Dimension, Unit};
@@ -35,7 +34,8 @@ const SCENE: Form = Form::Table(Scene::KEYS);
 /// ```
 #[derive(Debug, Clone)]
 pub struct SceneFile {
-    document: Document,
+    /// Its values; its own place is the end of the file.
+    root: Node,
 }
 
 impl SceneFile {
@@ -47,16 +47,14 @@ impl SceneFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let file = path.as_ref().display().to_string();
         let bytes = bytes_of(path.as_ref()).map_err(|source| SceneError::Unreadable(file.clone(), source))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let (valid, text) = (
-                error.utf8_error().valid_up_to(),
-                String::from_utf8_lossy(error.as_bytes()),
-            );
-            SceneError::Syntax {
+        let text = String::from_utf8_lossy(&bytes);
+        if let Err(error) = std::str::from_utf8(&bytes) {
+            let valid = error.valid_up_to();
+            return Err(SceneError::Syntax {
                 location: Location::new(&file, &text, valid..valid, true),
                 message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
-            }
-        })?;
+            });
+        }
         Self::from_toml(&file, &text)
     }
 
@@ -66,10 +64,12 @@ impl SceneFile {
     ///
     /// As for [`SceneFile::read`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self> {
-        let mut document = Document::new(Content::Table(entries_of(name, text, 0)?).into());
-        document.add(name.to_owned(), text, false);
-        preset::expand(&mut document)?;
-        Ok(Self { document })
+        let end = text.trim_end().len();
+        let source = Source::new(SourceKind::File, name.to_owned(), text);
+        let content = Content::Table(entries_of(&source)?);
+        let mut root = Node::new(Place::new(&source, end..end), content);
+        preset::expand(&mut root)?;
+        Ok(Self { root })
     }
 
     /// The file with each `KEY=VALUE` of `overrides` set in turn.
@@ -80,15 +80,15 @@ impl SceneFile {
     pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self> {
         let mut file = self.clone();
         for text in overrides {
-            overrides::apply(&mut file.document, text.as_ref())?;
-            preset::expand(&mut file.document)?;
+            overrides::apply(&mut file.root, text.as_ref())?;
+            preset::expand(&mut file.root)?;
         }
         Ok(file)
     }
 
     /// The text of the file, without what was set on top of it.
     pub fn text(&self) -> &str {
-        &self.document.sources[0].text
+        &self.root.place.source.text
     }
 
     /// The scene.
@@ -98,65 +98,100 @@ impl SceneFile {
     /// [`SceneError`] with the first thing that is wrong, and where.
     pub fn scene(&self) -> Result<Scene> {
         let read = || {
-            let mut scene = Scene::read(&given(&self.document.root))?;
-            scene.resolve(&self.document.sources[0].name)?;
-            rules::check(&scene)?;
-            Ok(scene)
+            let mut scene = read(&self.root)?;
+            scene.resolve(&self.root.place.source.name)?;
+            rules::check(&scene).map(|()| scene)
         };
-        read().map_err(|error| self.document.located(error))
+        read().map_err(|error| self.located(error))
     }
 
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
-        let (node, _) = self.document.find(key);
-        (node.place != self.document.root.place).then(|| self.document.location(&node.place))
+        let (node, _) = self.find(key);
+        (node.place != self.root.place).then(|| node.place.location())
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
-        let mut found = Vec::new();
-        self.document.root.each_value("", &mut |key, node| {
-            let words = unusual::slip(key, node);
-            found.extend(words.map(|words| (self.document.location(&node.place), words)));
-        });
-        found
+        let slip = |(key, node): (String, &Node)| {
+            let words = unusual::slip(&key, node)?;
+            Some((node.place.location(), words))
+        };
+        self.root.values("").into_iter().filter_map(slip).collect()
     }
 
     /// Whether the file, an override or a preset gives `key` a value.
     pub fn names(&self, key: &str) -> bool {
-        self.document.find(key).1
+        self.find(key).1
     }
 
     /// The table of axle loads that the scene reads too, if it names one.
     pub fn histogram(&self) -> Option<PathBuf> {
-        let (node, true) = self.document.find("traffic.histogram") else {
+        let (node, true) = self.find("traffic.histogram") else {
             return None;
         };
         let text = node.content.get("file").unwrap_or(node).content.as_text();
-        text.map(|text| histogram::beside(&self.document.sources[0].name, text))
+        text.map(|text| histogram::beside(&self.root.place.source.name, text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
     pub fn typed(&self) -> Vec<Typed> {
-        let mut found = Vec::new();
-        self.document.root.each_value("", &mut |key, node| {
-            let number = || node.content.as_number().map(|number| number.to_string());
-            let text = node.content.as_text().map(str::to_owned).or_else(number);
-            found.push(Typed {
-                key: key.to_owned(),
-                is_number: node.content.as_number().is_some(),
-                text: text.unwrap_or_else(|| node.written.clone()),
-                source: self.document.source(node).name.clone(),
-            });
-        });
-        found
+        let typed = |(key, node): (String, &Node)| {
+            let number = node.content.as_number();
+            let text = node.content.as_text().map(str::to_owned);
+            let text = text.or_else(|| number.map(|number| number.to_string()));
+            Typed {
+                key,
+                text: text.unwrap_or_else(|| node.written()),
+                is_number: number.is_some(),
+                source: node.place.source.name.clone(),
+            }
+        };
+        self.root.values("").into_iter().map(typed).collect()
     }
 
     /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
     pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
-        let (node, is_value) = self.document.find(key);
-        let is_typed = is_value && !self.document.source(node).is_preset;
+        let (node, is_value) = self.find(key);
+        let is_typed = is_value && node.place.source.kind != SourceKind::Preset;
         dimension.unit_of(node.content.as_text().filter(|_| is_typed)?)
+    }
+
+    /// The value of `key`, or else the section that would hold it; and whether it is the value.
+    fn find(&self, key: &str) -> (&Node, bool) {
+        let mut node = &self.root;
+        for segment in key.split('.') {
+            match node.content.get(segment) {
+                Some(inner) => node = inner,
+                None => return (node, false),
+            }
+        }
+        (node, true)
+    }
+
+    /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
+    fn located(&self, error: SceneError) -> SceneError {
+        let SceneError::Wrong(mut wrong) = error else {
+            return error;
+        };
+        let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
+        let (node, _) = self.find(&wrong.key);
+        let unknown = self.find(section).0.content.entry(key);
+        let unknown = unknown.filter(|_| wrong.is_unknown);
+        let mut location = unknown.map_or(&node.place, |node| &node.key_place).location();
+        // What the top level lacks would be added at the end, but is not on its last line.
+        if unknown.is_none() && node.place == self.root.place {
+            (location.text, location.marked) = (String::new(), 0..0);
+        }
+        wrong.location = Some(location);
+        if wrong.is_unknown {
+            let (other, words) = elsewhere(key);
+            if !wrong.found.ends_with("?)") {
+                wrong.found += &did_you_mean(other);
+            }
+            wrong.allowed += words;
+        }
+        SceneError::Wrong(wrong)
     }
 }
 
@@ -173,8 +208,9 @@ pub struct Typed {
     pub source: String,
 }
 
-fn given(root: &Node) -> Given<'_> {
-    Given::new(String::new(), root, SCENE)
+/// The scene of this tree, with each value in its own range.
+fn read(root: &Node) -> Result<Scene> {
+    Scene::read(&Given::new(String::new(), root, SCENE))
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
@@ -229,7 +265,7 @@ impl Scene {
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
     pub fn validate(&self) -> Result<()> {
-        Self::read(&given(&self.node()))?;
+        read(&self.node())?;
         rules::check(self)
     }
 

@@ -4,14 +4,11 @@ use ground_field::{Base, GroundError, Modulus, Soil, SoilLayer, SoilProfile};
 
 use crate::content::Content;
 use crate::error::Result;
+use crate::key::Form;
 use crate::key::Form::{Either, List, Number, Table};
-use crate::key::{Form, Key};
-use crate::range::{
-    LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, VERTICAL_PEAK,
-};
-use crate::section::keys;
+use crate::range;
+use crate::section::{file_words, keys};
 use crate::stored::{Given, Stored};
-use crate::words::file_words;
 
 keys! {
     /// The ground and how to model it, in SI.
@@ -21,11 +18,11 @@ keys! {
         /// Model of the ground.
         model: GroundModel = GroundModel::FORM, "\"auto\"";
         /// Depth of rock that does not move.
-        rigid_base_depth: Option<f64> = Number(RIGID_BASE_DEPTH), "no rock";
+        rigid_base_depth: Option<f64> = Number(range::RIGID_BASE_DEPTH), "no rock";
         /// Scales the ground so that each vehicle moves the duct so far along its axis.
-        longitudinal_peak: Option<f64> = Number(LONGITUDINAL_PEAK), "not scaled";
+        longitudinal_peak: Option<f64> = Number(range::LONGITUDINAL_PEAK), "not scaled";
         /// Measured deflection of the duct under the first vehicle, to which the ground is scaled.
-        vertical_peak: Option<f64> = Number(VERTICAL_PEAK), "not scaled";
+        vertical_peak: Option<f64> = Number(range::VERTICAL_PEAK), "not scaled";
         /// Layers from the surface down.
         layers: Vec<Layer> = List(&[Table(Layer::KEYS)], 1, LAYERS);
     }
@@ -38,39 +35,39 @@ keys! {
     #[derive(Copy)]
     pub struct Layer {
         /// Thickness of the layer.
-        thickness: Option<f64> = Number(THICKNESS), "the last layer has none";
+        thickness: Option<f64> = Number(range::THICKNESS), "the last layer has none";
         /// Young's modulus at small strains, several times that of a settlement test.
         young_modulus: Modulus = LAYER_MODULUS;
         /// Poisson's ratio.
-        poisson_ratio: f64 = Number(POISSON);
+        poisson_ratio: f64 = Number(range::POISSON);
     }
 }
 
-const TOP: &str = "Young's modulus at the top of a layer in which it varies.";
-const LAYER_MODULUS: Form = Either(
-    &Number(MODULUS),
-    &[
-        Key::required("top", TOP, Number(MODULUS_AT_AN_END)),
-        Key::required("bottom", "The same at the bottom.", Number(MODULUS_AT_AN_END)),
-    ],
-);
+keys! {
+    /// Young's modulus of a layer in which it varies.
+    pub struct Graded {
+        /// Young's modulus at the top of a layer in which it varies.
+        top: f64 = Number(range::MODULUS_AT_AN_END);
+        /// The same at the bottom.
+        bottom: f64 = Number(range::MODULUS_AT_AN_END);
+    }
+}
+
+const LAYER_MODULUS: Form = Either(&Number(range::MODULUS), Graded::KEYS);
 
 impl Stored for Modulus {
     fn read(given: &Given) -> Result<Self> {
-        if !matches!(given.node.content, Content::Table(_)) {
+        let Content::Table(_) = given.node.content else {
             return f64::read(given).map(Self::Uniform);
-        }
-        given.check_table()?;
-        let (top, bottom) = (given.value("top", None)?, given.value("bottom", None)?);
+        };
+        let Graded { top, bottom } = Graded::read(given)?;
         Ok(Self::Linear { top, bottom })
     }
 
     fn write(&self, form: Form) -> Content {
-        match self {
+        match *self {
             Self::Uniform(modulus) => modulus.write(form),
-            Self::Linear { top, bottom } => {
-                Content::table([("top", top.write(form)), ("bottom", bottom.write(form))])
-            }
+            Self::Linear { top, bottom } => Graded { top, bottom }.write(form),
         }
     }
 }
@@ -92,15 +89,6 @@ pub enum GroundModel {
 file_words! {
     GroundModel: Auto "auto", Boussinesq "boussinesq", Burmister "burmister", FiniteElements "fem";
     "; odemark is no longer there: the exact \"burmister\" costs no more than that approximation"
-}
-
-/// A measured peak displacement of the duct that the ground model is scaled to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PeakScaling {
-    /// `max|D_l|` of each vehicle \[m\], positive: each vehicle gets its own factor.
-    Longitudinal(f64),
-    /// `max|D_v|` of the first vehicle \[m\], positive: all vehicles get the factor of the first.
-    Vertical(f64),
 }
 
 impl Ground {
@@ -138,11 +126,5 @@ impl Ground {
     /// The thickness of all layers \[m\]; one without end has none.
     pub fn thickness(&self) -> f64 {
         self.rigid_base_depth.unwrap_or_else(|| self.upper_thickness())
-    }
-
-    /// What its displacements are scaled to, if they are.
-    pub fn scaling(&self) -> Option<PeakScaling> {
-        let longitudinal = self.longitudinal_peak.map(PeakScaling::Longitudinal);
-        longitudinal.or(self.vertical_peak.map(PeakScaling::Vertical))
     }
 }

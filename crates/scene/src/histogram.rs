@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use creepage_tables::{Kind, Layout, Options, Row, Table, TableError};
 
-use crate::content::Content;
+use crate::content::Node;
 use crate::error::{Result, SceneError};
+use crate::key::Form;
 use crate::key::Form::{Either, Number, Text};
-use crate::key::{Form, Section};
 use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS};
 use crate::section::keys;
 use crate::stored::Stored;
@@ -120,13 +120,11 @@ impl Histogram {
     fn options(&self) -> Result<Options> {
         let mut options = Options::default();
         // The first is the file.
-        for entry in self.write(HISTOGRAM).entries().iter().skip(1) {
-            let text = match &entry.value.content {
-                Content::Whole(number) => number.to_string(),
-                content => content.as_text().unwrap_or_default().to_owned(),
-            };
-            let wrong = |why| SceneError::value(&format!("{KEY}.{}", entry.key), format!("\"{text}\""), why);
-            options.set(&entry.key, &text).map_err(wrong)?;
+        for (key, node) in Node::from(self.write(HISTOGRAM)).values("").iter().skip(1) {
+            let written = node.written();
+            let text = node.content.as_text().unwrap_or(&written);
+            let wrong = |why| SceneError::value(&format!("{KEY}.{key}"), format!("\"{text}\""), why);
+            options.set(key, text).map_err(wrong)?;
         }
         Ok(options)
     }
@@ -137,12 +135,9 @@ impl Histogram {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
         table.and_then(|table| classes(table, speed)).map_err(|error| {
             let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
-            let allowed = match &error {
-                TableError::Line { allowed, .. } => allowed,
-                _ => LAYOUT.allowed,
-            };
-            let found = error.to_string().replace(&format!("; allowed: {allowed}"), "");
-            SceneError::value(KEY, found + &why, allowed)
+            let said = error.to_string() + &why;
+            let (found, allowed) = said.split_once("; allowed: ").unwrap_or((&said, LAYOUT.allowed));
+            SceneError::value(KEY, found, allowed)
         })
     }
 }
@@ -155,38 +150,20 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
     };
     // Axles and shares are numbers, whatever the header says of them.
     table.names[count].unit = None;
-    let is_sum = |row: &&Row| {
-        let label = row.cells.iter().find(|cell| !cell.is_empty());
-        label.is_some_and(|label| LAYOUT.name(label, &Options::default()).has(TOTAL))
-    };
-    let rows: Vec<&Row> = table.rows.iter().filter(|row| !is_sum(row)).collect();
-    let is_percent = |row: &&&Row| row.cell(count).contains('%');
-    let bare = rows.iter().find(|row| !is_percent(row));
-    if let (Some(row), true) = (bare, rows.iter().any(|row| is_percent(&row))) {
-        let found = format!("count: found \"{}\" beside others in %", row.cell(count));
-        return Err(table.wrong(row.line, found, "all in %, or none"));
-    }
     let is_grouped = table.names.iter().any(|name| name.has(GROUP));
-    let axle = if is_grouped { AXLE_GROUP } else { AXLE };
+    let name = if is_grouped { AXLE_GROUP } else { AXLE };
     let (mut axles, mut heaviest) = (Vec::new(), None::<(f64, &Row)>);
-    for row in rows {
+    for row in rows(&table, count)? {
         let value = |column| table.value(row, column, column);
         let (share, force) = (value(count)?, value(load)?);
-        let contact_radius = radius.map_or(Ok(0.0), value)?;
+        let mut wheel = Wheel::default();
+        (wheel.load, wheel.contact_radius) = (force, radius.map_or(Ok(0.0), value)?);
         // Classes that nothing was counted in are common.
         if share > 0.0 {
-            let wheel = Wheel {
-                load: force,
-                contact_radius,
-                ..Wheel::default()
-            };
-            let axle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), force, speed);
-            axles.push(TrafficVehicle {
-                share,
-                load: None,
-                wheels: vec![wheel],
-                ..axle
-            });
+            let name = format!("{name} {}", axles.len() + 1);
+            let mut axle = TrafficVehicle::point(&name, force, speed);
+            (axle.share, axle.load, axle.wheels) = (share, None, vec![wheel]);
+            axles.push(axle);
             if heaviest.is_none_or(|(most, _)| force > most) {
                 heaviest = Some((force, row));
             }
@@ -206,5 +183,22 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
             Err(table.wrong(row.line, found, allowed))
         }
         _ => Ok(axles),
+    }
+}
+
+/// The rows of classes of axles, without those that sum up the others.
+fn rows(table: &Table, count: usize) -> Result<Vec<&Row>, TableError> {
+    let is_class = |row: &&Row| {
+        let label = row.cells.iter().find(|cell| !cell.is_empty());
+        label.is_none_or(|label| !LAYOUT.name(label, &Options::default()).has(TOTAL))
+    };
+    let rows: Vec<&Row> = table.rows.iter().filter(is_class).collect();
+    let is_bare = |row: &&&Row| !row.cell(count).contains('%');
+    match rows.iter().find(is_bare) {
+        Some(row) if !rows.iter().all(|row| is_bare(&row)) => {
+            let found = format!("count: found \"{}\" beside others in %", row.cell(count));
+            Err(table.wrong(row.line, found, "all in %, or none"))
+        }
+        _ => Ok(rows),
     }
 }

@@ -1,12 +1,10 @@
 //! Keys of the file: what they mean, and what may stand there.
 
+use crate::content::{joined, other_name};
+use crate::error::{Result, SceneError};
+use crate::nearest::meant_by;
 use crate::range::Quantity;
 use crate::shown::listed;
-
-/// A type that is a table of the file.
-pub trait Section {
-    const KEYS: &'static [Key];
-}
 
 /// A key and what is to be said of it.
 pub struct Key {
@@ -18,25 +16,18 @@ pub struct Key {
 }
 
 impl Key {
-    pub const fn required(name: &'static str, meaning: &'static str, form: Form) -> Self {
-        let absent = None;
+    pub const fn preset(meaning: &'static str) -> Self {
         Self {
-            name,
+            name: "preset",
             meaning,
-            form,
-            absent,
+            form: Form::Name("a name that `creepage presets` lists"),
+            absent: Some("none"),
         }
     }
 
-    pub const fn preset(meaning: &'static str) -> Self {
-        Self {
-            absent: Some("none"),
-            ..Self::required(
-                "preset",
-                meaning,
-                Form::Text("a name that `creepage presets` lists"),
-            )
-        }
+    /// Whether this is its name, or the other one under which it is understood.
+    pub fn is_named(&self, name: &str) -> bool {
+        self.name == name || other_name(self.name) == Some(name)
     }
 }
 
@@ -45,6 +36,8 @@ impl Key {
 pub enum Form {
     Number(Quantity),
     Text(&'static str),
+    /// A text that is not blank.
+    Name(&'static str),
     /// A text or a number.
     Any(&'static str),
     /// One of these words, and what else is to be said of them.
@@ -82,20 +75,45 @@ impl Form {
         match self {
             Self::Number(quantity) => quantity.allowed(),
             Self::Text(allowed)
+            | Self::Name(allowed)
             | Self::Any(allowed)
             | Self::Intervals(_, allowed)
             | Self::List(_, _, allowed) => allowed.to_owned(),
             Self::Words(words, more) => listed(words.iter().copied()) + more,
-            Self::Table(keys) => {
-                let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
-                format!("a table with the keys {}", names.join(", "))
-            }
+            Self::Table(keys) => format!("a table with the keys {}", names(keys).join(", ")),
             Self::Either(form, _) => form.allowed(),
         }
     }
 }
 
-/// Whether a text of which these words say what is allowed is a name, which is never empty.
-pub fn is_name(allowed: &str) -> bool {
-    allowed.starts_with("a name")
+fn names(keys: &[Key]) -> Vec<&'static str> {
+    keys.iter().map(|key| key.name).collect()
+}
+
+/// The error of a name that is none of these keys of the table at `path`.
+pub fn unknown_key(path: &str, name: &str, keys: &[Key]) -> SceneError {
+    let names = names(keys);
+    SceneError::unknown(&joined(path, name), meant_by(name, &names), names.join(", "))
+}
+
+/// The form of the number at a key below these, such as `vehicles.0.load`, which the table at `path`
+/// names.
+pub fn number_at(keys: &'static [Key], path: &str, key: &str) -> Result<Form> {
+    const ALLOWED: &str = "a key of the scene that takes a number, such as \"friction.dynamic_coefficient\" (`creepage explain` lists \
+                           them)";
+    let (mut form, mut place) = (Form::Table(keys), path.to_owned());
+    for part in key.split('.') {
+        let keys = form.keys();
+        let known = keys.iter().find(|key| key.is_named(part));
+        form = match (form, known) {
+            (Form::List([item, ..], ..), _) if part.parse::<usize>().is_ok() => *item,
+            (Form::List(..), _) => break,
+            (_, Some(key)) => key.form,
+            _ if keys.is_empty() => break,
+            _ => return Err(unknown_key(&place, part, keys)),
+        };
+        place = joined(&place, part);
+    }
+    let wrong = || SceneError::value(&place, format!("`{key}`"), ALLOWED);
+    form.quantity().map(|_| form).ok_or_else(wrong)
 }

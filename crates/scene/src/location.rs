@@ -29,7 +29,9 @@ impl Location {
     pub(crate) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Self {
         let mut places = (0..=span.start.min(text.len())).rev();
         let start = places.find(|&at| text.is_char_boundary(at)).unwrap_or(0);
-        let (begin, line) = line_of(text, start);
+        let begin = text[..start].rfind('\n').map_or(0, |end| end + 1);
+        let line = text[begin..].lines().next().unwrap_or_default();
+        let line = line.trim_end_matches('\r');
         let start = (start - begin).min(line.len());
         // At least one character is marked, or the end of the line.
         let first = line[start..].chars().next().map_or(0, char::len_utf8);
@@ -61,20 +63,13 @@ impl Location {
         if self.marked.start == self.text.len() {
             marks.push('^');
         }
-        let is_cut = self.text.chars().count() > skipped + LONGEST_EXCERPT;
-        let rest = if is_cut { "…" } else { "" };
+        if self.text.chars().count() > skipped + LONGEST_EXCERPT {
+            shown.push('…');
+        }
         let number = self.line.map_or_else(String::new, |line| line.to_string());
         let (margin, marks) = (" ".repeat(number.len()), marks.trim_end());
-        format!("\n{margin} |\n{number} | {shown}{rest}\n{margin} | {marks}")
+        format!("\n{margin} |\n{number} | {shown}\n{margin} | {marks}")
     }
-}
-
-/// Where the line with the byte at `at` begins, and the line.
-pub(crate) fn line_of(text: &str, at: usize) -> (usize, &str) {
-    let before = &text.as_bytes()[..at.min(text.len())];
-    let begin = before.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1);
-    let line = text[begin..].lines().next().unwrap_or_default();
-    (begin, line.trim_end_matches('\r'))
 }
 
 impl fmt::Display for Location {
@@ -90,19 +85,21 @@ impl fmt::Display for Location {
 pub(crate) fn counted(key: &str) -> String {
     let parts: Vec<&str> = key.split('.').collect();
     let item = |pair: &[&str]| {
-        let name = match pair[0] {
-            "layers" => "layer",
-            "restraints" => "clamp",
-            "vehicles" => "vehicle",
-            "wheels" => "wheel",
-            _ => return None,
-        };
+        let names = [
+            ("layers", "layer"),
+            ("restraints", "clamp"),
+            ("vehicles", "vehicle"),
+            ("wheels", "wheel"),
+        ];
+        let (_, name) = names.into_iter().find(|(list, _)| *list == pair[0])?;
         let number = pair[1].parse::<usize>().ok()?.checked_add(1)?;
         Some(format!("{name} {number}"))
     };
     let items: Vec<String> = parts.windows(2).filter_map(item).collect();
-    let words = format!(" ({})", items.join(", "));
-    if items.is_empty() { String::new() } else { words }
+    match &items[..] {
+        [] => String::new(),
+        items => format!(" ({})", items.join(", ")),
+    }
 }
 
 #[cfg(test)]

@@ -2,11 +2,12 @@
 
 use std::sync::LazyLock;
 
-use crate::content::{joined, other_name, without_numbers};
-use crate::key::{Key, Section};
+use crate::content::joined;
+use crate::key::{Key, number_at};
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::scene::Scene;
+use crate::stored::Stored;
 
 /// What a key of a scene means.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
@@ -25,38 +26,34 @@ pub struct KeyMeaning {
 }
 
 /// The meanings of these keys and of all below them.
-fn meanings(path: &str, keys: &[Key], found: &mut Vec<KeyMeaning>) {
-    for key in keys {
-        let path = joined(path, key.name);
-        found.push(KeyMeaning {
-            key: path.clone(),
+fn meanings(path: &str, keys: &[Key]) -> Vec<KeyMeaning> {
+    let meaning = |key: &Key| {
+        let of_key = KeyMeaning {
+            key: joined(path, key.name),
             meaning: key.meaning,
             allowed: key.form.allowed(),
             unit: key.form.quantity().and_then(Quantity::unit),
             default: key.absent,
-        });
-        meanings(&path, key.form.keys(), found);
-    }
+        };
+        let below = meanings(&of_key.key, key.form.keys());
+        std::iter::once(of_key).chain(below)
+    };
+    keys.iter().flat_map(meaning).collect()
 }
-
-static MEANINGS: LazyLock<Vec<KeyMeaning>> = LazyLock::new(|| {
-    let mut found = Vec::new();
-    meanings("", Scene::KEYS, &mut found);
-    found
-});
 
 /// Every key of a scene, each section followed by its keys.
 ///
 /// ```
-/// let depth = creepage_scene::key_meanings().into_iter().find(|key| key.key == "duct.depth").unwrap();
+/// let depth = creepage_scene::key_meanings().iter().find(|key| key.key == "duct.depth").unwrap();
 /// assert!(depth.allowed.starts_with("a length greater than 0, from 1 cm to 1 km") && depth.default.is_none());
 /// ```
-pub fn key_meanings() -> Vec<KeyMeaning> {
-    MEANINGS.clone()
+pub fn key_meanings() -> &'static [KeyMeaning] {
+    static MEANINGS: LazyLock<Vec<KeyMeaning>> = LazyLock::new(|| meanings("", Scene::KEYS));
+    &MEANINGS
 }
 
 fn known() -> impl Iterator<Item = &'static str> {
-    MEANINGS.iter().map(|meaning| &*meaning.key)
+    key_meanings().iter().map(|meaning| &*meaning.key)
 }
 
 fn last(key: &str) -> &str {
@@ -74,11 +71,7 @@ pub fn nearest_key(text: &str) -> Option<String> {
 
 /// The SI unit of a key, `vehicles.0.speed`; none for what is no number or has no unit.
 pub fn si_unit(key: &str) -> Option<&'static str> {
-    let path = without_numbers(key);
-    let (section, name) = path.rsplit_once('.')?;
-    let names = [Some(name), other_name(name)].into_iter().flatten();
-    let keys: Vec<String> = names.map(|name| joined(section, name)).collect();
-    MEANINGS.iter().find(|meaning| keys.contains(&meaning.key))?.unit
+    number_at(Scene::KEYS, "", key).ok()?.quantity()?.unit()
 }
 
 /// A key of another section that is called like an unknown one; and words if it belongs above all sections.

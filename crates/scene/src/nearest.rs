@@ -4,6 +4,29 @@ use std::cmp::Reverse;
 
 use strsim::osa_distance;
 
+/// Words and symbols of the field for what a scene calls otherwise.
+#[rustfmt::skip]
+const SYNONYMS: &[(&str, &str)] = &[
+    ("alpha", "expansion"), ("anchors", "restraints"), ("clamp", "restraints"), ("clamps", "restraints"),
+    ("area", "conductor_area"), ("coefficient", "dynamic_coefficient"), ("conduit", "duct"), ("days", "years"),
+    ("e", "young_modulus"), ("ea", "axial_stiffness"), ("end", "downstream"),
+    ("friction_coefficient", "dynamic_coefficient"), ("gradient", "slope"), ("left", "upstream"),
+    ("mass", "weight"), ("mu", "dynamic_coefficient"), ("nu", "poisson_ratio"), ("bend", "bend_radius"),
+    ("pavement", "ground"), ("pipe", "duct"), ("radius", "bend_radius"), ("right", "downstream"),
+    ("road", "ground"), ("sections", "route"), ("soil", "ground"), ("soils", "ground"), ("start", "upstream"),
+    ("trucks", "vehicles"), ("velocity", "speed"),
+];
+
+/// What an unknown `key` was meant to be among the `allowed` ones: another word for one of them, or
+/// a near miss.
+pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> Option<&'k str> {
+    let word = key.to_lowercase();
+    let named = |name: &str| allowed.iter().copied().find(|other| *other == name);
+    let of_word = |(other, name): &(&str, &str)| named(name).filter(|_| *other == word);
+    let synonym = SYNONYMS.iter().find_map(of_word);
+    synonym.or_else(|| nearest(key, allowed.iter().copied()))
+}
+
 /// The one of `known` nearest to `word`, if one is near enough to be suggested.
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let plain = |text: &str| text.to_lowercase().replace(['_', ' '], "-");
@@ -17,16 +40,12 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         // A single letter that differs altogether is no near miss.
         let is_near = distance <= (most / 3).max(1) && distance < most;
         // Of equally near words the one that begins alike.
-        let same = word
-            .chars()
-            .zip(other.chars())
-            .take_while(|(a, b)| a == b)
-            .count();
+        let pairs = word.chars().zip(other.chars());
+        let same = pairs.take_while(|(a, b)| a == b).count();
         is_near.then_some((distance, Reverse(same)))
     };
-    let near = known
-        .into_iter()
-        .filter_map(|candidate| Some((rank(candidate)?, candidate)));
+    let ranked = |candidate| Some((rank(candidate)?, candidate));
+    let near = known.into_iter().filter_map(ranked);
     near.min_by_key(|(rank, _)| *rank).map(|(_, candidate)| candidate)
 }
 

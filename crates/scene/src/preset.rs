@@ -2,63 +2,60 @@
 //!
 //! Keys given next to a preset override it, whichever stands first. A preset that an override names later wins over what was written before it.
 
-use crate::content::{Content, Entry, Node, joined};
-use crate::document::Document;
+use std::sync::Arc;
+
+use crate::content::{Content, Node, Source, SourceKind, entries_of, joined};
 use crate::error::Result;
 use crate::key::Form;
-use crate::parsed::entries_of;
 use crate::presets::{Preset, of_section};
 use crate::rivals::gives_way;
 use crate::shown::listed;
 use crate::stored::Given;
 
 /// Puts the values of presets into the sections that name one.
-pub fn expand(file: &mut Document) -> Result<()> {
-    let mut root = file.root.clone();
-    if let Content::Table(sections) = &mut root.content {
-        for Entry { key, value, .. } in sections {
-            let presets: Vec<(&str, &Preset)> =
-                of_section(key).map(|preset| (&*preset.name, preset)).collect();
-            match &mut value.content {
-                Content::List(items) => {
-                    for (index, item) in items.iter_mut().enumerate() {
-                        fill(file, &joined(&*key, index), &presets, item)?;
-                    }
-                }
-                _ => fill(file, key, &presets, value)?,
+pub fn expand(root: &mut Node) -> Result<()> {
+    let Content::Table(sections) = &mut root.content else {
+        return Ok(());
+    };
+    for section in sections {
+        let key = section.key.clone();
+        let presets: Vec<(&str, &Preset)> = of_section(&key).map(|preset| (&*preset.name, preset)).collect();
+        match &mut section.content {
+            _ if presets.is_empty() => (),
+            Content::List(items) => {
+                let mut items = items.iter_mut().enumerate();
+                items.try_for_each(|(index, item)| fill(&joined(&key, index), &presets, item))?;
             }
+            _ => fill(&key, &presets, section)?,
         }
     }
-    file.root = root;
     Ok(())
 }
 
-fn fill(file: &mut Document, path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
+fn fill(path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
     let Content::Table(entries) = &mut section.content else {
         return Ok(());
     };
-    let Some(place) = entries
-        .iter()
-        .position(|entry| entry.key == "preset")
-        .filter(|_| !presets.is_empty())
-    else {
+    let Some(place) = entries.iter().position(|node| node.key == "preset") else {
         return Ok(());
     };
+    let named = entries.remove(place);
     let allowed = listed(presets.iter().map(|(name, _)| *name));
-    let given = Given::new(joined(path, "preset"), &entries[place].value, Form::Text(""));
+    let given = Given::new(joined(path, "preset"), &named, Form::Text(""));
     let preset = given.word(presets, allowed);
-    let preset = preset.map_err(|error| file.located(error))?;
-    let named = entries.remove(place).place.source;
+    let preset = preset.map_err(|error| error.at(named.place.location(), false))?;
     // An earlier preset goes, and so does what was set before this one was named: in the file, or by another override.
-    entries.retain(|entry| !file.source(&entry.value).is_preset);
+    entries.retain(|node| node.place.source.kind != SourceKind::Preset);
     let name = format!("preset {}", preset.name);
-    let source = file.add(name.clone(), &preset.toml, true);
-    for entry in entries_of(&name, &preset.toml, source)? {
-        let excludes = |present: &Entry| present.key == entry.key || gives_way(path, present, &entry);
-        let stands = |present: &Entry| present.place.source == named && excludes(present);
-        if !entries.iter().any(stands) {
+    for node in entries_of(&Source::new(SourceKind::Preset, name, &preset.toml))? {
+        let excludes = |present: &Node| present.key == node.key || gives_way(path, present, &node);
+        let is_beside = |present: &Node| Arc::ptr_eq(&present.key_place.source, &named.key_place.source);
+        if !entries
+            .iter()
+            .any(|present| is_beside(present) && excludes(present))
+        {
             entries.retain(|present| !excludes(present));
-            entries.push(entry);
+            entries.push(node);
         }
     }
     Ok(())

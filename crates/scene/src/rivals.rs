@@ -1,6 +1,6 @@
 //! Keys that exclude each other: what an override sets drops what has no meaning beside it; what a file gives together is an error.
 
-use crate::content::{Content, Entry, Node, joined, without_numbers};
+use crate::content::{Content, Node, joined, without_numbers};
 use crate::error::{Result, SceneError};
 
 /// What is allowed of two rivals.
@@ -71,11 +71,11 @@ fn holds((_, _, values, ..): &Rule, value: Option<&Content>) -> bool {
 }
 
 /// Whether the entry `present` of the table at `path` has no meaning beside `set`, which is given later.
-pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
+pub fn gives_way(path: &str, present: &Node, set: &Node) -> bool {
     rules(&without_numbers(path)).any(|rule| {
         let (_, key, _, other, allowed) = rule;
-        let drops = *key == set.key && *other == present.key && holds(rule, Some(&set.value.content));
-        let back = *key == present.key && *other == set.key && holds(rule, Some(&present.value.content));
+        let drops = *key == set.key && *other == present.key && holds(rule, Some(&set.content));
+        let back = *key == present.key && *other == set.key && holds(rule, Some(&present.content));
         drops && *allowed != AT_RANDOM || back && *allowed == ONE
     })
 }
@@ -84,10 +84,8 @@ pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
 pub fn contradiction(path: &str, table: &Node) -> Result<()> {
     // Each by its own name: a spring is not a stiffness here.
     let value_at = |key: &str| {
-        key.split('.').try_fold(table, |node, key| {
-            let mut entries = node.content.entries().iter();
-            Some(&entries.find(|entry| entry.key == key)?.value)
-        })
+        let mut keys = key.split('.');
+        keys.try_fold(table, |node, key| node.content.entry(key))
     };
     for rule @ (_, key, _, other, allowed) in rules(&without_numbers(path)) {
         let (value, Some(rival)) = (value_at(key), value_at(other)) else {
@@ -100,8 +98,8 @@ pub fn contradiction(path: &str, table: &Node) -> Result<()> {
         }
         let found = match value {
             Some(_) if *allowed == ONE => format!("both `{key}` and `{other}`"),
-            Some(value) => format!("{} with `{key}` = {}", rival.written, value.written),
-            None => format!("{} with no `{key}`", rival.written),
+            Some(value) => format!("{} with `{key}` = {}", rival.written(), value.written()),
+            None => format!("{} with no `{key}`", rival.written()),
         };
         return Err(SceneError::value(&joined(path, other), found, *allowed));
     }

@@ -9,15 +9,13 @@ use crate::content::Content;
 use crate::error::Result;
 use crate::ground::Ground;
 use crate::heat::Heat;
-use crate::key::Form::{Any, Either, Intervals, List, Number, Table, Text, Words};
-use crate::key::{Form, Key, Section as _};
-use crate::range::{
-    CLAMP, DEPTH, DUCT_LENGTH, HOLDS, INNER_DIAMETER, LATERAL_OFFSET, POSITION, SLOPE, SPRING,
-};
+use crate::key::Form;
+use crate::key::Form::{Any, Either, Intervals, List, Name, Number, Table, Text, Words};
+use crate::range;
 use crate::route::RouteSection;
 use crate::section::keys;
 use crate::solver::Solver;
-use crate::stored::{Given, Stored, entry};
+use crate::stored::{Given, Stored};
 use crate::traffic::{Following, Traffic};
 use crate::uncertain::{Cost, INTERVALS, Uncertain};
 use crate::vehicle::TrafficVehicle;
@@ -66,15 +64,15 @@ keys! {
     #[derive(Copy)]
     pub struct Duct {
         /// Length of the duct, from manhole to manhole.
-        length: f64 = Number(DUCT_LENGTH);
+        length: f64 = Number(range::DUCT_LENGTH);
         /// Depth of the cable below the road surface.
-        depth: f64 = Number(DEPTH);
+        depth: f64 = Number(range::DEPTH);
         /// How far the duct lies to the left of the first lane's axis, seen along forward traffic.
-        lateral_offset: f64 = Number(LATERAL_OFFSET), "0 m";
+        lateral_offset: f64 = Number(range::LATERAL_OFFSET), "0 m";
         /// How steeply the duct rises with x: tan θ.
-        slope: f64 = Number(SLOPE), "0";
+        slope: f64 = Number(range::SLOPE), "0";
         /// Inner diameter of the duct; needed for several cables in it.
-        inner_diameter: Option<f64> = Number(INNER_DIAMETER), "none";
+        inner_diameter: Option<f64> = Number(range::INNER_DIAMETER), "none";
     }
 }
 
@@ -92,11 +90,11 @@ keys! {
 keys! {
     for Restraint {
         /// Where the clamp is along the duct, from x = 0.
-        position = Number(POSITION);
+        position = Number(range::POSITION);
         /// Stiffness of the clamp; `spring` is understood too.
-        stiffness = Number(CLAMP);
+        stiffness = Number(range::CLAMP);
         /// Force above which the clamp slips.
-        holds = Number(HOLDS), "it never slips";
+        holds = Number(range::HOLDS), "it never slips";
     }
 }
 
@@ -105,7 +103,7 @@ keys! {
     #[derive(Default)]
     pub struct Measure {
         /// Name of the measure in tables.
-        name: String = Text("a name in quotes that no other measure has");
+        name: String = Name("a name in quotes that no other measure has");
         /// What holds the end at x = 0.
         upstream: Option<End> = END, "that of [ends]";
         /// What holds the end at x = length.
@@ -115,30 +113,36 @@ keys! {
         /// Clamps that join these.
         added_restraints: Vec<Restraint> = CLAMPS, "none";
         /// What it costs; numbers are compared, a text is only shown.
-        cost: Option<Cost> = Any("a cost as a number, or a text such as \"two weeks\""), "none";
+        cost: Option<Cost> = Any("a cost as a number of at least 0, or a text such as \"two weeks\""), "none";
     }
 }
 
 const CLAMPS: Form = List(&[Table(Restraint::KEYS)], 0, "a list of [[restraints]]");
-const HELD: Form = Words(&["free", "fixed"], " or { spring = \"3 MN/m\" }");
+const WORDS: Form = Words(&["free", "fixed"], " or { spring = \"3 MN/m\" }");
 const ENDS: &[(&str, End)] = &[("free", End::Free), ("fixed", End::Fixed)];
-const HELD_BY: &str = "Stiffness of the spring at this end; `stiffness` is understood too.";
-const END: Form = Either(&HELD, &[Key::required("spring", HELD_BY, Number(SPRING))]);
+const END: Form = Either(&WORDS, Sprung::KEYS);
+
+keys! {
+    /// An end that a spring holds.
+    pub struct Sprung {
+        /// Stiffness of the spring at this end; `stiffness` is understood too.
+        spring: f64 = Number(range::SPRING);
+    }
+}
 
 impl Stored for End {
     fn read(given: &Given) -> Result<Self> {
-        if !matches!(given.node.content, Content::Table(_)) {
-            return given.word(ENDS, given.form.allowed());
+        match given.node.content {
+            Content::Table(_) => Sprung::read(given).map(|end| Self::Spring(end.spring)),
+            _ => given.word(ENDS, given.form.allowed()),
         }
-        given.check_table()?;
-        given.value("spring", None).map(Self::Spring)
     }
 
     fn write(&self, form: Form) -> Content {
-        match self {
+        match *self {
             Self::Free => Content::Text("free".to_owned()),
             Self::Fixed => Content::Text("fixed".to_owned()),
-            Self::Spring(stiffness) => Content::table(entry(form.keys(), "spring", stiffness, None)),
+            Self::Spring(spring) => Sprung { spring }.write(form),
         }
     }
 }
@@ -156,13 +160,9 @@ impl Measure {
 
     /// How many ends and clamps it gives.
     pub fn parts(&self) -> usize {
-        let ends = self.upstream.iter().chain(&self.downstream).count();
-        ends + self
-            .restraints
-            .iter()
-            .flatten()
-            .chain(&self.added_restraints)
-            .count()
+        let ends = self.upstream.iter().chain(&self.downstream);
+        let clamps = self.restraints.iter().flatten();
+        ends.count() + clamps.chain(&self.added_restraints).count()
     }
 }
 
@@ -184,13 +184,12 @@ impl Scene {
 
     /// The route from x = 0 on; one section if there is none.
     fn whole_route(&self) -> Vec<RouteSection> {
+        if !self.route.is_empty() {
+            return self.route.clone();
+        }
         let mut whole = RouteSection::default();
         (whole.length, whole.slope) = (Some(self.duct.length), self.duct.slope);
-        if self.route.is_empty() {
-            vec![whole]
-        } else {
-            self.route.clone()
-        }
+        vec![whole]
     }
 
     /// The sections of the duct from x = 0 on, each with friction, weight along the duct and bend; one if there is no route.

@@ -3,12 +3,12 @@
 use serde_json::{Map, Value, json};
 
 use crate::content::{joined, other_name};
-use crate::key::is_name;
-use crate::key::{Form, Key, Section};
+use crate::key::{Form, Key};
 use crate::presets::of_section;
 use crate::range::Quantity;
 use crate::rivals::rivals;
 use crate::scene::Scene;
+use crate::stored::Stored;
 
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
 /// holds between several keys it says which of them exclude each other.
@@ -62,7 +62,7 @@ fn table(keys: &[Key], path: &str) -> Value {
 fn form(form: &Form, path: &str) -> Value {
     match form {
         Form::Number(quantity) => number(*quantity),
-        Form::Text(allowed) if is_name(allowed) => json!({ "type": "string", "pattern": "\\S" }),
+        Form::Name(_) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
         Form::Any(_) => json!({ "type": ["string", "number"] }),
         Form::Intervals(..) => json!({ "type": "object" }),

@@ -39,29 +39,81 @@ macro_rules! keys {
         $(preset $preset:literal;)?
         $($(#[doc = $meaning:literal])+ $key:ident = $form:expr $(, $absent:literal $(=> $value:expr)?)?;)+
     }) => {
-        impl $crate::key::Section for $name {
+        impl $crate::stored::Stored for $name {
             const KEYS: &'static [$crate::key::Key] = &[
                 $($crate::key::Key::preset($preset),)?
                 $($crate::key::Key {
+                    name: stringify!($key),
+                    meaning: concat!($($meaning),+).trim_ascii(),
+                    form: $form,
                     absent: [$($absent)?].first().copied(),
-                    ..$crate::key::Key::required(stringify!($key), concat!($($meaning),+).trim_ascii(), $form)
                 },)+
             ];
-        }
 
-        impl $crate::stored::Stored for $name {
             fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
                 given.check_table()?;
-                Ok(Self { $($key: given.value(stringify!($key), $crate::section::absent!($($absent $(=> $value)?)?))?,)+ })
+                Ok(Self { $($key: given.value(stringify!($key), $form, $crate::section::absent!($($absent $(=> $value)?)?))?,)+ })
             }
 
-            fn write(&self, form: $crate::key::Form) -> $crate::content::Content {
-                let entries = [$($crate::stored::entry(
-                    form.keys(), stringify!($key), &self.$key, $crate::section::absent!($($absent $(=> $value)?)?),
-                ),)+];
-                $crate::content::Content::table(entries.into_iter().flatten())
+            fn write(&self, _: $crate::key::Form) -> $crate::content::Content {
+                $crate::content::Content::table([$((
+                    stringify!($key),
+                    $crate::stored::written(&self.$key, $form, $crate::section::absent!($($absent $(=> $value)?)?).as_ref()),
+                ),)+])
             }
         }
     };
 }
 pub(crate) use keys;
+
+/// Gives an enum its words: `WORDS`, `Display` and `FromStr`.
+#[macro_export]
+macro_rules! words {
+    ($type:ident: $($variant:ident $word:literal),+) => {
+        impl $type {
+            /// Every value with its word.
+            pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.pad(match self {
+                    $(Self::$variant => $word),+
+                })
+            }
+        }
+
+        impl std::str::FromStr for $type {
+            type Err = String;
+
+            fn from_str(text: &str) -> Result<Self, Self::Err> {
+                match text {
+                    $($word => Ok(Self::$variant),)+
+                    _ => Err(format!("found \"{text}\"; allowed: {}", [$($word),+].join(", "))),
+                }
+            }
+        }
+    };
+}
+
+/// The same for words of the file, with their `FORM` and what else is to be said of them.
+macro_rules! file_words {
+    ($type:ident: $($variant:ident $word:literal),+ $(; $more:literal)?) => {
+        $crate::words!($type: $($variant $word),+);
+
+        impl $type {
+            pub(crate) const FORM: $crate::key::Form = $crate::key::Form::Words(&[$($word),+], concat!($($more)?));
+        }
+
+        impl $crate::stored::Stored for $type {
+            fn read(given: &$crate::stored::Given) -> $crate::error::Result<Self> {
+                given.word(Self::WORDS, given.form.allowed())
+            }
+
+            fn write(&self, _: $crate::key::Form) -> $crate::content::Content {
+                $crate::content::Content::Text(self.to_string())
+            }
+        }
+    };
+}
+pub(crate) use file_words;

@@ -2,8 +2,7 @@
 
 use crate::key::Form::Number;
 use crate::range::{APPROACH, STEP, TIME_STEP, TOLERANCE};
-use crate::section::keys;
-use crate::words::file_words;
+use crate::section::{file_words, keys};
 
 keys! {
     /// How to compute, in SI. What is `None` is chosen to suit the scene.

@@ -1,16 +1,16 @@
 //! Types whose values stand in a file. Each is read beside the form of its key: an error says what is allowed.
 
-use crate::content::{Content, Entry, Node, joined, other_name};
+use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError, did_you_mean};
-use crate::key::{Form, Key, is_name};
+use crate::key::{Form, Key, unknown_key};
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::rivals::contradiction;
-use crate::synonym::meant_by;
-use crate::units::Dimension;
 
 /// A type whose values stand in a file.
 pub trait Stored: Sized {
+    /// The keys of a type that is a table of the file.
+    const KEYS: &'static [Key] = &[];
     /// The value in SI.
     fn read(given: &Given) -> Result<Self>;
     /// The value as it is written, quantities in SI with their units.
@@ -35,35 +35,34 @@ impl<'n> Given<'n> {
     }
 
     /// The error of a value of a kind that is not allowed.
-    fn of_other_kind(&self) -> SceneError {
+    pub fn of_other_kind(&self) -> SceneError {
         self.wrong(self.node.described())
     }
 
     /// Refuses what is no table, and keys of a table that are not known or exclude each other. An unknown key is told before one that
     /// is missing: a misspelt one is both.
     pub fn check_table(&self) -> Result<()> {
-        let keys = self.form.keys();
-        let entries = match (&self.node.content, self.form) {
-            (Content::Table(entries), _) => entries,
-            (Content::Text(_), Form::Either(..)) => return Ok(()),
+        let entries = match &self.node.content {
+            Content::Table(entries) => entries,
+            Content::Text(_) if matches!(self.form, Form::Either(..)) => return Ok(()),
             _ => return Err(self.of_other_kind()),
         };
-        let is_known = |name: &str| keys.iter().any(|key| key.name == name);
-        let is_known = |name: &str| is_known(name) || other_name(name).is_some_and(is_known);
-        match entries.iter().find(|entry| !is_known(&entry.key)) {
-            Some(entry) => Err(unknown_key(entry, keys, &self.path)),
+        let keys = self.form.keys();
+        let is_unknown = |node: &&Node| !keys.iter().any(|key| key.is_named(&node.key));
+        match entries.iter().find(is_unknown) {
+            Some(node) => Err(unknown_key(&self.path, &node.key, keys)),
             None => contradiction(&self.path, self.node),
         }
     }
 
     /// The value at a key of a table, or what counts if it is left out. A text in place of a table stands at the first of its keys.
-    pub fn value<T: Stored>(&self, name: &str, absent: Option<T>) -> Result<T> {
-        let keys = self.form.keys();
+    pub fn value<T: Stored>(&self, name: &str, form: Form, absent: Option<T>) -> Result<T> {
+        let is_first = || self.form.keys().first().is_some_and(|key| key.name == name);
         let node = match self.node.content {
-            Content::Text(_) => Some(self.node).filter(|_| keys.first().is_some_and(|key| key.name == name)),
+            Content::Text(_) => Some(self.node).filter(|_| is_first()),
             _ => self.node.content.get(name),
         };
-        let (path, form) = (joined(&self.path, name), form_of(keys, name));
+        let path = joined(&self.path, name);
         match node {
             Some(node) => T::read(&Given::new(path, node, form)),
             None => absent.ok_or_else(|| SceneError::missing(&path, form.allowed())),
@@ -78,59 +77,38 @@ impl<'n> Given<'n> {
         let known = words.iter().find(|(word, _)| *word == text);
         known.map(|(_, value)| *value).ok_or_else(|| {
             let meant = did_you_mean(nearest(text, words.iter().map(|(word, _)| *word)));
-            SceneError::value(&self.path, self.node.written.clone() + &meant, allowed)
+            SceneError::value(&self.path, self.node.written() + &meant, allowed)
         })
     }
 }
 
-fn form_of(keys: &[Key], name: &str) -> Form {
-    let key = keys.iter().find(|key| key.name == name);
-    key.map_or(Form::Text(""), |key| key.form)
-}
-
-fn unknown_key(entry: &Entry, keys: &[Key], path: &str) -> SceneError {
-    let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
-    SceneError::unknown(
-        &joined(path, &entry.key),
-        meant_by(&entry.key, &names),
-        names.join(", "),
-    )
-}
-
-/// The entry of a table for a value, unless it counts without one.
-pub fn entry<'k, T: Stored + PartialEq>(
-    keys: &[Key],
-    name: &'k str,
-    value: &T,
-    absent: Option<T>,
-) -> Option<(&'k str, Content)> {
-    match absent {
-        Some(absent) if absent == *value => None,
-        _ => Some((name, value.write(form_of(keys, name)))),
-    }
+/// The value as it is written at its key, unless it counts without being written.
+pub fn written<T: Stored + PartialEq>(value: &T, form: Form, absent: Option<&T>) -> Option<Content> {
+    (absent != Some(value)).then(|| value.write(form))
 }
 
 impl Stored for f64 {
     fn read(given: &Given) -> Result<Self> {
-        let (content, quantity) = (&given.node.content, given.form.quantity());
-        let dimension = quantity.and_then(|quantity| quantity.dimension);
-        let value = match (content.as_number(), content.as_text(), dimension) {
-            (Some(value), ..) => value,
-            (_, Some(text), Some(dimension)) => {
-                let wrong = |why| given.wrong(format!("{}: {why}", given.node.written));
+        let (content, written) = (&given.node.content, given.node.written());
+        let Some(quantity) = given.form.quantity() else {
+            return Err(given.of_other_kind());
+        };
+        let value = match (content.as_text(), quantity.dimension) {
+            (Some(text), Some(dimension)) => {
+                let wrong = |why| given.wrong(format!("{written}: {why}"));
                 dimension.parse(text).map_err(wrong)?
             }
-            _ => return Err(given.of_other_kind()),
+            _ => content.as_number().ok_or_else(|| given.of_other_kind())?,
         };
-        if quantity.is_none_or(|quantity| quantity.contains(value)) {
+        if quantity.contains(value) {
             return Ok(value);
         }
-        let unit = |dimension: Dimension| dimension.si().unwrap_or("1, not in %");
-        let bare = dimension.filter(|_| content.as_text().is_none()).map(unit);
-        let bare = bare.map_or_else(String::new, |unit| format!("; a bare number is in {unit}"));
+        let bare = quantity.dimension.filter(|_| content.as_text().is_none());
+        let unit = bare.map(|dimension| dimension.si().unwrap_or("1, not in %"));
+        let bare = unit.map_or_else(String::new, |unit| format!("; a bare number is in {unit}"));
         Err(SceneError::value(
             &given.path,
-            &given.node.written,
+            written,
             given.form.allowed() + &bare,
         ))
     }
@@ -147,7 +125,7 @@ impl Stored for u64 {
         f64::read(given)?;
         match given.node.content {
             Content::Whole(whole) => Ok(whole),
-            _ => Err(given.wrong(&given.node.written)),
+            _ => Err(given.wrong(given.node.written())),
         }
     }
 
@@ -158,9 +136,8 @@ impl Stored for u64 {
 
 impl Stored for String {
     fn read(given: &Given) -> Result<Self> {
-        let is_name = matches!(given.form, Form::Text(allowed) if is_name(allowed));
-        let text = given.node.content.as_text();
-        let text = text.filter(|text| !(is_name && text.trim().is_empty()));
+        let is_blank = |text: &str| matches!(given.form, Form::Name(_)) && text.trim().is_empty();
+        let text = given.node.content.as_text().filter(|text| !is_blank(text));
         text.map(str::to_owned).ok_or_else(|| given.of_other_kind())
     }
 

@@ -4,9 +4,8 @@ use crate::error::{Result, SceneError};
 use crate::histogram::{HISTOGRAM, Histogram};
 use crate::key::Form::{List, Number, Text};
 use crate::range::{ANY_WHOLE, PASSES, PER_DAY, SPEED, YEARS};
-use crate::section::keys;
+use crate::section::{file_words, keys};
 use crate::shown::shown;
-use crate::words::file_words;
 
 keys! {
     /// How many vehicles drive, in which order; in SI.

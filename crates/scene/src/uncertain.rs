@@ -2,12 +2,11 @@
 
 use serde::Serialize;
 
-use crate::content::{Content, Node, joined, other_name};
+use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError};
-use crate::key::{Form, Key};
+use crate::key::{Form, Key, number_at};
 use crate::shown::shown;
 use crate::stored::{Given, Stored};
-use crate::synonym::meant_by;
 
 /// A key of a number that lies between two values, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -42,41 +41,38 @@ impl Uncertain {
 pub const INTERVALS: &str = "keys of numbers, each with its lowest and its highest value, such as \"friction.dynamic_coefficient\" = [0.2, 0.5] \
                              or \"ground.vertical_peak\" = [\"90 um\", \"150 um\"]";
 const INTERVAL: &str = "the lowest value and a greater one, such as [0.2, 0.5]";
-const KEY: &str = "a key of the scene that takes a number, such as \"friction.dynamic_coefficient\" (`creepage explain` lists them)";
 
 impl Stored for Vec<Uncertain> {
     fn read(given: &Given) -> Result<Self> {
         let mut found = Self::new();
         match (given.form, &given.node.content) {
-            (Form::Intervals(all, _), Content::Table(_)) => {
-                intervals(&mut found, all(), &given.path, "", given.node).map(|()| found)
+            (Form::Intervals(keys, _), Content::Table(_)) => {
+                intervals(&mut found, keys(), &given.path, "", given.node).map(|()| found)
             }
-            _ => Err(SceneError::value(
-                &given.path,
-                given.node.described(),
-                given.form.allowed(),
-            )),
+            _ => Err(given.of_other_kind()),
         }
     }
 
     fn write(&self, form: Form) -> Content {
-        let Form::Intervals(all, _) = form else {
+        let Form::Intervals(keys, _) = form else {
             return Content::Other;
         };
-        let entry = |uncertain: &'_ Uncertain| {
-            let form = form_at(all(), "", &uncertain.key).ok()?;
+        let interval = |uncertain: &Uncertain| {
+            let form = number_at(keys(), "", &uncertain.key).ok()?;
             let both = [uncertain.low, uncertain.high].map(|value| value.write(form).into());
-            Some((uncertain.key.clone(), Content::List(both.into())))
+            Some(Content::List(both.into()))
         };
-        let entries: Vec<(String, Content)> = self.iter().filter_map(entry).collect();
-        Content::table(entries.iter().map(|(key, both)| (&**key, both.clone())))
+        Content::table(
+            self.iter()
+                .map(|uncertain| (&*uncertain.key, interval(uncertain))),
+        )
     }
 }
 
 /// Reads what stands at a key of the table at `path`, or below it: `a.b = …` and `"a.b" = …` are the same.
 fn intervals(
     found: &mut Vec<Uncertain>,
-    all: &'static [Key],
+    keys: &'static [Key],
     path: &str,
     key: &str,
     node: &Node,
@@ -84,14 +80,13 @@ fn intervals(
     let own = joined(path, key);
     let both = match &node.content {
         Content::Table(entries) => {
-            let mut below = entries.iter();
-            return below
-                .try_for_each(|entry| intervals(found, all, path, &joined(key, &entry.key), &entry.value));
+            let mut entries = entries.iter();
+            return entries.try_for_each(|node| intervals(found, keys, path, &joined(key, &node.key), node));
         }
         Content::List(both) => both,
         _ => return Err(SceneError::value(&own, node.described(), INTERVAL)),
     };
-    let form = form_at(all, path, key)?;
+    let form = number_at(keys, path, key)?;
     let read = |(index, node)| f64::read(&Given::new(joined(&own, index), node, form));
     let both = both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?;
     match both[..] {
@@ -105,32 +100,6 @@ fn intervals(
             let values = both.into_iter().map(shown).collect::<Vec<_>>().join(", ");
             Err(SceneError::value(&own, format!("[{values}]"), INTERVAL))
         }
-    }
-}
-
-/// The form of the number at a key such as `vehicles.0.load`, below these keys, which stand at `path`.
-fn form_at(keys: &'static [Key], path: &str, key: &str) -> Result<Form> {
-    let (first, rest) = key.split_once('.').unwrap_or((key, ""));
-    let path = joined(path, first);
-    let is_named = |key: &&Key| key.name == first || other_name(key.name) == Some(first);
-    let Some(Key { form, .. }) = keys.iter().find(is_named) else {
-        let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
-        return Err(SceneError::unknown(
-            &path,
-            meant_by(first, &names),
-            names.join(", "),
-        ));
-    };
-    match (form, rest.split_once('.')) {
-        (Form::List(..), Some((index, below))) if index.parse::<usize>().is_ok() => {
-            form_at(form.keys(), &joined(&path, index), below)
-        }
-        (Form::List(..), _) => Err(SceneError::value(&path, format!("`{key}`"), KEY)),
-        _ if rest.is_empty() && form.quantity().is_some() => Ok(*form),
-        _ if rest.is_empty() || form.keys().is_empty() => {
-            Err(SceneError::value(&path, format!("`{key}`"), KEY))
-        }
-        _ => form_at(form.keys(), &path, rest),
     }
 }
 
@@ -149,12 +118,10 @@ impl Stored for Cost {
         let content = &given.node.content;
         let number = content
             .as_number()
-            .filter(|cost| *cost >= 0.0 && cost.is_finite());
+            .filter(|cost| (0.0..f64::INFINITY).contains(cost));
         let text = content.as_text().map(|text| Self::Text(text.to_owned()));
-        number.map(Self::Number).or(text).ok_or_else(|| {
-            let allowed = "a number of at least 0, or a text";
-            SceneError::value(&given.path, given.node.described(), allowed)
-        })
+        let cost = number.map(Self::Number).or(text);
+        cost.ok_or_else(|| given.of_other_kind())
     }
 
     fn write(&self, _: Form) -> Content {

@@ -26,7 +26,7 @@ macro_rules! dimensions {
 
         /// Every unit of a scene file, the SI unit of each dimension first.
         pub const UNITS: &[Unit] =
-            &[$($(unit($symbol, Dimension::$name, $exponent, [$factor, [$($divisor,)? 1.0][0]])),+),+];
+            &[$($(unit($symbol, Dimension::$name, $exponent, ($factor, [$($divisor,)? 1.0][0]))),+),+];
     };
 }
 
@@ -129,35 +129,35 @@ const IN_WORDS: &[(&str, &str)] = &[
     ("kg", "kgf"), ("kg", "kg/m"), ("kg/mm", "kgf/mm"), ("t", "tf"), ("ton", "tf"), ("tonnes", "tf"), ("sqmm", "mm2"),
 ];
 
-/// A unit of a scene file: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
+/// A unit of a scene file: one of it is `scale.0 / scale.1 · 10^exponent` in SI; for a slope that is
+/// the angle, and its tangent counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     pub(crate) symbol: &'static str,
     pub(crate) dimension: Dimension,
     pub(crate) exponent: i32,
-    factor: f64,
-    divisor: f64,
+    scale: (f64, f64),
 }
 
 impl Unit {
     /// Newton.
-    pub const NEWTON: Self = unit("N", Dimension::Force, 0, [1.0, 1.0]);
+    pub const NEWTON: Self = unit("N", Dimension::Force, 0, (1.0, 1.0));
     /// Metre.
-    pub const METRE: Self = unit("m", Dimension::Length, 0, [1.0, 1.0]);
+    pub const METRE: Self = unit("m", Dimension::Length, 0, (1.0, 1.0));
     /// Millimetre.
-    pub const MILLIMETRE: Self = unit("mm", Dimension::Length, -3, [1.0, 1.0]);
+    pub const MILLIMETRE: Self = unit("mm", Dimension::Length, -3, (1.0, 1.0));
     /// Micrometre.
-    pub const MICROMETRE: Self = unit("um", Dimension::Length, -6, [1.0, 1.0]);
+    pub const MICROMETRE: Self = unit("um", Dimension::Length, -6, (1.0, 1.0));
     /// Foot.
-    pub const FOOT: Self = unit("ft", Dimension::Length, 0, [FOOT, 1.0]);
+    pub const FOOT: Self = unit("ft", Dimension::Length, 0, (FOOT, 1.0));
     /// Inch.
-    pub const INCH: Self = unit("in", Dimension::Length, 0, [INCH, 1.0]);
+    pub const INCH: Self = unit("in", Dimension::Length, 0, (INCH, 1.0));
     /// Newton per metre.
-    pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, [1.0, 1.0]);
+    pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, (1.0, 1.0));
     /// Kilonewton per metre.
-    pub const KILONEWTON_PER_METRE: Self = unit("kN/m", Dimension::ForcePerLength, 3, [1.0, 1.0]);
+    pub const KILONEWTON_PER_METRE: Self = unit("kN/m", Dimension::ForcePerLength, 3, (1.0, 1.0));
     /// Megapascal.
-    pub const MEGAPASCAL: Self = unit("MPa", Dimension::Pressure, 6, [1.0, 1.0]);
+    pub const MEGAPASCAL: Self = unit("MPa", Dimension::Pressure, 6, (1.0, 1.0));
 
     /// The unit of this dimension that is written so.
     pub fn of(dimension: Dimension, symbol: &str) -> Option<Self> {
@@ -197,7 +197,7 @@ impl Unit {
     /// ```
     pub fn of_si(&self, si: f64) -> f64 {
         let angle = self.dimension == Dimension::Slope;
-        let value = if angle { si.atan() } else { si } / self.factor * self.divisor;
+        let value = if angle { si.atan() } else { si } / self.scale.0 * self.scale.1;
         let power = 10_f64.powi(self.exponent.abs());
         if self.exponent < 0 {
             value * power
@@ -208,7 +208,7 @@ impl Unit {
 
     /// The value in SI of `number`, from which the power of ten is already taken out.
     pub(crate) fn in_si(&self, number: f64) -> f64 {
-        let value = number * self.factor / self.divisor;
+        let value = number * self.scale.0 / self.scale.1;
         match self.dimension {
             // Steeper than upright is no slope.
             Dimension::Slope if value.abs() < RIGHT_ANGLE => value.tan(),
@@ -218,37 +218,23 @@ impl Unit {
     }
 }
 
-const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, scale: [f64; 2]) -> Unit {
-    let [factor, divisor] = scale;
+const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, scale: (f64, f64)) -> Unit {
     Unit {
         symbol,
         dimension,
         exponent,
-        factor,
-        divisor,
+        scale,
     }
 }
 
 /// The unit in the spelling of [`UNITS`].
 pub fn normalised(unit: &str) -> String {
-    let plain: String = unit
-        .chars()
-        .filter(|c| !c.is_whitespace() && *c != '^')
-        .map(|c| match c {
-            'µ' | 'μ' => 'u',
-            '²' => '2',
-            '⁻' => '-',
-            '¹' => '1',
-            '％' => '%',
-            c => c,
-        })
-        .collect();
-    if plain == "°" {
-        return "deg".to_owned();
-    }
-    let inverse = plain.strip_prefix('/').or(plain.strip_suffix("-1"));
-    match inverse {
+    let plain: String = unit.split_whitespace().collect();
+    let plain = plain.replace('^', "").replace(['µ', 'μ'], "u").replace('²', "2");
+    let plain = plain.replace('⁻', "-").replace('¹', "1").replace('％', "%");
+    match plain.strip_prefix('/').or(plain.strip_suffix("-1")) {
         Some(unit @ ("m" | "cm" | "mm" | "um" | "K")) => format!("1/{unit}"),
+        _ if plain == "°" => "deg".to_owned(),
         _ => plain,
     }
 }

@@ -58,33 +58,27 @@ const BARE: &[Bare] = &[
 pub fn unusual(scene: &Scene) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut named: Vec<&str> = Vec::new();
-    scene.node().each_value("", &mut |key, node| {
+    for (key, node) in scene.node().values("") {
         let text = node.content.as_text();
         let quantity = |text: &str| text.split_once(' ')?.0.parse().ok();
         let number: Option<f64> = text.map_or(node.content.as_number(), quantity);
-        let name = without_numbers(key);
+        let name = without_numbers(&key);
         let name = name.trim_end_matches(".top").trim_end_matches(".bottom");
         // Friction that forgets may build up slowly.
         let forgets = name == "friction.shape_factor" && scene.friction.law != Law::ElasticPlastic;
         for (key_of, least, most, size, unit, words) in USUAL.iter().filter(|usual| usual.0 == name) {
             // Of the wheels the first is named that is unusual.
             let again = named.contains(key_of) && key.contains(".wheels.");
-            let unusual = number.filter(|value| !(*least..=*most).contains(value) && !forgets && !again);
-            if let Some(value) = unusual {
+            let is_unusual = |value: &f64| !(*least..=*most).contains(value) && !forgets && !again;
+            if let Some(value) = number.filter(is_unusual) {
                 named.push(key_of);
-                warnings.push(of(
-                    key,
-                    &format!(" is {}{unit}{words}", four_digits(value / size)),
-                ));
+                let value = four_digits(value / size);
+                warnings.push(of(&key, &format!(" is {value}{unit}{words}")));
             }
         }
-    });
-    warnings.extend(
-        together(scene)
-            .into_iter()
-            .filter(|(is_unusual, _)| *is_unusual)
-            .map(|(_, words)| words),
-    );
+    }
+    let together = together(scene).into_iter();
+    warnings.extend(together.filter_map(|(is_unusual, words)| is_unusual.then_some(words)));
     warnings.extend(contrast(scene));
     warnings
 }
@@ -110,9 +104,8 @@ fn together(scene: &Scene) -> [(bool, String); 9] {
     let name = |found: Option<&TrafficVehicle>| found.map_or("", |vehicle| &vehicle.name).to_owned();
     let is_far = |vehicle: &&TrafficVehicle| scene.offset_from(vehicle).abs() > FARTHEST * duct.depth;
     let far = vehicles.iter().find(is_far);
-    let heavy = vehicles
-        .iter()
-        .find(|vehicle| vehicle.weight() > HEAVIEST && !vehicle.wheels.is_empty());
+    let is_heavy = |vehicle: &&TrafficVehicle| vehicle.weight() > HEAVIEST && !vehicle.wheels.is_empty();
+    let heavy = vehicles.iter().find(is_heavy);
     let between = vehicles.iter().find(|vehicle| is_between_wheels(scene, vehicle));
     let mut pairs = vehicles.windows(2);
     let other_lane = pairs.any(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
@@ -160,19 +153,17 @@ fn contrast(scene: &Scene) -> Option<String> {
     const INVERTED: f64 = 20.0;
     const PAVEMENT: f64 = 0.5;
     let top_and_bottom = |layer: &Layer| match layer.young_modulus {
-        Modulus::Uniform(modulus) => (modulus, modulus),
-        Modulus::Linear { top, bottom } => (top, bottom),
+        Modulus::Uniform(modulus) => [modulus, modulus],
+        Modulus::Linear { top, bottom } => [top, bottom],
     };
     let (last, upper) = scene.ground.layers.split_last()?;
-    let (first, above) = (upper.first()?, upper.last()?);
-    let ((top, _), (_, above), (base, _)) =
-        (top_and_bottom(first), top_and_bottom(above), top_and_bottom(last));
+    let (first, below) = (upper.first()?, upper.len());
+    let [top, _] = top_and_bottom(first);
+    let [_, above] = top_and_bottom(upper.last()?);
+    let [base, _] = top_and_bottom(last);
     if above > CONTRAST * base {
         let words = format!(" is {:.0} times less than that of the layer on it", above / base);
-        return Some(of(
-            &format!("ground.layers.{}.young_modulus", upper.len()),
-            &words,
-        ));
+        return Some(of(&format!("ground.layers.{below}.young_modulus"), &words));
     }
     let (times, last) = (base / top, four_digits(base / 1e6));
     let words = format!(
@@ -186,7 +177,7 @@ fn contrast(scene: &Scene) -> Option<String> {
 /// The warning for a number without a unit that was meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h, and for
 /// decimals that may be thousands, `passes = 292.000`, and for a mass that stands for a weight.
 pub fn slip(key: &str, node: &Node) -> Option<String> {
-    let (name, found) = (key.rsplit('.').next()?, &node.written);
+    let (name, found) = (key.rsplit('.').next()?, &node.written());
     if let (Some(text), "weight") = (node.content.as_text(), name) {
         let is_mass = text.to_lowercase().replace("kgf", "").contains("kg");
         let weight = four_digits(Dimension::Weight.parse(text).ok()?);
@@ -195,18 +186,15 @@ pub fn slip(key: &str, node: &Node) -> Option<String> {
     }
     let value = node.content.as_number()?;
     let is_meant = |bare: &&Bare| bare.0 == name && (bare.1..=bare.2).contains(&value);
-    let is_thousands = |(_, digits): (&str, &str)| digits.len() == 3 && digits.parse::<u16>().is_ok();
+    if let Some((.., units)) = BARE.iter().find(is_meant) {
+        let unit = si_unit(key)?;
+        let words = format!(": {found} without a unit is {value} {unit}: did you mean {units}?");
+        return Some(of(key, &words));
+    }
+    // Three digits behind a point may be thousands.
+    let (_, digits) = found.split_once('.').filter(|_| name == "passes")?;
+    let is_thousands = digits.len() == 3 && digits.parse::<u16>().is_ok();
     let meant = found.replace('.', "");
-    let words = match BARE.iter().find(is_meant) {
-        Some((.., units)) => format!(
-            "without a unit is {value} {}: did you mean {units}?",
-            si_unit(key)?
-        ),
-        // Three digits behind a point may be thousands.
-        None if name == "passes" && found.split_once('.').is_some_and(is_thousands) => {
-            format!("is {value}, as decimals follow a point: did you mean {meant}?")
-        }
-        None => return None,
-    };
-    Some(of(key, &format!(": {found} {words}")))
+    let words = format!(": {found} is {value}, as decimals follow a point: did you mean {meant}?");
+    is_thousands.then(|| of(key, &words))
 }

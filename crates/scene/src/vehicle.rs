@@ -5,7 +5,7 @@ use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle};
 use crate::content::Content;
 use crate::error::Result;
 use crate::key::Form;
-use crate::key::Form::{List, Number, Table, Text, Words};
+use crate::key::Form::{List, Name, Number, Table, Words};
 use crate::range::{CONTACT_RADIUS, LANE, LOAD, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y};
 use crate::section::keys;
 use crate::stored::{Given, Stored};
@@ -15,7 +15,7 @@ keys! {
     pub struct TrafficVehicle {
         preset "A vehicle by its name; keys beside it override its values.";
         /// Name of the vehicle.
-        name: String = Text("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
+        name: String = Name("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
         /// Speed of the vehicle.
         speed: f64 = Number(SPEED);
         /// One concentrated load.
@@ -64,26 +64,26 @@ impl Stored for Direction {
 impl TrafficVehicle {
     /// A vehicle that is one concentrated `load` \[N\] at its origin, driving forward at `speed` \[m/s\].
     pub fn point(name: &str, load: f64, speed: f64) -> Self {
-        let (lateral_offset, direction, share) = (0.0, Direction::Forward, 1.0);
         Self {
             name: name.to_owned(),
             speed,
             load: Some(load),
             wheels: Vec::new(),
-            lateral_offset,
-            direction,
-            share,
+            lateral_offset: 0.0,
+            direction: Direction::Forward,
+            share: 1.0,
         }
     }
 
     /// Its wheels; a concentrated load is one at its origin.
     pub fn wheels(&self) -> Vec<Wheel> {
-        let wheel = |load| Wheel {
+        let Some(load) = self.load else {
+            return self.wheels.clone();
+        };
+        vec![Wheel {
             load,
             ..Wheel::default()
-        };
-        self.load
-            .map_or_else(|| self.wheels.clone(), |load| vec![wheel(load)])
+        }]
     }
 
     /// Total load \[N\].
@@ -97,16 +97,12 @@ impl TrafficVehicle {
     ///
     /// [`GroundError`] where a valid scene has none: no wheels, or a number out of its range.
     pub fn vehicle(&self) -> Result<Vehicle, GroundError> {
-        let wheel = |wheel: Wheel| {
+        let mut wheels = Vec::new();
+        for wheel in self.wheels() {
             let load = SurfaceLoad::new(wheel.load, wheel.contact_radius)?;
             let (x, y) = (wheel.x, wheel.y);
-            Ok(ground_field::Wheel { x, y, load })
-        };
-        let wheels = self
-            .wheels()
-            .into_iter()
-            .map(wheel)
-            .collect::<Result<_, GroundError>>()?;
+            wheels.push(ground_field::Wheel { x, y, load });
+        }
         Vehicle::new(&*self.name, wheels, self.speed, self.direction)
     }
 }

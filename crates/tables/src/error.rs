@@ -28,12 +28,11 @@ pub enum TableError {
 impl TableError {
     /// What was found in a line of a file, and what is allowed.
     pub fn line(file: &str, line: u64, found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        let (file, found, allowed) = (file.to_owned(), found.into(), allowed.into());
         Self::Line {
-            file,
+            file: file.to_owned(),
             line,
-            found,
-            allowed,
+            found: found.into(),
+            allowed: allowed.into(),
         }
     }
 }

@@ -182,11 +182,12 @@ impl Table {
         let names = self.names.iter().map(|name| &*name.text);
         let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
         let listed = shortened(&names.join(" | "), LONGEST);
-        let separated = |sign| format!("separated by {}s", word(sign));
-        let read_as = self.separator.map_or_else(|| "a workbook".to_owned(), separated);
-        let sheets = format!("; other sheets: {}", self.sheets.join(", "));
-        let sheets = if self.sheets.is_empty() { "" } else { &sheets };
-        let found = format!("no column {column} in \"{listed}\" (read as {read_as}{sheets})");
+        let read_as = match (self.separator, &self.sheets[..]) {
+            (Some(sign), _) => format!("separated by {}s", word(sign)),
+            (None, []) => "a workbook".to_owned(),
+            (None, sheets) => format!("a workbook; other sheets: {}", sheets.join(", ")),
+        };
+        let found = format!("no column {column} in \"{listed}\" (read as {read_as})");
         self.wrong(self.line, found, self.layout.allowed)
     }
 

@@ -21,13 +21,9 @@ pub fn decoded(file: &str, bytes: &[u8], encoding: Option<&'static Encoding>) ->
     };
     if malformed || !text.chars().all(printed) {
         let named = encoding.map_or_else(String::new, |encoding| format!(" in {}", encoding.name()));
+        let found = format!("bytes that are no text{named}");
         let allowed = "a table as text (UTF-8, UTF-16, Latin-1, Shift_JIS; `encoding` chooses) or an Excel workbook (.xlsx)";
-        return Err(TableError::line(
-            file,
-            0,
-            format!("bytes that are no text{named}"),
-            allowed,
-        ));
+        return Err(TableError::line(file, 0, found, allowed));
     }
     Ok(text.chars().map(narrow).collect())
 }

@@ -17,20 +17,17 @@ pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<(Vec<Row>, 
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(wrong)?;
     let mut sheets = book.sheet_names();
     if let Some(name) = named.filter(|name| !sheets.iter().any(|sheet| sheet == name)) {
-        return Err(TableError::line(
-            file,
-            0,
-            format!("no sheet \"{name}\""),
-            sheets.join(", "),
-        ));
+        let found = format!("no sheet \"{name}\"");
+        return Err(TableError::line(file, 0, found, sheets.join(", ")));
     }
-    for sheet in 0..sheets.len() {
-        if named.is_none_or(|name| sheets[sheet] == name) {
-            let rows = rows(&mut book, &sheets[sheet]).map_err(wrong)?;
-            if !rows.is_empty() {
-                sheets.remove(sheet);
-                return Ok((rows, sheets));
-            }
+    for place in 0..sheets.len() {
+        if named.is_some_and(|name| sheets[place] != name) {
+            continue;
+        }
+        let rows = rows(&mut book, &sheets[place]).map_err(wrong)?;
+        if !rows.is_empty() {
+            sheets.remove(place);
+            return Ok((rows, sheets));
         }
     }
     Ok((Vec::new(), sheets))

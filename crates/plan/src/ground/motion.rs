@@ -4,7 +4,7 @@ use ground_field::{DuctLine, DuctMotion, GroundField};
 
 use crate::error::Error;
 use crate::tuning::ground::SMOOTHER;
-use creepage_scene::{PeakScaling, Scene, TrafficVehicle, Wheel};
+use creepage_scene::{Scene, TrafficVehicle, Wheel};
 
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);
@@ -70,16 +70,13 @@ pub fn length_scale(motions: &[DuctMotion], depth: f64) -> f64 {
 
 /// The motions with the measured peak, if the scene has one.
 fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Error> {
-    let Some(scaling) = scene.ground.scaling() else {
-        return Ok(motions);
-    };
-    let first = motions[0].peak_vertical();
+    let first = motions.first().map_or(0.0, DuctMotion::peak_vertical);
+    let wanted = (scene.ground.longitudinal_peak, scene.ground.vertical_peak);
     let scaled = |motion: DuctMotion| {
-        let (factor, key) = match scaling {
-            PeakScaling::Longitudinal(wanted) => {
-                (wanted / motion.peak_longitudinal(), "ground.longitudinal_peak")
-            }
-            PeakScaling::Vertical(wanted) => (wanted / first, "ground.vertical_peak"),
+        let (factor, key) = match wanted {
+            (Some(wanted), _) => (wanted / motion.peak_longitudinal(), "ground.longitudinal_peak"),
+            (None, Some(wanted)) => (wanted / first, "ground.vertical_peak"),
+            (None, None) => return Ok(motion),
         };
         if factor.is_finite() {
             return Ok(motion.scaled(factor)?);

@@ -7,9 +7,7 @@ use super::reader::Reader;
 use super::table::Table;
 use creepage_plan::{ground::load_ratio, shown::words_if};
 use creepage_run::answer::after;
-use creepage_scene::{
-    Arrangement, End, FrictionLaw, Order, PeakScaling, RouteSection, Scene, TrafficVehicle,
-};
+use creepage_scene::{Arrangement, End, FrictionLaw, Order, RouteSection, Scene, TrafficVehicle};
 
 /// Vehicles that differ by their load alone have one row where there are more than this.
 const MOST_ROWS: usize = 12;
@@ -233,17 +231,12 @@ impl SceneWords<'_> {
 
     /// How the ground was scaled to a measurement, if it was.
     pub fn scaling(&self) -> Option<String> {
-        let how = match self.scene.ground.scaling()? {
-            PeakScaling::Longitudinal(peak) => {
-                format!(
-                    "so that each vehicle moves it by {} along its axis at most",
-                    quantity(peak, "m")
-                )
-            }
-            PeakScaling::Vertical(peak) => {
-                let peak = quantity(peak, "m");
-                format!("to a measured deflection: {peak} down under the first vehicle")
-            }
+        let ground = &self.scene.ground;
+        let peak = ground.longitudinal_peak.or(ground.vertical_peak)?;
+        let peak = quantity(peak, "m");
+        let how = match ground.longitudinal_peak {
+            Some(_) => format!("so that each vehicle moves it by {peak} along its axis at most"),
+            None => format!("to a measured deflection: {peak} down under the first vehicle"),
         };
         Some(format!("The motion of the duct is scaled {how}."))
     }

@@ -70,34 +70,30 @@ struct Data {
     presets: Vec<Preset>,
 }
 
-const FILES: [(PresetKind, &str); 4] = [
-    (PresetKind::Vehicle, include_str!("vehicles.toml")),
-    (PresetKind::Cable, include_str!("cables.toml")),
-    (PresetKind::Friction, include_str!("frictions.toml")),
-    (PresetKind::Pavement, include_str!("pavements.toml")),
+/// The files, each with the section of a scene that takes its presets.
+const FILES: [(PresetKind, &str, &str); 4] = [
+    (PresetKind::Vehicle, "vehicles", include_str!("vehicles.toml")),
+    (PresetKind::Cable, "cable", include_str!("cables.toml")),
+    (PresetKind::Friction, "friction", include_str!("frictions.toml")),
+    (PresetKind::Pavement, "ground", include_str!("pavements.toml")),
 ];
 
 /// All presets, by kind.
 pub fn all() -> &'static [Preset] {
-    static ALL: LazyLock<Vec<Preset>> =
-        LazyLock::new(|| FILES.iter().flat_map(|(kind, text)| read(*kind, text)).collect());
+    static ALL: LazyLock<Vec<Preset>> = LazyLock::new(|| {
+        FILES
+            .iter()
+            .flat_map(|(kind, _, text)| read(*kind, text))
+            .collect()
+    });
     &ALL
-}
-
-/// The presets of one kind.
-pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
-    all().iter().filter(move |preset| preset.kind == kind)
 }
 
 /// The presets that a section of a scene takes.
 pub(crate) fn of_section(section: &str) -> impl Iterator<Item = &'static Preset> {
-    let is_meant = move |preset: &&Preset| match preset.kind {
-        PresetKind::Vehicle => section == "vehicles",
-        PresetKind::Cable => section == "cable",
-        PresetKind::Friction => section == "friction",
-        PresetKind::Pavement => section == "ground",
-    };
-    all().iter().filter(is_meant)
+    let file = FILES.iter().find(|(_, of, _)| *of == section);
+    let kind = file.map(|(kind, ..)| *kind);
+    all().iter().filter(move |preset| Some(preset.kind) == kind)
 }
 
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::design::DesignError;
 use creepage_plan::ground::{Ground, road};
 use creepage_run::Error;
-use creepage_scene::{PeakScaling, Scene, Uncertain};
+use creepage_scene::{Scene, Uncertain};
 
 /// Friction that is assumed where a scene does not say what is not known of it: from lubricated ducts to dry ones.
 const FRICTION: [f64; 2] = [0.2, 0.5];
@@ -25,7 +25,7 @@ pub fn unknowns(scene: &Scene) -> Result<(Vec<Uncertain>, bool), Error> {
         return Ok((scene.uncertain.clone(), false));
     }
     let friction = scene.friction.dynamic_coefficient;
-    let (key, peak) = if let Some(PeakScaling::Longitudinal(peak)) = scene.ground.scaling() {
+    let (key, peak) = if let Some(peak) = scene.ground.longitudinal_peak {
         ("ground.longitudinal_peak", peak)
     } else {
         let ground = Ground::new(scene, None, road::reach(scene))?;
