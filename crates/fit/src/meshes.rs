@@ -2,22 +2,22 @@
 
 use calibrate::Fit;
 
-use super::model::MeshOf;
-use super::problem::{Problem, Way};
+use crate::model::MeshOf;
+use crate::problem::{Problem, Way};
 use creepage_run::Error;
 
 pub struct Final {
     pub fit: Fit,
-    /// How much more a mesh twice as fine says at the optimum, which was added to what the mesh predicts, and how many standard errors
-    /// that moved each parameter.
+    /// How much more a mesh twice as fine says at the optimum, which was added to what the mesh
+    /// predicts, and how many standard errors that moved each parameter.
     pub difference: Vec<f64>,
     pub shift: Vec<f64>,
     /// Model runs, all meshes together.
     pub evaluations: usize,
 }
 
-/// Fits with profiles or without: on the coarsest mesh, whose runs cost least, then on that of the plan, then on the same with what a mesh twice as
-/// fine says more at the optimum.
+/// Fits with profiles or without: on the coarsest mesh, whose runs cost least, then on that of the
+/// plan, then on the same with what a mesh twice as fine says more at the optimum.
 pub fn fit(problem: &Problem<'_>, profiles: bool) -> Result<Final, Error> {
     let none = vec![0.0; problem.rows.len()];
     let way = |mesh, profiles, evaluations| Way {

@@ -2,8 +2,8 @@
 
 use calibrate::Loss;
 
-use super::unknown::Unknown;
 use crate::readings::Readings;
+use crate::unknown::Unknown;
 use creepage_run::Progress;
 use creepage_scene::Scene;
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::diagnosis::{LackOfFit, misses_by};
+use crate::diagnosis::misses_by;
 use creepage_plan::finite;
 
 /// A calibrated scene.
@@ -132,6 +132,26 @@ pub struct FittedReading {
     pub residual: f64,
     /// Unit of these three; 1 for a number.
     pub unit: &'static str,
+}
+
+/// Whether the residuals are noise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LackOfFit {
+    /// Probability of so few changes of sign by chance.
+    pub p_runs: f64,
+    /// Probability that noise alone shows so much drift; null where it is fitted or cannot be told.
+    pub p_trend: Option<f64>,
+    /// Probability that noise alone shows a zero that is off by so much; null as before.
+    pub p_offset: Option<f64>,
+    /// Probability of residuals so much larger than neighbouring readings differ: of an R² below
+    /// what the noise explains.
+    pub p_noise: Option<f64>,
+    /// Probability of residuals so much larger than the sigmas of the readings; null where these
+    /// have none.
+    pub p_sigma: Option<f64>,
+    /// Whether any of these is below 0.01 (0.03 of the second and third), readings are outliers, or
+    /// the data look mistaken: then no parameter is called identifiable.
+    pub suspicious: bool,
 }
 
 /// How large the residuals of one kind of reading are.

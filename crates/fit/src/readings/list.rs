@@ -18,7 +18,6 @@ pub struct Readings {
     pub(super) file: String,
     pub(super) list: Vec<Reading>,
     pub(super) runs: Vec<String>,
-    pub(super) skipped: usize,
     pub(super) notes: Vec<String>,
 }
 
@@ -33,15 +32,11 @@ impl Readings {
             return Ok(());
         }
         let line = self.list.last().map_or(0, |reading| reading.line);
+        let found = format!("too few readings: {}", self.list.len());
         let allowed = format!(
             "{needed} or more to fit this ({parameters} parameters); the zero before the first pass counts, as pass 0"
         );
-        Err(DataError::line(
-            &self.file,
-            line,
-            format!("too few readings: {}", self.list.len()),
-            allowed,
-        ))
+        Err(DataError::line(&self.file, line, found, allowed))
     }
 
     /// The readings, in the order of the file.
@@ -60,11 +55,6 @@ impl Readings {
     /// Names of the runs; one without a name where the file tells none apart.
     pub fn runs(&self) -> &[String] {
         &self.runs
-    }
-
-    /// Rows or cells without a value.
-    pub fn skipped(&self) -> usize {
-        self.skipped
     }
 
     /// What the user should know of how the file was read.

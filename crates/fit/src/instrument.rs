@@ -2,7 +2,6 @@
 
 use cable_dem::{End, PassOutcome};
 
-use super::error::unfit;
 use crate::readings::{Measured, Place, Reading, Readings};
 use creepage_run::Error;
 use creepage_run::answer::{ForceProfile, Stage};
@@ -15,22 +14,17 @@ use creepage_scene::{CableEnd, Scene};
 /// [`Error`] if none is held.
 pub fn held_end(scene: &Scene) -> Result<CableEnd, Error> {
     let reason = "a load cell was at an end that is held";
-    end_but(scene, End::Free).map_or_else(|| unfit("ends", "both free", reason), Ok)
+    end_but(scene, End::Free).ok_or_else(|| Error::unfit("ends", "both free", reason))
 }
 
-/// The end that moves in `scene`, the downstream one if both do.
-fn moving_end(scene: &Scene) -> Result<CableEnd, Error> {
-    let reason = "an end that moved is free or on a spring";
-    end_but(scene, End::Fixed).map_or_else(|| unfit("ends", "both fixed", reason), Ok)
-}
-
-/// The end that is held otherwise, the downstream one if both are.
+/// The end that is held in another way than `held`, the downstream one if both are.
 fn end_but(scene: &Scene, held: End) -> Option<CableEnd> {
     let mut ends = [CableEnd::Downstream, CableEnd::Upstream].into_iter();
     ends.find(|end| end.held_in(scene) != held)
 }
 
-/// The force on each end of `scene` that readings are of: the load cells of `readings`, in the order of the file.
+/// The force on each end of `scene` that readings are of: the load cells of `readings`, in the
+/// order of the file.
 ///
 /// # Errors
 ///
@@ -61,35 +55,45 @@ pub enum Observed {
 impl Observed {
     pub fn of(scene: &Scene, measured: Measured) -> Result<Self, Error> {
         let length = scene.duct.length;
-        let at = |place: f64| {
+        let x = |end: CableEnd| end.of([0.0, length]);
+        let inside = |place: f64| {
             if (0.0..=length).contains(&place) {
                 return Ok(place);
             }
             let reason = format!("it was taken at {place} m of {length} m");
-            unfit("duct.length", "a reading outside the duct", reason)
+            Err(Error::unfit("duct.length", "a reading outside the duct", reason))
         };
         match measured {
-            Measured::Force(Place::Natural) => Ok(Self::Force(held_end(scene)?)),
+            Measured::Force(Place::Natural) => held_end(scene).map(Self::Force),
             Measured::Force(Place::End(end)) if end.held_in(scene) == End::Free => {
+                let reason = "readings of a load cell at this end: it was held";
                 let key = end.of(["ends.upstream", "ends.downstream"]);
-                unfit(key, "free", "readings of a load cell at this end: it was held")
+                Err(Error::unfit(key, "free", reason))
             }
             Measured::Force(Place::End(end)) => Ok(Self::Force(end)),
-            Measured::Force(Place::At(place)) => Ok(Self::ForceAt(at(place)?)),
-            Measured::Movement(Place::Natural) => Ok(Self::Movement(moving_end(scene)?)),
+            Measured::Force(Place::At(place)) => inside(place).map(Self::ForceAt),
+            Measured::Movement(Place::Natural) => {
+                let reason = "an end that moved is free or on a spring";
+                let end = end_but(scene, End::Fixed).map(Self::Movement);
+                end.ok_or_else(|| Error::unfit("ends", "both fixed", reason))
+            }
             Measured::Movement(Place::End(end)) => Ok(Self::Movement(end)),
             Measured::Movement(Place::At(place)) => {
-                let mut ends = CableEnd::ALL.into_iter();
                 let reason = "movements are those of an end";
-                let between = || unfit("data", "a movement between the ends", reason);
-                let end = ends.find(|end| end.of([0.0, length]) == place);
-                end.map(Self::Movement).map_or_else(between, Ok)
+                let end = CableEnd::ALL.into_iter().find(|end| x(*end) == place);
+                let between = || Error::unfit("data", "a movement between the ends", reason);
+                end.map(Self::Movement).ok_or_else(between)
             }
-            Measured::Strain(Place::At(place)) => Ok(Self::StrainAt(at(place)?)),
-            Measured::Strain(Place::End(end)) => Ok(Self::StrainAt(end.of([0.0, length]))),
-            Measured::Strain(Place::Natural) => Ok(Self::StrainAt(held_end(scene)?.of([0.0, length]))),
+            Measured::Strain(Place::Natural) => Ok(Self::StrainAt(x(held_end(scene)?))),
+            Measured::Strain(Place::End(end)) => Ok(Self::StrainAt(x(end))),
+            Measured::Strain(Place::At(place)) => inside(place).map(Self::StrainAt),
             Measured::Deflection => Ok(Self::Deflection),
         }
+    }
+
+    /// Whether it is a force, as a load cell reads it.
+    pub fn is_force(self) -> bool {
+        matches!(self, Self::Force(_) | Self::ForceAt(_))
     }
 
     /// Whether it takes the force along the cable.
@@ -131,4 +135,33 @@ fn force_at(profile: &ForceProfile, place: f64) -> f64 {
         (None, _) => forces.first().copied().unwrap_or(f64::NAN),
         (Some(last), None) => forces[last],
     }
+}
+
+/// A reading and what it is compared with.
+#[derive(Clone, Copy)]
+pub struct Row<'a> {
+    /// Index of its series.
+    pub series: usize,
+    pub reading: &'a Reading,
+    pub observed: Observed,
+}
+
+/// The instrument of a series that a reading is of.
+pub type Instrument = (usize, Observed);
+
+impl Row<'_> {
+    pub fn instrument(&self) -> Instrument {
+        (self.series, self.observed)
+    }
+}
+
+/// All instruments, each once.
+pub fn instruments(rows: &[Row<'_>]) -> Vec<Instrument> {
+    let mut instruments = Vec::new();
+    for row in rows {
+        if !instruments.contains(&row.instrument()) {
+            instruments.push(row.instrument());
+        }
+    }
+    instruments
 }
