@@ -392,7 +392,10 @@ fn what_does_not_fit_is_named() {
 
     let few = calibrate(&upper(), &readings(&series()[..2]), &CalibrateOptions::default()).unwrap_err();
     assert!(
-        few.is_bad_input() && few.to_string().contains("too few readings: 2"),
+        few.is_bad_input()
+            && few
+                .to_string()
+                .contains("number of observations is 2; allowed: 3 or more"),
         "{few}"
     );
 

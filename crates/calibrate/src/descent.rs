@@ -117,10 +117,8 @@ impl CostFunction for Surface<'_> {
 
     fn cost(&self, free: &DVector<f64>) -> Result<f64, Error> {
         let springs: f64 = free.iter().map(|&z| beyond(z).powi(2)).sum();
-        Ok(self
-            .deviance
-            .total(&self.likelihood.point(free.clone()).residuals)
-            + springs)
+        let residuals = self.likelihood.point(free.clone()).residuals;
+        Ok(self.deviance.total(&residuals) + springs)
     }
 }
 

@@ -32,8 +32,10 @@ pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError>
         return Ok(emulator);
     }
     let dimensions = problem.of_model().len();
-    let all = || all_over(dimensions, FIRST_RUNS * (1 + dimensions));
-    let places = emulator.coarse_optimum().map_or_else(all, |place| vec![place]);
+    let places = match &emulator.coarse_optimum {
+        Some(place) => vec![place.clone()],
+        None => all_over(dimensions, FIRST_RUNS * (1 + dimensions)),
+    };
     match run(problem, &mut emulator, places)? {
         Some(source) if emulator.runs() == 0 => {
             let places = emulator.evaluations();
@@ -48,7 +50,7 @@ pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError>
 /// # Errors
 ///
 /// [`CalibrationError::NotConverged`], [`CalibrationError::EvaluationLimit`], and
-/// [`CalibrationError::PredictionLength`].
+/// [`CalibrationError::Invalid`] for another number of predictions than of observations.
 pub(crate) fn converge(problem: &Problem<'_>, emulator: &mut Emulator) -> Result<Solution, CalibrationError> {
     let mut last: Option<DVector<f64>> = None;
     for _ in 0..ROUNDS {
@@ -105,12 +107,12 @@ fn run(
     let expected = problem.observations.len();
     let run = |place: DVector<f64>| {
         let predicted = match problem.model.predict(&emulator.values(&place)) {
-            Ok(values) if values.len() != expected => {
-                let found = values.len();
-                return Err(CalibrationError::PredictionLength { expected, found });
+            Ok(values) => {
+                CalibrationError::check_count("predictions", values.len(), expected)?;
+                let is_finite = values.iter().all(|value| value.is_finite());
+                let reason = || "a prediction is not a finite number".into();
+                is_finite.then_some(values).ok_or_else(reason)
             }
-            Ok(values) if values.iter().all(|value| value.is_finite()) => Ok(values),
-            Ok(_) => Err("a prediction is not a finite number".into()),
             failed => failed,
         };
         Ok((place, predicted))

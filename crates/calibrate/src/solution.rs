@@ -87,7 +87,7 @@ impl Solution {
             let bounds = points.first().into_iter().chain(points.last());
             supports.extend(bounds.map(|point| support(point, SURE, EXCLUSION * self.wanted)));
             // A coarser model has shown where the others lie.
-            if likelihood.emulator.coarse_optimum().is_none() {
+            if likelihood.emulator.coarse_optimum.is_none() {
                 let low = points.iter().filter(|point| point.root() < HIGH);
                 supports.extend(low.map(|point| support(point, hidden, self.wanted)));
             }
@@ -123,21 +123,17 @@ impl Solution {
         let interval = Interval { lower, upper };
         // Where the model is steepest nowhere near, as at its largest value, only the interval tells how
         // exactly the parameter is known.
-        let half = lower
-            .zip(upper)
-            .map(|(lower, upper)| 0.5 * (upper - lower) / self.wanted);
-        let by_slopes = self
-            .covariance
-            .standard_error(k)
-            .map(|error| error * parameter.slope(free));
+        let width = lower.zip(upper).map(|(lower, upper)| upper - lower);
+        let half = width.map(|width| 0.5 * width / self.wanted);
+        let error = self.covariance.standard_error(k);
+        let by_slopes = error.map(|error| error * parameter.slope(free));
         let by_slopes = by_slopes.filter(|error| half.is_none_or(|half| *error <= 2.0 * half));
         let points = profile
-            .into_iter()
+            .iter()
             .flat_map(|profile| profile.points.iter().chain(&profile.at_ends));
         let finite = points.filter(|point| point.rise.is_finite());
-        let mut curve: Vec<(f64, f64)> = finite
-            .map(|point| (parameter.value(point.point.free[k]), point.rise))
-            .collect();
+        let curve = finite.map(|point| (parameter.value(point.point.free[k]), point.rise));
+        let mut curve: Vec<(f64, f64)> = curve.collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         Estimate {
             name: parameter.name().to_owned(),

@@ -89,8 +89,9 @@ fn parameter(estimate: &Estimate, fitted: &Fitted, suspicious: bool) -> FittedPa
 
 fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
     let (models, options) = (problem.models, problem.options);
-    let mesh = |model: &SeriesModel<'_>| model.levels.mesh(model.level(MeshOf::Answer));
+    let mesh = |model: &SeriesModel| model.levels.mesh(model.level(MeshOf::Answer));
     let meshes = models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
+    let places = models.iter().map(|model| model.rows[0].reading.measured.place());
     let freedom = four_digits(fit.degrees_of_freedom);
     let noise = if fit.noise_estimated {
         format!(", Student's t with {freedom} degrees of freedom")
@@ -103,10 +104,7 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
     });
     Ok(FitMethod {
         cable: models[0].method().to_string(),
-        load_cell: models
-            .iter()
-            .map(|model| model.rows[0].observed.place())
-            .collect(),
+        load_cell: places.collect(),
         node_spacing_m: meshes.iter().map(Mesh::spacing).collect(),
         vehicle_step_m: meshes.iter().map(Mesh::vehicle_step).collect(),
         loss: match options.loss {
@@ -119,7 +117,7 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
 
 fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
     let fit = &found.fit;
-    let fitted = |(k, row): (usize, &Row<'_>)| {
+    let fitted = |(k, row): (usize, &Row)| {
         let (reading, measured) = (row.reading, row.reading.measured);
         let force = |value: f64| matches!(measured, Measured::Force(_)).then_some(value);
         let (fitted, residual) = (fit.fitted[k] + found.difference[k], fit.residuals[k]);
@@ -133,7 +131,7 @@ fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
             run: problem.series[row.series].readings.runs()[reading.run].clone(),
             line: reading.line,
             measured: measured.name(),
-            at: row.observed.place(),
+            at: measured.place(),
             value: reading.value,
             fitted,
             residual,

@@ -71,18 +71,19 @@ pub fn cell_error(
             });
         }
     }
-    Ok(errors
+    let best = errors
         .into_iter()
-        .min_by(|a, b| a.probability.total_cmp(&b.probability)))
+        .min_by(|a, b| a.probability.total_cmp(&b.probability));
+    Ok(best)
 }
 
-fn words((_, observed): Instrument, error: &Fitted, fit: &Fit) -> String {
+fn words((_, measured): Instrument, error: &Fitted, fit: &Fit) -> String {
     let (what, unit) = match error.unknown.quantity {
         Quantity::Drift => ("drift", "N a pass"),
         _ => ("zero offset", "N"),
     };
     let (first, size) = (&fit.estimates[0], fit.values().last().copied().unwrap_or(0.0));
-    let (place, name, value) = (observed.place(), &first.name, first.value);
+    let (place, name, value) = (measured.place(), &first.name, first.value);
     format!(
         "a {what} of the {place} cell of about {size:.2} {unit} would explain them better and make {name} {value:.4}"
     )

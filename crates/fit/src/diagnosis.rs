@@ -9,9 +9,9 @@ use calibrate::{Loss, probability_of_scatter, probability_of_signs, probability_
 use crate::cell_errors::{CellError, cell_error};
 use crate::instrument::Row;
 use crate::meshes::Final;
-use crate::noise::MEDIAN_TO_SIGMA;
+use crate::noise::{MEDIAN_TO_SIGMA, median};
 use crate::problem::Problem;
-use crate::result::LackOfFit;
+use crate::result::{LackOfFit, misses_by};
 use crate::unknown::Quantity;
 use creepage_plan::shown::words_if;
 use creepage_run::Error;
@@ -27,9 +27,6 @@ const CHANCE_OF_ERRORS: f64 = 0.03;
 /// Robust standard deviations from which on a reading is an outlier: of forty, Gaussian noise makes
 /// one in a thousand series.
 const OUTLIER: f64 = 4.5;
-/// R² of a model whose residuals are three times the spread of the readings: it does not follow
-/// them at all, however few they are.
-const MISSED: f64 = -8.0;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
 /// Fewest readings that are judged beside the parameters.
@@ -115,12 +112,6 @@ fn failed_tests(lack: &LackOfFit, errors: &[Option<CellError>; 2], r_squared: Op
     failed.chain(misses_by(r_squared).map(|_| missed)).collect()
 }
 
-/// How many times the spread of the readings the residuals are, if the model does not follow them.
-pub fn misses_by(r_squared: Option<f64>) -> Option<f64> {
-    let missed = r_squared.filter(|explained| *explained < MISSED)?;
-    Some((1.0 - missed).sqrt())
-}
-
 /// What to try where tests fail: to fit the `error` of a cell that would explain the residuals
 /// best, or what else.
 fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -> String {
@@ -159,9 +150,7 @@ fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -
 
 /// Rows whose residual lies far from all others, or which a robust fit left out.
 fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
-    let mut sizes: Vec<f64> = noise.iter().map(|r| r.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let spread = MEDIAN_TO_SIGMA * sizes.get(noise.len() / 2).copied().unwrap_or(0.0);
+    let spread = MEDIAN_TO_SIGMA * median(noise.iter().map(|r| r.abs()));
     let is_far = |&row: &usize| noise[row].abs() > OUTLIER * spread || weights[row] < LEFT_OUT;
     let far: Vec<usize> = (0..noise.len()).filter(is_far).collect();
     // Of so many, they are no outliers: the rest is not what they lie out of. Of few readings none
@@ -172,7 +161,7 @@ fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
 
 /// Residuals of each run and instrument, or of all that have one reading, in the order of the
 /// passes.
-fn sequences(rows: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
+fn sequences(rows: &[Row], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
     let group_of = |row: usize| (rows[row].instrument(), rows[row].reading.run);
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for &row in judged {
@@ -193,7 +182,7 @@ fn sequences(rows: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>>
 }
 
 /// The outliers by pass and line.
-fn outlier_words(rows: &[Row<'_>], outliers: &[usize], is_robust: bool) -> String {
+fn outlier_words(rows: &[Row], outliers: &[usize], is_robust: bool) -> String {
     let several = rows.iter().any(|row| row.series > 0);
     let one = |&row: &usize| {
         let (reading, of_series) = (rows[row].reading, format!(" of series {}", rows[row].series + 1));

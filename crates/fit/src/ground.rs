@@ -15,11 +15,8 @@ const SHOWN: f64 = 3.0;
 /// where the ground is fitted.
 pub fn assumption(problem: &Problem<'_>, found: &Final) -> Result<Option<String>, Error> {
     let (fitted, fit) = (problem.of_model(), &found.fit);
-    let quantities = fitted.iter().map(|fitted| fitted.unknown.quantity);
-    if quantities
-        .into_iter()
-        .any(|quantity| quantity == Quantity::GroundStiffness)
-    {
+    let mut quantities = fitted.iter().map(|fitted| fitted.unknown.quantity);
+    if quantities.any(|quantity| quantity == Quantity::GroundStiffness) {
         return Ok(None);
     }
     // A difference of a tenth needs no fine mesh.

@@ -30,96 +30,73 @@ fn end_but(scene: &Scene, held: End) -> Option<CableEnd> {
 ///
 /// [`Error`] where a reading is of an end that the scene does not hold, or of no place in the duct.
 pub fn force_ends(scene: &Scene, readings: &Readings) -> Result<Vec<Option<CableEnd>>, Error> {
-    let end = |reading: &Reading| match Observed::of(scene, reading.measured)? {
-        Observed::Force(end) => Ok(Some(end)),
+    let end = |reading: &Reading| match located(scene, reading.measured)? {
+        Measured::Force(Place::End(end)) => Ok(Some(end)),
         _ => Ok(None),
     };
     readings.readings().iter().map(end).collect()
 }
 
-/// What a reading is compared with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Observed {
-    /// Force on an end.
-    Force(CableEnd),
-    /// Movement of an end.
-    Movement(CableEnd),
-    /// Force in the cable at x \[m\].
-    ForceAt(f64),
-    /// Strain of the cable at x \[m\].
-    StrainAt(f64),
-    /// Deflection of the duct.
-    Deflection,
+/// What was measured, and where in `scene`: forces and movements at an end, forces and strains at a
+/// distance from the upstream one.
+pub fn located(scene: &Scene, measured: Measured) -> Result<Measured, Error> {
+    let length = scene.duct.length;
+    let x = |end: CableEnd| end.of([0.0, length]);
+    let inside = |x: f64| {
+        if (0.0..=length).contains(&x) {
+            return Ok(Place::At(x));
+        }
+        let reason = format!("it was taken at {x} m of {length} m");
+        Err(Error::unfit("duct.length", "a reading outside the duct", reason))
+    };
+    let located = match measured {
+        Measured::Force(Place::Natural) => Measured::Force(Place::End(held_end(scene)?)),
+        Measured::Force(Place::End(end)) if end.held_in(scene) == End::Free => {
+            let key = end.of(["ends.upstream", "ends.downstream"]);
+            let reason = "readings of a load cell at this end: it was held";
+            return Err(Error::unfit(key, "free", reason));
+        }
+        Measured::Force(Place::At(x)) => Measured::Force(inside(x)?),
+        Measured::Movement(Place::Natural) => {
+            let reason = "an end that moved is free or on a spring";
+            let fixed = || Error::unfit("ends", "both fixed", reason);
+            Measured::Movement(Place::End(end_but(scene, End::Fixed).ok_or_else(fixed)?))
+        }
+        Measured::Movement(Place::At(place)) => {
+            let (found, reason) = ("a movement between the ends", "movements are those of an end");
+            let end = CableEnd::ALL.into_iter().find(|end| x(*end) == place);
+            Measured::Movement(Place::End(
+                end.ok_or_else(|| Error::unfit("data", found, reason))?,
+            ))
+        }
+        Measured::Strain(Place::Natural) => Measured::Strain(Place::At(x(held_end(scene)?))),
+        Measured::Strain(Place::End(end)) => Measured::Strain(Place::At(x(end))),
+        Measured::Strain(Place::At(x)) => Measured::Strain(inside(x)?),
+        Measured::Force(_) | Measured::Movement(_) | Measured::Deflection => measured,
+    };
+    Ok(located)
 }
 
-impl Observed {
-    pub fn of(scene: &Scene, measured: Measured) -> Result<Self, Error> {
-        let length = scene.duct.length;
-        let x = |end: CableEnd| end.of([0.0, length]);
-        let inside = |place: f64| {
-            if (0.0..=length).contains(&place) {
-                return Ok(place);
-            }
-            let reason = format!("it was taken at {place} m of {length} m");
-            Err(Error::unfit("duct.length", "a reading outside the duct", reason))
-        };
-        match measured {
-            Measured::Force(Place::Natural) => held_end(scene).map(Self::Force),
-            Measured::Force(Place::End(end)) if end.held_in(scene) == End::Free => {
-                let reason = "readings of a load cell at this end: it was held";
-                let key = end.of(["ends.upstream", "ends.downstream"]);
-                Err(Error::unfit(key, "free", reason))
-            }
-            Measured::Force(Place::End(end)) => Ok(Self::Force(end)),
-            Measured::Force(Place::At(place)) => inside(place).map(Self::ForceAt),
-            Measured::Movement(Place::Natural) => {
-                let reason = "an end that moved is free or on a spring";
-                let end = end_but(scene, End::Fixed).map(Self::Movement);
-                end.ok_or_else(|| Error::unfit("ends", "both fixed", reason))
-            }
-            Measured::Movement(Place::End(end)) => Ok(Self::Movement(end)),
-            Measured::Movement(Place::At(place)) => {
-                let reason = "movements are those of an end";
-                let end = CableEnd::ALL.into_iter().find(|end| x(*end) == place);
-                let between = || Error::unfit("data", "a movement between the ends", reason);
-                end.map(Self::Movement).ok_or_else(between)
-            }
-            Measured::Strain(Place::Natural) => Ok(Self::StrainAt(x(held_end(scene)?))),
-            Measured::Strain(Place::End(end)) => Ok(Self::StrainAt(x(end))),
-            Measured::Strain(Place::At(place)) => inside(place).map(Self::StrainAt),
-            Measured::Deflection => Ok(Self::Deflection),
+/// What an instrument shows after a pass with this outcome; `stage` is known where the force along
+/// the cable is looked at.
+pub fn shown(
+    measured: Measured,
+    scene: &Scene,
+    outcome: &PassOutcome,
+    stage: Option<&Stage>,
+    deflection: f64,
+) -> f64 {
+    let force = |place| stage.map_or(f64::NAN, |stage| force_at(&stage.force_profile, place));
+    match measured {
+        Measured::Force(Place::End(end)) => end.of([outcome.force.upstream, outcome.force.downstream]),
+        Measured::Force(Place::At(x)) => force(x),
+        Measured::Movement(Place::End(end)) => {
+            end.of([outcome.upstream_displacement, outcome.downstream_displacement])
         }
-    }
-
-    /// Whether it is a force, as a load cell reads it.
-    pub fn is_force(self) -> bool {
-        matches!(self, Self::Force(_) | Self::ForceAt(_))
-    }
-
-    /// Whether it takes the force along the cable.
-    pub fn is_inside(self) -> bool {
-        matches!(self, Self::ForceAt(_) | Self::StrainAt(_))
-    }
-
-    /// Where, in words.
-    pub fn place(self) -> String {
-        match self {
-            Self::Force(end) | Self::Movement(end) => end.name().into(),
-            Self::ForceAt(place) | Self::StrainAt(place) => format!("{place} m"),
-            Self::Deflection => "first vehicle".into(),
-        }
-    }
-
-    /// Its value after a pass with this outcome, `stage` of which is known where it is looked at.
-    pub fn value(self, scene: &Scene, outcome: &PassOutcome, stage: Option<&Stage>, deflection: f64) -> f64 {
-        let force = |place| stage.map_or(f64::NAN, |stage| force_at(&stage.force_profile, place));
-        match self {
-            Self::Force(end) => end.of([outcome.force.upstream, outcome.force.downstream]),
-            Self::Movement(end) => end.of([outcome.upstream_displacement, outcome.downstream_displacement]),
-            Self::ForceAt(place) => force(place),
-            Self::StrainAt(place) => force(place) / scene.cable.axial_stiffness,
-            Self::Deflection => deflection,
-        }
+        Measured::Strain(Place::At(x)) => force(x) / scene.cable.axial_stiffness,
+        Measured::Deflection => deflection,
+        // Of nothing that is located.
+        Measured::Force(_) | Measured::Movement(_) | Measured::Strain(_) => f64::NAN,
     }
 }
 
@@ -137,26 +114,25 @@ fn force_at(profile: &ForceProfile, place: f64) -> f64 {
     }
 }
 
-/// A reading and what it is compared with.
+/// A reading with the place that it has in the scene of its series.
 #[derive(Clone, Copy)]
-pub struct Row<'a> {
+pub struct Row {
     /// Index of its series.
     pub series: usize,
-    pub reading: &'a Reading,
-    pub observed: Observed,
+    pub reading: Reading,
 }
 
-/// The instrument of a series that a reading is of.
-pub type Instrument = (usize, Observed);
+/// What a reading of a series is of.
+pub type Instrument = (usize, Measured);
 
-impl Row<'_> {
+impl Row {
     pub fn instrument(&self) -> Instrument {
-        (self.series, self.observed)
+        (self.series, self.reading.measured)
     }
 }
 
 /// All instruments, each once.
-pub fn instruments(rows: &[Row<'_>]) -> Vec<Instrument> {
+pub fn instruments(rows: &[Row]) -> Vec<Instrument> {
     let mut instruments = Vec::new();
     for row in rows {
         if !instruments.contains(&row.instrument()) {

@@ -4,6 +4,7 @@ mod answer;
 mod cell_errors;
 mod diagnosis;
 mod discrepancy;
+mod error;
 mod ground;
 mod instrument;
 mod meshes;
@@ -72,16 +73,15 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
 }
 
 fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
-    let unknowns = parameters::unknowns(series, options)?;
     let models = series.iter().enumerate();
     let models = models.map(|(index, one)| SeriesModel::new(index, one));
     let models = models.collect::<Result<Vec<_>, _>>()?;
-    let rows: Vec<Row<'_>> = models.iter().flat_map(|model| model.rows.clone()).collect();
+    let rows: Vec<Row> = models.iter().flat_map(|model| model.rows.clone()).collect();
     let problem = Problem {
         series,
         models: &models,
         rows: &rows,
-        fitted: &parameters::parameters(unknowns, &models, &rows, options)?,
+        fitted: &parameters::parameters(series, &models, &rows, options)?,
         options,
         limit: match options.max_evaluations {
             0 => calibrate::Options::default().max_evaluations,

@@ -1,8 +1,10 @@
 //! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
 
-use crate::instrument::{Observed, instruments};
+use crate::instrument::instruments;
 use crate::model::MeshOf;
+use crate::noise::median;
 use crate::problem::Problem;
+use crate::readings::{Measured, Place};
 use creepage_run::Error;
 
 /// Share of the forces of one sign that makes it the sign of all: a few near zero may have either
@@ -17,7 +19,7 @@ pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
     let expected = problem.predict(MeshOf::Guess, 1.0, &problem.scene_values())?;
     let mut mistakes = Vec::new();
     for instrument in instruments(problem.rows) {
-        if let Observed::Force(end) = instrument.1 {
+        if let Measured::Force(Place::End(end)) = instrument.1 {
             // The zero reading has no sign and no size.
             let pairs = problem.rows.iter().zip(&expected);
             let own = pairs.filter(|(row, _)| row.instrument() == instrument && row.reading.passes > 0);
@@ -33,14 +35,9 @@ pub fn of_forces(place: &str, both: &[(f64, f64)]) -> Vec<String> {
     let negative = |of: fn(&(f64, f64)) -> f64| {
         both.iter().filter(|pair| of(pair) < 0.0).count() as f64 / both.len().max(1) as f64
     };
-    let middle = |of: fn(&(f64, f64)) -> f64| {
-        let mut sizes: Vec<f64> = both.iter().map(|pair| of(pair).abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
-    };
     let (found, wanted) = (negative(|pair| pair.0), negative(|pair| pair.1));
     let all = if found == 1.0 { "all" } else { "nearly all" };
-    let ratio = middle(|pair| pair.0) / middle(|pair| pair.1);
+    let ratio = median(both.iter().map(|pair| pair.0.abs())) / median(both.iter().map(|pair| pair.1.abs()));
     let is_thousand = |ratio: f64| (THOUSAND.0..THOUSAND.1).contains(&ratio);
     let at = format!("forces at the {place} end are");
     let mut mistakes = Vec::new();

@@ -10,8 +10,9 @@ use std::sync::Arc;
 use cycle_jump::Guide;
 use ground_field::DuctMotion;
 
-use crate::instrument::{Observed, Row};
+use crate::instrument::{Row, located, shown};
 use crate::options::Series;
+use crate::readings::{Measured, Place, Reading};
 use creepage_plan::ground::Ground;
 use creepage_plan::{Levels, Period, plan};
 use creepage_run::{
@@ -48,7 +49,7 @@ pub enum MeshOf {
 }
 
 /// One series, ready to be predicted.
-pub struct SeriesModel<'a> {
+pub struct SeriesModel {
     pub scene: Scene,
     pub ground: Arc<Ground>,
     method: SolverMethod,
@@ -56,24 +57,25 @@ pub struct SeriesModel<'a> {
     /// The traffic's period and the jumps over it, where not every pass is simulated.
     jumps: Option<(Period, Vec<u64>)>,
     /// The readings, in their order.
-    pub rows: Vec<Row<'a>>,
+    pub rows: Vec<Row>,
     /// Passes at which the force along the cable is looked at, and all that are read.
     stages: Vec<u64>,
     wanted: Vec<u64>,
 }
 
-impl<'a> SeriesModel<'a> {
+impl SeriesModel {
     /// Of the series with this index.
-    pub fn new(index: usize, series: &Series<'a>) -> Result<Self, Error> {
+    pub fn new(index: usize, series: &Series<'_>) -> Result<Self, Error> {
         if series.scene.warming().is_some() {
             let reason = "a fit follows passes, not days of heat: leave [heat] out, and readings at which the cable was warm";
             return Err(Error::unfit("heat", "a heated cable", reason));
         }
-        let row = |reading| {
+        let row = |reading: &Reading| {
+            let measured = located(series.scene, reading.measured)?;
+            let reading = Reading { measured, ..*reading };
             Ok(Row {
                 series: index,
                 reading,
-                observed: Observed::of(series.scene, reading.measured)?,
             })
         };
         let rows = series.readings.readings().iter().map(row);
@@ -91,7 +93,7 @@ impl<'a> SeriesModel<'a> {
             method,
             levels,
             jumps: None,
-            stages: passes(rows.iter().filter(|row| row.observed.is_inside())),
+            stages: passes(rows.iter().filter(|row| is_inside(row))),
             wanted: passes(rows.iter().filter(|row| row.reading.passes > 0)),
             rows,
         };
@@ -135,18 +137,21 @@ impl<'a> SeriesModel<'a> {
             None => task.every_pass()?,
         };
         let deflection = self.ground.motions[0].peak_vertical() / stiffness;
-        let value = |&Row {
-                         reading, observed, ..
-                     }: &Row<'_>| {
-            if reading.passes == 0 && observed != Observed::Deflection {
+        let value = |&Row { reading, .. }: &Row| {
+            if reading.passes == 0 && reading.measured != Measured::Deflection {
                 // At rest.
                 return 0.0;
             }
-            let place = passes
-                .records
-                .partition_point(|record| record.pass < reading.passes);
+            let records = &passes.records;
+            let place = records.partition_point(|record| record.pass < reading.passes);
             let stage = passes.stages.iter().find(|stage| stage.pass == reading.passes);
-            observed.value(scene, &passes.records[place].outcome, stage, deflection)
+            shown(
+                reading.measured,
+                scene,
+                &records[place].outcome,
+                stage,
+                deflection,
+            )
         };
         Ok(self.rows.iter().map(value).collect())
     }
@@ -169,8 +174,14 @@ impl<'a> SeriesModel<'a> {
     }
 }
 
+/// Whether it takes the force along the cable.
+fn is_inside(row: &Row) -> bool {
+    use Measured::{Force, Strain};
+    matches!(row.reading.measured, Force(Place::At(_)) | Strain(_))
+}
+
 /// The passes of these readings, each once, in order.
-fn passes<'r>(rows: impl Iterator<Item = &'r Row<'r>>) -> Vec<u64> {
+fn passes<'r>(rows: impl Iterator<Item = &'r Row>) -> Vec<u64> {
     let passes: BTreeSet<u64> = rows.map(|row| row.reading.passes).collect();
     passes.into_iter().collect()
 }

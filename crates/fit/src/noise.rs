@@ -10,7 +10,7 @@ const LEAST: f64 = 1e-3;
 
 /// Standard deviations that weigh readings of several kinds against each other; `None` where all
 /// are of one kind.
-pub fn relative_sigmas(rows: &[Row<'_>]) -> Option<Vec<f64>> {
+pub fn relative_sigmas(rows: &[Row]) -> Option<Vec<f64>> {
     let first = rows.first()?.reading.measured;
     if rows.iter().all(|row| row.reading.measured.is_like(first)) {
         return None;
@@ -21,25 +21,28 @@ pub fn relative_sigmas(rows: &[Row<'_>]) -> Option<Vec<f64>> {
 /// Noise of what is like `measured`: by how far each reading lies off the line between its
 /// neighbours (T. Gasser, L. Sroka, C. Jennen-Steinmetz, "Residual variance and residual pattern in
 /// nonlinear regression", Biometrika 73, 1986).
-fn noise(rows: &[Row<'_>], measured: Measured) -> f64 {
-    let is_like = |row: &&Row<'_>| row.reading.measured.is_like(measured);
-    let mut like: Vec<&Row<'_>> = rows.iter().filter(is_like).collect();
+fn noise(rows: &[Row], measured: Measured) -> f64 {
+    let is_like = |row: &&Row| row.reading.measured.is_like(measured);
+    let mut like: Vec<&Row> = rows.iter().filter(is_like).collect();
     like.sort_by_key(|row| (row.series, row.reading.run, row.reading.passes));
-    let largest = like
-        .iter()
-        .fold(0.0_f64, |most, row| most.max(row.reading.value.abs()));
-    let group = |row: &Row<'_>| (row.instrument(), row.reading.run);
+    let sizes = like.iter().map(|row| row.reading.value.abs());
+    let largest = sizes.fold(0.0, f64::max);
+    let group = |row: &Row| (row.instrument(), row.reading.run);
     let threes = like.windows(3).filter(|three| group(three[0]) == group(three[2]));
-    let mut off: Vec<f64> = threes.map(off_line).collect();
-    off.sort_by(f64::total_cmp);
-    let median = off.get(off.len() / 2).copied().unwrap_or(0.0);
     let least = (LEAST * largest).max(f64::MIN_POSITIVE);
-    least.max(MEDIAN_TO_SIGMA * median)
+    least.max(MEDIAN_TO_SIGMA * median(threes.map(off_line)))
+}
+
+/// The median of some numbers, the higher of two; 0 of none.
+pub fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// How far the second of three readings lies off the line between the others, in standard
 /// deviations of that distance.
-fn off_line(three: &[&Row<'_>]) -> f64 {
+fn off_line(three: &[&Row]) -> f64 {
     let point = |k: usize| (three[k].reading.passes as f64, three[k].reading.value);
     let [before, here, after] = [0, 1, 2].map(point);
     let width = after.0 - before.0;

@@ -4,9 +4,9 @@
 //! Friction along the whole duct, with the largest coefficient that is considered, and the weight
 //! along its slope bound the force in a cable without heat: F ≤ (μ N′ + |p|) L.
 
-use crate::instrument::Observed;
+use crate::instrument::located;
 use crate::options::Series;
-use crate::readings::{Reading, Readings};
+use crate::readings::{Measured, Reading, Readings};
 use crate::unknown::Quantity;
 use creepage_scene::{Scene, four_digits};
 
@@ -26,8 +26,8 @@ fn largest_force(scene: &Scene) -> f64 {
 pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
     let (scene, most) = (one.scene, largest_force(one.scene));
     let instrument = |reading: &Reading| {
-        let observed = Observed::of(scene, reading.measured).ok();
-        observed.filter(|observed| observed.is_force())
+        let located = located(scene, reading.measured).ok();
+        located.filter(|measured| matches!(measured, Measured::Force(_)))
     };
     let is_large = |reading: &Reading| reading.value.abs() > most;
     let list = || one.readings.readings().iter();

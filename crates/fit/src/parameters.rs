@@ -5,10 +5,11 @@
 
 use calibrate::{Loss, Parameter, Prior, Scale};
 
+use crate::error::study;
 use crate::instrument::{Instrument, Row, instruments};
 use crate::model::SeriesModel;
-use crate::options::{CalibrateOptions, Series};
-use crate::problem::study;
+use crate::options::{CalibrateOptions, Deflection, Series};
+use crate::readings::Measured;
 use crate::unknown::{Quantity, Unknown};
 use creepage_plan::shown::words_if;
 use creepage_run::Error;
@@ -28,8 +29,8 @@ pub struct Fitted {
     pub parameter: Parameter,
 }
 
-/// What is asked for, checked against the scenes.
-pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
+/// What is asked for, checked against the scenes, errors of cells last.
+fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
     if series.is_empty() {
         return Err(Error::unfit("series", "none", "there is nothing to fit"));
     }
@@ -49,18 +50,7 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
     for unknown in &unknowns {
         check(*unknown, series)?;
     }
-    if let [only] = series {
-        // What has a prior needs no reading.
-        let has_prior = |unknown: &Unknown| {
-            unknown.quantity.is_of_cell() || (options.deflection.is_some() && *unknown == GROUND)
-        };
-        let free = unknowns.iter().filter(|unknown| !has_prior(unknown)).count();
-        let needed = match only.readings.sigmas() {
-            Some(_) => free.max(1),
-            None => (free + 1).max(2),
-        };
-        only.readings.check_count(unknowns.len(), needed)?;
-    }
+    unknowns.sort_by_key(|unknown| unknown.quantity.is_of_cell());
     Ok(unknowns)
 }
 
@@ -96,50 +86,57 @@ fn is_coulomb(unknown: Unknown, series: &[Series<'_>]) -> bool {
     scenes_of(unknown, series).any(|scene| scene.friction.law() == FrictionLaw::Coulomb)
 }
 
-/// The parameters of `unknowns`: those of friction and ground first, then an error of each load
+/// The parameters that are asked for: those of friction and ground first, then an error of each load
 /// cell.
 pub fn parameters(
-    unknowns: Vec<Unknown>,
-    models: &[SeriesModel<'_>],
-    rows: &[Row<'_>],
+    series: &[Series<'_>],
+    models: &[SeriesModel],
+    rows: &[Row],
     options: &CalibrateOptions<'_>,
 ) -> Result<Vec<Fitted>, Error> {
-    let (of_cells, of_model): (Vec<Unknown>, Vec<Unknown>) = unknowns
-        .into_iter()
-        .partition(|unknown| unknown.quantity.is_of_cell());
     let mut fitted = Vec::new();
-    for unknown in of_model {
-        let (lower, upper) = unknown.quantity.bounds();
-        let parameter = Parameter::new(&unknown.to_string(), lower, upper, Scale::Logarithmic);
-        let mut parameter = parameter.map_err(study)?;
-        if let Some(deflection) = options.deflection.filter(|_| unknown == GROUND) {
-            // The deflection is inversely proportional to the stiffness.
-            let prior = Prior {
-                value: models[0].ground.motions[0].peak_vertical() / deflection.value,
-                sigma: deflection.sigma / deflection.value,
-            };
-            parameter = parameter.with_prior(prior).map_err(study)?;
+    for unknown in unknowns(series, options)? {
+        if !unknown.quantity.is_of_cell() {
+            fitted.push(of_model(unknown, models, options)?);
+            continue;
         }
-        fitted.push(Fitted { unknown, parameter });
-    }
-    let cells = cells(rows);
-    for unknown in of_cells {
-        let mut own = cells.iter().filter(|cell| unknown.acts_on(cell.0)).peekable();
-        if own.peek().is_none() {
+        let mut cells = cells(rows);
+        cells.retain(|(series, _)| unknown.acts_on(*series));
+        if cells.is_empty() {
             let reason = "there are no forces among the readings";
             return Err(Error::unfit("fit", "an error of a load cell", reason));
         }
-        for cell in own {
-            fitted.push(error_of(*cell, unknown.quantity, rows, options)?);
+        for cell in cells {
+            fitted.push(error_of(cell, unknown.quantity, rows, options)?);
         }
     }
     Ok(fitted)
 }
 
+/// A parameter of friction or ground, with what a measured deflection says of the stiffness: both
+/// are inversely proportional.
+fn of_model(
+    unknown: Unknown,
+    models: &[SeriesModel],
+    options: &CalibrateOptions<'_>,
+) -> Result<Fitted, Error> {
+    let (lower, upper) = unknown.quantity.bounds();
+    let mut parameter = Parameter::new(&unknown.to_string(), lower, upper, Scale::Logarithmic);
+    if let Some(Deflection { value, sigma }) = options.deflection.filter(|_| unknown == GROUND) {
+        let prior = Prior {
+            value: models[0].ground.motions[0].peak_vertical() / value,
+            sigma: sigma / value,
+        };
+        parameter = parameter.and_then(|parameter| parameter.with_prior(prior));
+    }
+    let parameter = parameter.map_err(study)?;
+    Ok(Fitted { unknown, parameter })
+}
+
 /// The load cells of all series.
-pub fn cells(rows: &[Row<'_>]) -> Vec<Instrument> {
+pub fn cells(rows: &[Row]) -> Vec<Instrument> {
     let mut cells = instruments(rows);
-    cells.retain(|(_, observed)| observed.is_force());
+    cells.retain(|(_, measured)| matches!(measured, Measured::Force(_)));
     cells
 }
 
@@ -148,7 +145,7 @@ pub fn cells(rows: &[Row<'_>]) -> Vec<Instrument> {
 pub fn error_of(
     cell: Instrument,
     quantity: Quantity,
-    rows: &[Row<'_>],
+    rows: &[Row],
     options: &CalibrateOptions<'_>,
 ) -> Result<Fitted, Error> {
     let own = || rows.iter().filter(|row| row.instrument() == cell);
@@ -160,9 +157,10 @@ pub fn error_of(
     } else {
         (options.zero_offset_sigma, ERROR * largest)
     };
-    let entry = |row: &Row<'_>| match row.instrument() == cell {
-        true if is_drift => row.reading.passes as f64,
-        is_own => f64::from(u8::from(is_own)),
+    let entry = |row: &Row| match row.reading.passes {
+        _ if row.instrument() != cell => 0.0,
+        passes if is_drift => passes as f64,
+        _ => 1.0,
     };
     let column: Vec<f64> = rows.iter().map(entry).collect();
     let of_series = format!("_{}", cell.0 + 1);

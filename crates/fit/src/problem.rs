@@ -6,6 +6,7 @@ use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError,
 use rayon::prelude::*;
 
 use crate::discrepancy::discrepancy;
+use crate::error::study;
 use crate::instrument::Row;
 use crate::model::{MeshOf, SeriesModel};
 use crate::noise::relative_sigmas;
@@ -20,20 +21,12 @@ use creepage_run::Error;
 /// on four meshes.
 const RIPPLE: f64 = 0.02;
 
-/// What the statistics cannot do.
-pub fn study(error: CalibrationError) -> Error {
-    Error::Study {
-        is_bad_input: error.is_bad_input(),
-        error: error.into(),
-    }
-}
-
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
     pub series: &'a [Series<'a>],
-    pub models: &'a [SeriesModel<'a>],
+    pub models: &'a [SeriesModel],
     /// All readings.
-    pub rows: &'a [Row<'a>],
+    pub rows: &'a [Row],
     /// What is fitted: of friction and ground first, then of the load cells.
     pub fitted: &'a [Fitted],
     pub options: &'a CalibrateOptions<'a>,
@@ -117,11 +110,9 @@ impl Problem<'_> {
     }
 
     fn statistics(&self, way: &Way<'_>) -> Options {
-        let level = |model: &SeriesModel<'_>| model.levels.fineness(model.level(way.mesh));
-        let errors = self
-            .models
-            .iter()
-            .map(|model| Levels::typical_error(level(model)));
+        let level = |model: &SeriesModel| model.levels.fineness(model.level(way.mesh));
+        let models = self.models.iter();
+        let errors = models.map(|model| Levels::typical_error(level(model)));
         let mut options = Options::default();
         options.loss = self.options.loss;
         options.max_evaluations = way.runs.max(1);
@@ -145,10 +136,8 @@ impl Problem<'_> {
     fn count_run(&self) -> Result<(), Error> {
         self.check_stopped()?;
         let runs = self.runs.count.fetch_add(1, Ordering::Relaxed) + 1;
-        let reported = self
-            .options
-            .progress
-            .report((runs as f64 / self.limit as f64).min(1.0));
+        let share = (runs as f64 / self.limit as f64).min(1.0);
+        let reported = self.options.progress.report(share);
         self.runs.stopped.fetch_or(reported.is_err(), Ordering::Relaxed);
         reported
     }
@@ -167,7 +156,7 @@ struct OnMesh<'a>(&'a Problem<'a>, MeshOf, f64);
 impl Model for OnMesh<'_> {
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
         let &Self(problem, mesh, stiffness) = self;
-        let of_series = |(index, series): (usize, &SeriesModel<'_>)| {
+        let of_series = |(index, series): (usize, &SeriesModel)| {
             let (mut scene, mut stiffness) = (series.scene.clone(), stiffness);
             for (Fitted { unknown, .. }, &value) in problem.fitted.iter().zip(parameters) {
                 if unknown.acts_on(index) {
@@ -187,7 +176,7 @@ impl Model for OnMesh<'_> {
 
     fn parts(&self) -> Vec<Part> {
         let fitted = self.0.of_model();
-        let of_series = |(index, series): (usize, &SeriesModel<'_>)| {
+        let of_series = |(index, series): (usize, &SeriesModel)| {
             let acts = |&k: &usize| fitted[k].unknown.acts_on(index);
             Part {
                 predictions: series.rows.len(),

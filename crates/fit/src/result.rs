@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::diagnosis::misses_by;
 use creepage_plan::finite;
 
 /// A calibrated scene.
@@ -40,8 +39,19 @@ pub struct Calibrated {
     pub fit: Vec<FittedReading>,
 }
 
+/// R² of a model whose residuals are three times the spread of the readings: it does not follow
+/// them at all, however few they are.
+const MISSED: f64 = -8.0;
+
+/// How many times the spread of the readings the residuals are, if the model does not follow them.
+pub fn misses_by(r_squared: Option<f64>) -> Option<f64> {
+    let missed = r_squared.filter(|explained| *explained < MISSED)?;
+    Some((1.0 - missed).sqrt())
+}
+
 impl Calibrated {
-    /// How many times their spread the model misses the readings by, if it does not follow them at all.
+    /// How many times their spread the model misses the readings by, if it does not follow them at
+    /// all.
     pub fn misses_by(&self) -> Option<f64> {
         misses_by(self.r_squared)
     }

@@ -1,6 +1,5 @@
 //! Readings, in the order of their file.
 
-use super::DataError;
 use super::reading::Reading;
 
 /// Readings of one scene, in the order of the file.
@@ -15,30 +14,12 @@ use super::reading::Reading;
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Readings {
-    pub(super) file: String,
     pub(super) list: Vec<Reading>,
     pub(super) runs: Vec<String>,
     pub(super) notes: Vec<String>,
 }
 
 impl Readings {
-    /// Makes sure that there are at least `needed` readings for this number of parameters.
-    ///
-    /// # Errors
-    ///
-    /// [`DataError::Line`].
-    pub fn check_count(&self, parameters: usize, needed: usize) -> Result<(), DataError> {
-        if self.list.len() >= needed {
-            return Ok(());
-        }
-        let line = self.list.last().map_or(0, |reading| reading.line);
-        let found = format!("too few readings: {}", self.list.len());
-        let allowed = format!(
-            "{needed} or more to fit this ({parameters} parameters); the zero before the first pass counts, as pass 0"
-        );
-        Err(DataError::line(&self.file, line, found, allowed))
-    }
-
     /// The readings, in the order of the file.
     pub fn readings(&self) -> &[Reading] {
         &self.list
@@ -81,7 +62,6 @@ impl Readings {
 impl FromIterator<Reading> for Readings {
     fn from_iter<I: IntoIterator<Item = Reading>>(readings: I) -> Self {
         Self {
-            file: "readings".into(),
             list: readings.into_iter().collect(),
             runs: vec![String::new()],
             ..Self::default()

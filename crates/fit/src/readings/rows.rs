@@ -60,10 +60,7 @@ fn given(row: &Row, column: Option<usize>) -> Option<usize> {
 
 impl Columns<'_> {
     fn readings(&self) -> Result<Readings, DataError> {
-        let mut readings = Readings {
-            file: self.table.file.clone(),
-            ..Readings::default()
-        };
+        let mut readings = Readings::default();
         // Vehicles of each run so far; rows without a value, and what stands there.
         let mut counted: Vec<u64> = Vec::new();
         let (mut blank, mut unusable) = (Vec::new(), Vec::new());
