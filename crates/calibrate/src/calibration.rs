@@ -40,7 +40,7 @@ impl<'a> Calibration<'a> {
                 CalibrationError::check_count(&what, column.len(), observations.len())?;
             }
         }
-        check_each("value", &observations, "finite", |value| value.is_finite())?;
+        check_each("value", &observations, "finite", f64::is_finite)?;
         Ok(Self {
             problem: Problem {
                 model,
@@ -132,27 +132,8 @@ impl<'a> Calibration<'a> {
         self
     }
 
-    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it.
-    ///
-    /// ```
-    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
-    ///
-    /// let passes = [5.0, 10.0, 20.0, 40.0, 80.0];
-    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
-    ///     Ok(passes.iter().map(|n: &f64| p[0] * (1.0 - (-n / p[1]).exp())).collect())
-    /// };
-    /// let parameters = vec![
-    ///     Parameter::new("saturated_force", 100.0, 2000.0, Scale::Logarithmic)?,
-    ///     Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
-    /// ];
-    /// let calibration = Calibration::new(&model, parameters, vec![124.0, 214.0, 351.0, 472.0, 541.0])?;
-    /// let fit = calibration.fit()?;
-    /// assert!(fit.estimates[0].interval.contains(550.0));
-    /// // What was learned of the model serves other fits.
-    /// let again = calibration.with_emulator(fit.emulator.clone()).fit()?;
-    /// assert!(again.evaluations <= fit.evaluations + 3);
-    /// # Ok::<(), calibrate::CalibrationError>(())
-    /// ```
+    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was learned
+    /// of it, [`Fit::emulator`], serves other fits.
     ///
     /// # Errors
     ///

@@ -145,7 +145,7 @@ fn warnings(problem: &Problem<'_>, solution: &Solution, estimates: &[Estimate]) 
     // An interval that is open says more than another minimum does.
     let closed = estimates.iter().all(|estimate| estimate.identifiable);
     warnings.extend(solution.rival().filter(|_| closed).map(|rival| {
-        let pairs = problem.parameters.iter().take(problem.asked).zip(&rival.free);
+        let pairs = problem.parameters.iter().take(problem.asked).zip(rival);
         Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(z)).collect())
     }));
     warnings

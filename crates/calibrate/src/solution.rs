@@ -49,12 +49,8 @@ impl Solution {
             others,
             wanted,
         };
-        let count = if problem.options.profiles {
-            problem.asked
-        } else {
-            0
-        };
-        let profiles = profiler.profiles(count)?;
+        let count = Some(problem.asked).filter(|_| problem.options.profiles);
+        let profiles = profiler.profiles(count.unwrap_or(0))?;
         Ok(Self {
             optimum,
             covariance,
@@ -69,7 +65,7 @@ impl Solution {
         let points = self.profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
         let is_lower = lowest.rise < -settled(problem, &self.optimum).max(BETTER);
-        is_lower.then_some(&lowest.point.free)
+        is_lower.then_some(&lowest.free)
     }
 
     /// Places on which it rests, each with the standard error of all readings together up to which the emulator
@@ -79,7 +75,7 @@ impl Solution {
         let hidden = HIDDEN.max(noise(likelihood.problem, &self.optimum).sqrt());
         let support = |point: &ProfilePoint, least: f64, threshold: f64| {
             let allowed = least.max(0.25 * (point.root() - threshold).abs());
-            (likelihood.place(&point.point.free), allowed)
+            (likelihood.place(&point.free), allowed)
         };
         let mut supports = Vec::new();
         for Profile { points, at_ends, .. } in &self.profiles {
@@ -97,17 +93,17 @@ impl Solution {
 
     /// The lowest place that an interval holds beyond some that fit worse, where a parameter fits about as
     /// well.
-    pub fn rival(&self) -> Option<&Point> {
+    pub fn rival(&self) -> Option<&DVector<f64>> {
         let mut rivals = Vec::new();
         for (k, profile) in self.profiles.iter().enumerate() {
-            let is_below = |point: &ProfilePoint| point.point.free[k] < self.optimum.point.free[k];
+            let is_below = |point: &ProfilePoint| point.free[k] < self.optimum.point.free[k];
             let inside = |point: &&ProfilePoint| point.root() < self.wanted;
             let (below, above) = profile.points.split_at(profile.points.partition_point(is_below));
             rivals.extend(below.iter().rev().skip_while(inside).filter(inside));
             rivals.extend(above.iter().skip_while(inside).filter(inside));
         }
         let lowest = rivals.into_iter().min_by(|a, b| a.rise.total_cmp(&b.rise));
-        lowest.map(|lowest| &lowest.point)
+        lowest.map(|lowest| &lowest.free)
     }
 
     /// Of all parameters that are asked for.
@@ -132,7 +128,7 @@ impl Solution {
             .iter()
             .flat_map(|profile| profile.points.iter().chain(&profile.at_ends));
         let finite = points.filter(|point| point.rise.is_finite());
-        let curve = finite.map(|point| (parameter.value(point.point.free[k]), point.rise));
+        let curve = finite.map(|point| (parameter.value(point.free[k]), point.rise));
         let mut curve: Vec<(f64, f64)> = curve.collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         Estimate {

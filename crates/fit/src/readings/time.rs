@@ -22,19 +22,28 @@ impl Columns<'_> {
 }
 
 /// Whether a time is certainly earlier than another: both are numbers, or times of day with a date
-/// from year to day if any. Not certain is what may be the year or the day, where noon is counted
-/// apart, and where the distance from UTC is said, as clocks that are put back show an hour twice.
+/// from year to day or between points, if any. Not certain is what may be the day or the month,
+/// where noon is counted apart, and where the distance from UTC is said, as clocks that are put
+/// back show an hour twice.
 fn is_earlier(after: &str, before: &str) -> bool {
     let number = |text: &str| text.replace(',', ".").parse::<f64>();
     if let (Ok(after), Ok(before)) = (number(after), number(before)) {
         return after < before;
     }
-    let is_sorted = |text: &str| {
+    // 24.12.2025 08:00 is sorted as 20251224 08:00.
+    let sorted = |text: &str| match text.split('.').collect::<Vec<_>>()[..] {
+        [day, month, rest] if day.len() == 2 && month.len() == 2 && rest.is_char_boundary(4) => {
+            format!("{}{month}{day}{}", &rest[..4], &rest[4..])
+        }
+        _ => text.to_owned(),
+    };
+    let is_sorted = |text: &String| {
         let (date, clock) = text.split_once(':').unwrap_or((text, ""));
         let is_plain = text.bytes().all(|c| c.is_ascii_digit() || b"-:T Z".contains(&c));
         is_plain && matches!(date.find('-'), None | Some(4)) && !clock.contains('-')
     };
-    after.len() == before.len() && is_sorted(after) && is_sorted(before) && after < before
+    let times = [sorted(after), sorted(before)];
+    after.len() == before.len() && times.iter().all(is_sorted) && times[0] < times[1]
 }
 
 #[cfg(test)]
@@ -63,6 +72,8 @@ mod tests {
         for (before, after) in [
             ("2025-10-26T02:40:00Z", "2025-10-26T01:10:00Z"),
             ("2025-10-26 02:40", "2025-10-25 03:10"),
+            ("31.01.2025 09:00", "31.01.2025 08:00"),
+            ("01.02.2025 09:00", "31.01.2025 10:00"),
             ("09:00", "08:55"),
             ("45000.5", "45000,25"),
         ] {
