@@ -132,8 +132,8 @@ impl<'a> Calibration<'a> {
         self
     }
 
-    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was learned
-    /// of it, [`Fit::emulator`], serves other fits.
+    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was
+    /// learned of it, [`Fit::emulator`], serves other fits.
     ///
     /// # Errors
     ///

@@ -48,10 +48,6 @@ impl Optimum {
 type Iteration = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
 
 /// Descends from free variables at which the emulator has an answer; one that is `held` stays.
-///
-/// # Errors
-///
-/// [`CalibrationError::NotConverged`] if numbers are too large to go on.
 pub(crate) fn descend(
     likelihood: &Likelihood<'_>,
     deviance: Deviance,

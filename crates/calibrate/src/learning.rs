@@ -21,11 +21,6 @@ use crate::{CalibrationError, Emulator, ModelError};
 const ROUNDS: usize = 80;
 
 /// An emulator that has seen the model run at its first places.
-///
-/// # Errors
-///
-/// Those of the model's parts and of an emulator of others, [`CalibrationError::EvaluationLimit`],
-/// and [`CalibrationError::NoAnswer`] if the model has none at any of the first places.
 pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError> {
     let mut emulator = problem.first_emulator()?;
     if emulator.evaluations() > 0 {
@@ -46,11 +41,6 @@ pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError>
 }
 
 /// A solution that rests on runs of the model wherever the emulator could be wrong about it.
-///
-/// # Errors
-///
-/// [`CalibrationError::NotConverged`], [`CalibrationError::EvaluationLimit`], and
-/// [`CalibrationError::Invalid`] for another number of predictions than of observations.
 pub(crate) fn converge(problem: &Problem<'_>, emulator: &mut Emulator) -> Result<Solution, CalibrationError> {
     let mut last: Option<DVector<f64>> = None;
     for _ in 0..ROUNDS {

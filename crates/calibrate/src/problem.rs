@@ -42,10 +42,6 @@ impl Problem<'_> {
     }
 
     /// What is known of the model before the fit.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and an emulator of others.
     pub fn first_emulator(&self) -> Result<Emulator, CalibrationError> {
         let parameters = self.of_model().into_iter().map(|k| self.parameters[k].clone());
         let fresh = Emulator::new(parameters.collect(), self.parts()?);

@@ -63,10 +63,6 @@ pub(crate) struct Profiler<'a> {
 impl Profiler<'_> {
     /// The profiles of the first `count` parameters. What any descent has found is true for all: where it lies
     /// below a profile, that one is in a wrong valley there.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::NotConverged`].
     pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
         let first = (0..count).map(|k| self.points(k));
         let first = first.collect::<Result<Vec<_>, _>>()?;

@@ -28,10 +28,6 @@ pub(crate) struct Solution {
 
 impl Solution {
     /// What is known around an optimum, where descents ended at `others` too.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::NotConverged`].
     pub fn around(
         likelihood: &Likelihood<'_>,
         optimum: Optimum,

@@ -48,9 +48,9 @@ pub fn diagnose(
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
     let is_told = fit.degrees_of_freedom >= FEWEST && !hidden;
-    let of_cell = |quantity| match Some(quantity).filter(|_| is_told) {
-        Some(quantity) => cell_error(problem, found, quantity, &judged),
-        None => Ok(None),
+    let of_cell = |quantity| {
+        let error = is_told.then(|| cell_error(problem, found, quantity, &judged));
+        error.unwrap_or(Ok(None))
     };
     let errors = [of_cell(Quantity::Drift)?, of_cell(Quantity::ZeroOffset)?];
     let [p_trend, p_offset] = errors.each_ref().map(|error| Some(error.as_ref()?.probability));
@@ -76,10 +76,8 @@ pub fn diagnose(
         let best = errors.min_by(|a, b| a.probability.total_cmp(&b.probability));
         let best = best.filter(|error| error.probability < CHANCE_OF_ERRORS);
         let explained = r_squared.map_or_else(String::new, |r| format!(" (R² {r:.3})"));
-        let (failed, way_out) = (
-            failed.join(", "),
-            way_out(problem, best.map(|error| error.quantity), draw),
-        );
+        let way_out = way_out(problem, best.map(|error| error.quantity), draw);
+        let failed = failed.join(", ");
         warnings.push(format!(
             "the model does not follow these readings{explained}: of the residuals, {failed}; values and intervals \
              may be wrong, and no parameter is called identifiable: {way_out}"
@@ -90,16 +88,12 @@ pub fn diagnose(
 
 /// The tests that the residuals fail, each in words.
 fn failed_tests(lack: &LackOfFit, errors: &[Option<CellError>; 2], r_squared: Option<f64>) -> Vec<String> {
-    let [drift, offset] = errors
-        .each_ref()
-        .map(|error| error.as_ref().map_or("", |error| &error.words));
+    let errors = errors.each_ref().map(Option::as_ref);
+    let [drift, offset] = errors.map(|error| error.map_or("", |error| &error.words));
+    let larger = "they are larger than neighbouring readings differ";
     let tests = [
         (Some(lack.p_runs), CHANCE, "they keep their sign"),
-        (
-            lack.p_noise,
-            CHANCE,
-            "they are larger than neighbouring readings differ",
-        ),
+        (lack.p_noise, CHANCE, larger),
         (lack.p_sigma, CHANCE, "they are larger than their sigmas"),
         (lack.p_trend, CHANCE_OF_ERRORS, drift),
         (lack.p_offset, CHANCE_OF_ERRORS, offset),

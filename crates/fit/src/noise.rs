@@ -1,7 +1,6 @@
 //! Noise of readings by themselves, before any fit.
 
 use crate::instrument::Row;
-use crate::readings::Measured;
 
 /// Makes the median of |e| under Gaussian noise a standard deviation.
 pub const MEDIAN_TO_SIGMA: f64 = 1.4826;
@@ -11,18 +10,17 @@ const LEAST: f64 = 1e-3;
 /// Standard deviations that weigh readings of several kinds against each other; `None` where all
 /// are of one kind.
 pub fn relative_sigmas(rows: &[Row]) -> Option<Vec<f64>> {
-    let first = rows.first()?.reading.measured;
-    if rows.iter().all(|row| row.reading.measured.is_like(first)) {
-        return None;
-    }
-    Some(rows.iter().map(|row| noise(rows, row.reading.measured)).collect())
+    let kinds = || rows.iter().map(|row| row.reading.measured.name());
+    let first = kinds().next()?;
+    let noises = || kinds().map(|kind| noise(rows, kind)).collect();
+    (!kinds().all(|kind| kind == first)).then(noises)
 }
 
-/// Noise of what is like `measured`: by how far each reading lies off the line between its
+/// Noise of readings of a kind: by how far each reading lies off the line between its
 /// neighbours (T. Gasser, L. Sroka, C. Jennen-Steinmetz, "Residual variance and residual pattern in
 /// nonlinear regression", Biometrika 73, 1986).
-fn noise(rows: &[Row], measured: Measured) -> f64 {
-    let is_like = |row: &&Row| row.reading.measured.is_like(measured);
+fn noise(rows: &[Row], kind: &str) -> f64 {
+    let is_like = |row: &&Row| row.reading.measured.name() == kind;
     let mut like: Vec<&Row> = rows.iter().filter(is_like).collect();
     like.sort_by_key(|row| (row.series, row.reading.run, row.reading.passes));
     let sizes = like.iter().map(|row| row.reading.value.abs());

@@ -32,7 +32,8 @@ pub struct CalibrateOptions<'a> {
     pub unknowns: Vec<Unknown>,
     /// Prior knowledge of the ground's stiffness, which is then fitted as well.
     pub deflection: Option<Deflection>,
-    /// Standard deviation of a load cell's zero before the readings \[N\], where it is fitted; a quarter of the largest force if left out.
+    /// Standard deviation of a load cell's zero before the readings \[N\], where it is fitted; a
+    /// quarter of the largest force if left out.
     pub zero_offset_sigma: Option<f64>,
     /// That of its drift \[N per pass\]; a quarter of the largest force over all passes if left out.
     pub drift_sigma: Option<f64>,

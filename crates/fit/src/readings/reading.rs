@@ -59,11 +59,6 @@ impl Measured {
             },
         }
     }
-
-    /// Whether both are of one kind, wherever they were measured.
-    pub fn is_like(self, other: Self) -> bool {
-        std::mem::discriminant(&self) == std::mem::discriminant(&other)
-    }
 }
 
 /// A reading of an instrument.
