@@ -398,16 +398,6 @@ fn what_does_not_fit_is_named() {
                 .contains("number of observations is 2; allowed: 3 or more"),
         "{few}"
     );
-
-    let limited = CalibrateOptions {
-        max_evaluations: 10,
-        ..CalibrateOptions::default()
-    };
-    let error = calibrate(&upper(), &data, &limited).unwrap_err();
-    assert!(
-        !error.is_bad_input() && error.to_string().contains("model runs are not enough"),
-        "{error}"
-    );
 }
 
 /// With Coulomb's law there is only the coefficient to fit; the load cell may be at the upstream end.

@@ -10,8 +10,8 @@ use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::calibration::{
-    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, ResidualSize, SHARES,
-    Series, Unknown,
+    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, MOST_RUNS, ResidualSize,
+    SHARES, Series, Unknown,
 };
 use crate::scene::{Dimension, FrictionLaw, four_digits};
 use crate::shown::{ROWS, percent};
@@ -66,9 +66,6 @@ pub struct Arguments {
     /// Ignore outliers (Tukey's loss)
     #[arg(long)]
     robust: bool,
-    /// Maximum number of model runs
-    #[arg(long, value_name = "N", default_value_t = 2000)]
-    max_evaluations: usize,
     #[command(flatten)]
     threads: Threads,
     #[command(flatten)]
@@ -148,7 +145,6 @@ fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> 
         } else {
             Loss::Squares
         },
-        max_evaluations: arguments.max_evaluations,
         ..CalibrateOptions::default()
     };
     let series = inputs.iter().zip(readings).map(|(input, readings)| Series {
@@ -156,11 +152,11 @@ fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> 
         readings,
     });
     let series: Vec<Series<'_>> = series.collect();
-    let most = arguments.max_evaluations as f64;
+    let most = MOST_RUNS as f64;
     // Measured on one to four parameters; two are fitted where none is named.
     let fitted = Some(arguments.fit.len()).filter(|count| *count > 0);
     let usual = 16 + 25 * fitted.unwrap_or(2);
-    let words = |share: f64| format!("{:.0} of about {usual} model runs, at most {most}", share * most);
+    let words = |share: f64| format!("{:.0} of about {usual} model runs", share * most);
     watched(usual as f64 / most, words, |progress| {
         crate::calibrate_jointly(&series, &CalibrateOptions { progress, ..options })
     })

@@ -13,9 +13,6 @@ use crate::problem::{Problem, Way};
 use crate::unknown::Quantity;
 use creepage_run::Error;
 
-/// Model runs that each may take.
-const RUNS: usize = 400;
-
 /// An error of a cell that would explain readings.
 pub struct CellError {
     pub quantity: Quantity,
@@ -43,7 +40,6 @@ pub fn cell_error(
         mesh: MeshOf::Answer,
         difference: &found.difference,
         profiles: false,
-        runs: found.evaluations + RUNS,
     };
     let mut open = Vec::new();
     for cell in cells(problem.rows) {

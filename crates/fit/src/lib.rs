@@ -25,6 +25,7 @@ pub use instrument::{force_ends, held_end};
 pub use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use overload::within_reach;
+pub use problem::MOST_RUNS;
 pub use result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, LackOfFit, ModelErrorEstimate, ProfilePoint,
     ResidualSize,
@@ -83,10 +84,6 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
         rows: &rows,
         fitted: &parameters::parameters(series, &models, &rows, options)?,
         options,
-        limit: match options.max_evaluations {
-            0 => calibrate::Options::default().max_evaluations,
-            limit => limit,
-        },
         runs: &Runs::default(),
     };
     let answer = answer(&problem);

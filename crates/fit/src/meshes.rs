@@ -20,26 +20,24 @@ pub struct Final {
 /// plan, then on the same with what a mesh twice as fine says more at the optimum.
 pub fn fit(problem: &Problem<'_>, profiles: bool) -> Result<Final, Error> {
     let none = vec![0.0; problem.rows.len()];
-    let way = |mesh, profiles, evaluations| Way {
+    let way = |mesh, profiles| Way {
         mesh,
         difference: &none,
         profiles,
-        runs: problem.limit.saturating_sub(evaluations),
     };
-    let (mut evaluations, mut coarse) = (0, None);
+    let (mut evaluations, mut coarse) = (1, None);
     if !problem.models.iter().any(|model| model.levels.named) {
-        let guess = problem.fit(way(MeshOf::Guess, profiles, 0), None)?;
-        evaluations = guess.evaluations;
+        let guess = problem.fit(way(MeshOf::Guess, profiles), None)?;
+        evaluations += guess.evaluations;
         coarse = Some(guess.emulator.of_finer());
     }
-    let first = problem.fit(way(MeshOf::Answer, false, evaluations), coarse)?;
+    let first = problem.fit(way(MeshOf::Answer, false), coarse)?;
     let finer = problem.predict(MeshOf::Check, 1.0, &first.values())?;
-    evaluations += 1;
     let difference: Vec<f64> = finer.iter().zip(&first.fitted).map(|(a, b)| a - b).collect();
     let (shift, _) = first.shift(&difference);
     let last = Way {
         difference: &difference,
-        ..way(MeshOf::Answer, profiles, evaluations)
+        ..way(MeshOf::Answer, profiles)
     };
     let fit = problem.fit(last, Some(first.emulator))?;
     Ok(Final {

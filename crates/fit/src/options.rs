@@ -42,8 +42,7 @@ pub struct CalibrateOptions<'a> {
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,
-    /// Largest number of model runs; 0 takes 2000.
-    pub max_evaluations: usize,
-    /// Called after each model run with its share of all that are allowed; it may stop the calibration.
+    /// Called after each model run with its share of [`MOST_RUNS`](crate::MOST_RUNS); it may stop the
+    /// calibration.
     pub progress: Progress<'a>,
 }

@@ -20,6 +20,8 @@ use creepage_run::Error;
 /// more slips, their slope jumps. Measured on the full-scale scenes, where it is 1 to 2 % of that
 /// on four meshes.
 const RIPPLE: f64 = 0.02;
+/// Most model runs of a fit on one mesh: it takes some fifty.
+pub const MOST_RUNS: usize = 2000;
 
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
@@ -30,8 +32,6 @@ pub struct Problem<'a> {
     /// What is fitted: of friction and ground first, then of the load cells.
     pub fitted: &'a [Fitted],
     pub options: &'a CalibrateOptions<'a>,
-    /// Most runs of the model.
-    pub limit: usize,
     pub runs: &'a Runs,
 }
 
@@ -49,8 +49,6 @@ pub struct Way<'a> {
     /// Added to what the mesh predicts, without the errors of the cells.
     pub difference: &'a [f64],
     pub profiles: bool,
-    /// Most runs of the model, those included that are known before.
-    pub runs: usize,
 }
 
 impl Problem<'_> {
@@ -100,13 +98,7 @@ impl Problem<'_> {
             }
             calibration.fit()
         };
-        fit().map_err(|error| match error {
-            // Of all meshes together.
-            CalibrationError::EvaluationLimit { .. } => {
-                study(CalibrationError::EvaluationLimit { limit: self.limit })
-            }
-            other => study(other),
-        })
+        fit().map_err(study)
     }
 
     fn statistics(&self, way: &Way<'_>) -> Options {
@@ -115,7 +107,7 @@ impl Problem<'_> {
         let errors = models.map(|model| Levels::typical_error(level(model)));
         let mut options = Options::default();
         options.loss = self.options.loss;
-        options.max_evaluations = way.runs.max(1);
+        options.max_evaluations = MOST_RUNS;
         options.relative_noise = RIPPLE * errors.fold(0.0, f64::max);
         options.profiles = way.profiles;
         options
@@ -136,7 +128,7 @@ impl Problem<'_> {
     fn count_run(&self) -> Result<(), Error> {
         self.check_stopped()?;
         let runs = self.runs.count.fetch_add(1, Ordering::Relaxed) + 1;
-        let share = (runs as f64 / self.limit as f64).min(1.0);
+        let share = (runs as f64 / MOST_RUNS as f64).min(1.0);
         let reported = self.options.progress.report(share);
         self.runs.stopped.fetch_or(reported.is_err(), Ordering::Relaxed);
         reported
