@@ -95,7 +95,7 @@ pub fn shown(
         }
         Measured::Strain(Place::At(x)) => force(x) / scene.cable.axial_stiffness,
         Measured::Deflection => deflection,
-        // Of nothing that is located.
+        // Places that are not located yet.
         Measured::Force(_) | Measured::Movement(_) | Measured::Strain(_) => f64::NAN,
     }
 }
