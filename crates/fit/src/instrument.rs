@@ -2,7 +2,7 @@
 
 use cable_dem::{End, PassOutcome};
 
-use crate::readings::{Measured, Place, Reading, Readings};
+use crate::readings::{Measured, Place, Reading};
 use creepage_run::Error;
 use creepage_run::answer::{ForceProfile, Stage};
 use creepage_scene::{CableEnd, Scene};
@@ -23,22 +23,12 @@ fn end_but(scene: &Scene, held: End) -> Option<CableEnd> {
     ends.find(|end| end.held_in(scene) != held)
 }
 
-/// The force on each end of `scene` that readings are of: the load cells of `readings`, in the
-/// order of the file.
+/// What was measured, and where in `scene`: forces and movements at an end, forces and strains at a
+/// distance from the upstream one.
 ///
 /// # Errors
 ///
-/// [`Error`] where a reading is of an end that the scene does not hold, or of no place in the duct.
-pub fn force_ends(scene: &Scene, readings: &Readings) -> Result<Vec<Option<CableEnd>>, Error> {
-    let end = |reading: &Reading| match located(scene, reading.measured)? {
-        Measured::Force(Place::End(end)) => Ok(Some(end)),
-        _ => Ok(None),
-    };
-    readings.readings().iter().map(end).collect()
-}
-
-/// What was measured, and where in `scene`: forces and movements at an end, forces and strains at a
-/// distance from the upstream one.
+/// [`Error`] where the scene does not hold that end, or has no such place.
 pub fn located(scene: &Scene, measured: Measured) -> Result<Measured, Error> {
     let length = scene.duct.length;
     let x = |end: CableEnd| end.of([0.0, length]);

@@ -21,7 +21,7 @@ mod unknown;
 
 pub use calibrate::{CalibrationError, Loss};
 pub use discrepancy::SHARES;
-pub use instrument::{force_ends, held_end};
+pub use instrument::{held_end, located};
 pub use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use overload::within_reach;

@@ -35,14 +35,14 @@ pub struct CalibrateOptions<'a> {
     /// Standard deviation of a load cell's zero before the readings \[N\], where it is fitted; a
     /// quarter of the largest force if left out.
     pub zero_offset_sigma: Option<f64>,
-    /// That of its drift \[N per pass\]; a quarter of the largest force over all passes if left out.
+    /// That of its drift \[N per pass\]; if left out, a quarter of that force over all passes.
     pub drift_sigma: Option<f64>,
-    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation, as a share
-    /// of the largest reading, 1e-4 to 10. Least squares only.
+    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation,
+    /// as a share of the largest reading, 1e-4 to 10. Least squares only.
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,
-    /// Called after each model run with its share of [`MOST_RUNS`](crate::MOST_RUNS); it may stop the
-    /// calibration.
+    /// Called after each model run with its share of [`MOST_RUNS`](crate::MOST_RUNS); it may stop
+    /// the calibration.
     pub progress: Progress<'a>,
 }

@@ -86,8 +86,7 @@ fn is_coulomb(unknown: Unknown, series: &[Series<'_>]) -> bool {
     scenes_of(unknown, series).any(|scene| scene.friction.law() == FrictionLaw::Coulomb)
 }
 
-/// The parameters that are asked for: those of friction and ground first, then an error of each load
-/// cell.
+/// The parameters that are asked for: those of friction and ground, then an error of each cell.
 pub fn parameters(
     series: &[Series<'_>],
     models: &[SeriesModel],

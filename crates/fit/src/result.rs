@@ -1,4 +1,4 @@
-//! What a calibration answers. The names of the fields are those of the JSON document, units included.
+//! What a calibration answers. Fields have the names of the JSON document, units included.
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ pub struct Calibrated {
     pub parameters: Vec<FittedParameter>,
     /// Their correlation; null where one of them has no standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
-    /// Root of the mean square of the residuals of the forces that the fit keeps \[N\]; 0 without forces.
+    /// Root of the mean square of the residuals of the forces that are kept \[N\]; 0 without any.
     pub residual_rms_n: f64,
     /// How large the residuals are, of each kind of reading.
     pub residuals: Vec<ResidualSize>,
@@ -25,7 +25,8 @@ pub struct Calibrated {
     pub warnings: Vec<String>,
     /// Whether the residuals are noise.
     pub lack_of_fit: LackOfFit,
-    /// What the answer takes from the scene that these readings do not show, and what an error of it would do.
+    /// What the answer takes from the scene that these readings do not show, and what an error of
+    /// it would do.
     pub assumptions: Vec<String>,
     /// Standard deviation of the noise \[N\] as estimated; null where every reading has its own.
     pub noise_n: Option<f64>,
@@ -68,7 +69,7 @@ pub struct FittedParameter {
     pub value: f64,
     /// Standard error; null where the readings say nothing about it.
     pub standard_error: Option<f64>,
-    /// Interval that holds the true value in 95 % of all cases; null is an end that the readings do not close.
+    /// Interval that holds the true value in 95 % of all cases; null is an end that is not closed.
     pub interval_95: [Option<f64>; 2],
     /// Whether the interval is closed on both sides, and the fit not suspicious.
     pub identifiable: bool,
@@ -81,7 +82,7 @@ pub struct FittedParameter {
 pub struct ProfilePoint {
     /// Value of the parameter.
     pub value: f64,
-    /// Rise of the deviance above its minimum with all other parameters fitted, in squared standard errors.
+    /// Rise of the deviance above its minimum, all others fitted, in squared standard errors.
     pub rise: f64,
 }
 

@@ -14,7 +14,7 @@ pub enum Quantity {
     /// b \[1/m\], how steeply friction builds up before the cable slips. From about 1e9 1/m on no
     /// force tells it from Coulomb's law, which is the upper bound's meaning.
     ShapeFactor,
-    /// How many times stiffer the ground is than the scene says: the duct's motion is divided by it.
+    /// How many times stiffer the ground is than the scene's: the duct's motion is divided by it.
     GroundStiffness,
     /// What a load cell reads too much of any force \[N\].
     ZeroOffset,
@@ -74,7 +74,7 @@ impl Quantity {
         matches!(self, Self::ZeroOffset | Self::Drift)
     }
 
-    /// Least and largest value that a fit considers; those of a cell's errors follow from its readings.
+    /// Least and largest value that a fit considers; of a cell's errors they follow from readings.
     pub(super) fn bounds(self) -> (f64, f64) {
         match self {
             Self::DynamicCoefficient | Self::SectionCoefficient(_) => (0.03, 1.0),
