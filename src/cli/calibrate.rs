@@ -10,8 +10,8 @@ use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::calibration::{
-    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, ResidualSize, SHARES,
-    Series, Unknown,
+    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, MOST_RUNS, ResidualSize,
+    SHARES, Series, Unknown,
 };
 use crate::scene::{Dimension, FrictionLaw, four_digits};
 use crate::shown::{ROWS, percent};
@@ -44,28 +44,28 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Unknown>())]
     fit: Vec<Unknown>,
     /// Standard deviation of a load cell's zero, where it is fitted. Default: a quarter of the largest force
-    #[arg(long, value_name = "FORCE", value_parser = positive_force)]
+    #[arg(long, value_name = "FORCE", value_parser = quantity(Dimension::Force, POSITIVE, "a positive force such as \"20 N\""))]
     zero_offset_sigma: Option<f64>,
     /// Standard deviation of its drift per pass, where it is fitted. Default: a quarter of the largest force over all passes
-    #[arg(long, value_name = "FORCE", value_parser = positive_force)]
+    #[arg(long, value_name = "FORCE", value_parser = quantity(Dimension::Force, POSITIVE, "a positive force such as \"20 N\""))]
     drift_sigma: Option<f64>,
     /// Measured deflection under the first vehicle, "115 um"; also fits ground_stiffness
-    #[arg(long, value_name = "LENGTH", requires = "deflection_sigma", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", requires = "deflection_sigma",
+        value_parser = quantity(Dimension::Length, POSITIVE, "a positive length such as \"115 um\""))]
     deflection: Option<f64>,
     /// Standard deviation of the measured deflection, "15 um"
-    #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", requires = "deflection",
+        value_parser = quantity(Dimension::Length, POSITIVE, "a positive length such as \"115 um\""))]
     deflection_sigma: Option<f64>,
     /// Let the model be wrong by a smooth function of the passes, with a standard deviation of SHARE of the
     /// largest reading (0.01 % to 1000 %): intervals then hold where the model is off by as much
-    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "3 %", value_parser = share_of_discrepancy,
-        conflicts_with = "robust")]
+    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "3 %",
+        conflicts_with = "robust",
+        value_parser = quantity(Dimension::Ratio, SHARES, "0.01 % to 1000 % of the largest reading"))]
     discrepancy: Option<f64>,
     /// Ignore outliers (Tukey's loss)
     #[arg(long)]
     robust: bool,
-    /// Maximum number of model runs
-    #[arg(long, value_name = "N", default_value_t = 2000)]
-    max_evaluations: usize,
     #[command(flatten)]
     threads: Threads,
     #[command(flatten)]
@@ -74,32 +74,15 @@ pub struct Arguments {
     reading: ReadArguments,
 }
 
-fn positive_length(text: &str) -> Result<f64, String> {
-    let range = f64::MIN_POSITIVE..=f64::MAX;
-    value(
-        text,
-        Dimension::Length,
-        range,
-        "a positive length such as \"115 um\"",
-    )
-}
+const POSITIVE: RangeInclusive<f64> = f64::MIN_POSITIVE..=f64::MAX;
 
-fn positive_force(text: &str) -> Result<f64, String> {
-    let range = f64::MIN_POSITIVE..=f64::MAX;
-    value(text, Dimension::Force, range, "a positive force such as \"20 N\"")
-}
-
-fn share_of_discrepancy(text: &str) -> Result<f64, String> {
-    value(
-        text,
-        Dimension::Ratio,
-        SHARES,
-        "0.01 % to 1000 % of the largest reading",
-    )
-}
-
-fn value(text: &str, dimension: Dimension, range: RangeInclusive<f64>, allowed: &str) -> Result<f64, String> {
-    match dimension.parse_argument(text) {
+/// Reads a quantity within a range.
+fn quantity(
+    dimension: Dimension,
+    range: RangeInclusive<f64>,
+    allowed: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
+    move |text| match dimension.parse_argument(text) {
         Ok(value) if range.contains(&value) => Ok(value),
         Ok(_) => Err(format!("found \"{text}\"; allowed: {allowed}")),
         Err(error) => Err(format!("found \"{text}\": {error}; allowed: {allowed}")),
@@ -162,25 +145,18 @@ fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> 
         } else {
             Loss::Squares
         },
-        max_evaluations: arguments.max_evaluations,
         ..CalibrateOptions::default()
     };
-    let pairs = inputs.iter().zip(readings);
-    let series: Vec<Series<'_>> = pairs
-        .map(|(input, readings)| Series {
-            scene: &input.scene,
-            readings,
-        })
-        .collect();
-    let most = arguments.max_evaluations as f64;
+    let series = inputs.iter().zip(readings).map(|(input, readings)| Series {
+        scene: &input.scene,
+        readings,
+    });
+    let series: Vec<Series<'_>> = series.collect();
+    let most = MOST_RUNS as f64;
     // Measured on one to four parameters; two are fitted where none is named.
-    let usual = 16
-        + 25 * if arguments.fit.is_empty() {
-            2
-        } else {
-            arguments.fit.len()
-        };
-    let words = |share: f64| format!("{:.0} of about {usual} model runs, at most {most}", share * most);
+    let fitted = Some(arguments.fit.len()).filter(|count| *count > 0);
+    let usual = 16 + 25 * fitted.unwrap_or(2);
+    let words = |share: f64| format!("{:.0} of about {usual} model runs", share * most);
     watched(usual as f64 / most, words, |progress| {
         crate::calibrate_jointly(&series, &CalibrateOptions { progress, ..options })
     })
@@ -198,16 +174,13 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         "identifiable",
     ];
     let row = |parameter: &FittedParameter| {
-        let error = parameter
-            .standard_error
-            .map_or_else(|| "unknown".into(), significant);
-        let identifiable = if parameter.identifiable { "yes" } else { "NO" };
+        let error = parameter.standard_error.map(significant);
         vec![
             label(&parameter.name, parameter.unit),
             significant(parameter.value),
-            error,
+            error.unwrap_or_else(|| "unknown".into()),
             interval(parameter.interval_95),
-            identifiable.to_owned(),
+            if parameter.identifiable { "yes" } else { "NO" }.to_owned(),
         ]
     };
     let rows: Vec<Vec<String>> = answer.parameters.iter().map(row).collect();
@@ -228,9 +201,8 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
 
 /// How well the model follows the readings, and what the answer rests on.
 fn print_quality(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
-    let explained = answer
-        .r_squared
-        .map_or_else(String::new, |r| format!(", R² {r:.5}"));
+    let explained = answer.r_squared.map(|r| format!(", R² {r:.5}"));
+    let explained = explained.unwrap_or_default();
     let residuals: Vec<String> = answer.residuals.iter().map(ToString::to_string).collect();
     let (residuals, freedom) = (residuals.join(", "), four_digits(answer.degrees_of_freedom));
     writeln!(
@@ -245,10 +217,8 @@ fn print_quality(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failur
         ("their size", lack.p_noise),
         ("the sigmas", lack.p_sigma),
     ];
-    let tests = tests
-        .into_iter()
-        .filter_map(|(what, chance)| Some(format!("{what} {:.2}", chance?)));
-    let tests: Vec<String> = tests.collect();
+    let words = |(what, chance): (&str, Option<f64>)| Some(format!("{what} {:.2}", chance?));
+    let tests: Vec<String> = tests.into_iter().filter_map(words).collect();
     let verdict = if lack.suspicious { "SUSPICIOUS" } else { "yes" };
     writeln!(
         out,

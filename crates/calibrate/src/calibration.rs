@@ -1,7 +1,5 @@
 //! What is given, and the front door: a calibration is put together, then fitted.
 
-use std::fmt;
-
 use crate::learning;
 use crate::problem::Problem;
 use crate::{CalibrationError, Emulator, Estimate, Fit, Model, Options, Parameter, Prior};
@@ -10,27 +8,11 @@ use crate::{CalibrationError, Emulator, Estimate, Fit, Model, Options, Parameter
 const FARTHEST: f64 = 10.0;
 
 /// A model to be fitted to observations.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Calibration<'a> {
     problem: Problem<'a>,
     /// Coefficients of the functions by which the model may be off.
     discrepancy: Vec<Parameter>,
-}
-
-impl fmt::Debug for Calibration<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Problem {
-            parameters,
-            observations,
-            sigmas,
-            options,
-            ..
-        } = &self.problem;
-        write!(
-            f,
-            "Calibration({parameters:?}, {observations:?}, {sigmas:?}, {options:?})"
-        )
-    }
 }
 
 impl<'a> Calibration<'a> {
@@ -39,23 +21,26 @@ impl<'a> Calibration<'a> {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::DuplicateParameter`], and [`CalibrationError::Invalid`] for an observation that is
-    /// no number and a column of another length.
+    /// [`CalibrationError::Invalid`] for an observation that is no number, a column of another length, and
+    /// two parameters of one name.
     pub fn new(
         model: &'a dyn Model,
         parameters: Vec<Parameter>,
         observations: Vec<f64>,
     ) -> Result<Self, CalibrationError> {
-        for (index, parameter) in parameters.iter().enumerate() {
-            let name = parameter.name().to_owned();
-            if parameters[..index].iter().any(|other| other.name() == name) {
-                return Err(CalibrationError::DuplicateParameter { name });
+        for parameter in &parameters {
+            let name = parameter.name();
+            let count = parameters.iter().filter(|other| other.name() == name).count();
+            if count > 1 {
+                let what = format!("number of parameters called {name}");
+                return Err(CalibrationError::invalid(what, count as f64, "one"));
             }
             if let Some(column) = parameter.column() {
-                check_count(&format!("entries in the column of {name}"), column, &observations)?;
+                let what = format!("entries in the column of {name}");
+                CalibrationError::check_count(&what, column.len(), observations.len())?;
             }
         }
-        check_each(&observations, "value", "finite", |_| true)?;
+        check_each("value", &observations, "finite", f64::is_finite)?;
         Ok(Self {
             problem: Problem {
                 model,
@@ -88,7 +73,8 @@ impl<'a> Calibration<'a> {
         };
         self.discrepancy.clear();
         for function in functions {
-            check_count("values of a function", function, &self.problem.observations)?;
+            let count = self.problem.observations.len();
+            CalibrationError::check_count("values of a function", function.len(), count)?;
             let term = Parameter::term("discrepancy", -FARTHEST, FARTHEST, function)?;
             self.discrepancy.push(term.with_prior(prior)?);
         }
@@ -101,8 +87,9 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::Invalid`] unless there is a finite and positive one for each observation.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        check_count("sigmas", &sigmas, &self.problem.observations)?;
-        check_each(&sigmas, "sigma", "finite and positive", |sigma| sigma > 0.0)?;
+        CalibrationError::check_count("sigmas", sigmas.len(), self.problem.observations.len())?;
+        let is_sigma = |sigma: f64| sigma.is_finite() && sigma > 0.0;
+        check_each("sigma", &sigmas, "finite and positive", is_sigma)?;
         (self.problem.sigmas, self.problem.knows_noise) = (sigmas, true);
         Ok(self)
     }
@@ -145,27 +132,8 @@ impl<'a> Calibration<'a> {
         self
     }
 
-    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it.
-    ///
-    /// ```
-    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
-    ///
-    /// let passes = [5.0, 10.0, 20.0, 40.0, 80.0];
-    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
-    ///     Ok(passes.iter().map(|n: &f64| p[0] * (1.0 - (-n / p[1]).exp())).collect())
-    /// };
-    /// let parameters = vec![
-    ///     Parameter::new("saturated_force", 100.0, 2000.0, Scale::Logarithmic)?,
-    ///     Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
-    /// ];
-    /// let calibration = Calibration::new(&model, parameters, vec![124.0, 214.0, 351.0, 472.0, 541.0])?;
-    /// let fit = calibration.fit()?;
-    /// assert!(fit.estimates[0].interval.contains(550.0));
-    /// // What was learned of the model serves other fits.
-    /// let again = calibration.with_emulator(fit.emulator.clone()).fit()?;
-    /// assert!(again.evaluations <= fit.evaluations + 3);
-    /// # Ok::<(), calibrate::CalibrationError>(())
-    /// ```
+    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was
+    /// learned of it, [`Fit::emulator`], serves other fits.
     ///
     /// # Errors
     ///
@@ -196,26 +164,14 @@ impl<'a> Calibration<'a> {
     }
 }
 
-/// Refuses another number of things than of observations.
-fn check_count(what: &str, found: &[f64], observations: &[f64]) -> Result<(), CalibrationError> {
-    if found.len() == observations.len() {
-        return Ok(());
-    }
-    let (what, allowed) = (format!("number of {what}"), "one for each observation");
-    Err(CalibrationError::invalid(what, found.len() as f64, allowed))
-}
-
 /// Refuses a value for an observation that does not hold.
 fn check_each(
-    values: &[f64],
     quantity: &str,
+    values: &[f64],
     allowed: &'static str,
     holds: impl Fn(f64) -> bool,
 ) -> Result<(), CalibrationError> {
-    match values
-        .iter()
-        .position(|&value| !(value.is_finite() && holds(value)))
-    {
+    match values.iter().position(|&value| !holds(value)) {
         None => Ok(()),
         Some(index) => {
             let what = format!("{quantity} of observation {index}");

@@ -48,10 +48,6 @@ impl Optimum {
 type Iteration = IterState<DVector<f64>, DVector<f64>, (), DMatrix<f64>, (), f64>;
 
 /// Descends from free variables at which the emulator has an answer; one that is `held` stays.
-///
-/// # Errors
-///
-/// [`CalibrationError::NotConverged`] if numbers are too large to go on.
 pub(crate) fn descend(
     likelihood: &Likelihood<'_>,
     deviance: Deviance,
@@ -117,10 +113,8 @@ impl CostFunction for Surface<'_> {
 
     fn cost(&self, free: &DVector<f64>) -> Result<f64, Error> {
         let springs: f64 = free.iter().map(|&z| beyond(z).powi(2)).sum();
-        Ok(self
-            .deviance
-            .total(&self.likelihood.point(free.clone()).residuals)
-            + springs)
+        let residuals = self.likelihood.point(free.clone()).residuals;
+        Ok(self.deviance.total(&residuals) + springs)
     }
 }
 

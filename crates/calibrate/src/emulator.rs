@@ -7,13 +7,12 @@
 //! available", Biometrika 87, 2000). Where the nearest run has no answer, there is none.
 
 use std::ops::AddAssign;
-use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::kriging::{Design, Kriging, is_same};
 use crate::tuning::NUGGETS;
-use crate::{CalibrationError, Parameter, Part};
+use crate::{Parameter, Part};
 
 /// What a fit learned of its model: its runs, and smooth functions through them.
 #[derive(Debug, Clone)]
@@ -21,16 +20,19 @@ pub struct Emulator {
     /// Those of the model.
     parameters: Vec<Parameter>,
     parts: Vec<Part>,
-    trend: Option<Arc<Emulator>>,
     nugget: f64,
+    /// Through the runs of coarser models: their sum is the trend.
+    trend: Vec<Kriging>,
+    /// Through the runs beyond the trend, of each part.
+    krigings: Vec<Kriging>,
     /// Shares of the parameters' ranges, and what the model predicted there beyond the trend.
     runs: Vec<(DVector<f64>, DVector<f64>)>,
     /// Where it had no answer.
     failures: Vec<DVector<f64>>,
-    /// Through the runs, of each part.
-    krigings: Vec<Kriging>,
     /// That of the fit: there a finer model runs first.
     pub(crate) optimum: Option<DVector<f64>>,
+    /// That of the coarser model, if there is one.
+    pub(crate) coarse_optimum: Option<DVector<f64>>,
 }
 
 impl Emulator {
@@ -39,12 +41,13 @@ impl Emulator {
         Self {
             parameters,
             parts,
-            trend: None,
             nugget: NUGGETS.0,
+            trend: Vec::new(),
+            krigings: Vec::new(),
             runs: Vec::new(),
             failures: Vec::new(),
-            krigings: Vec::new(),
             optimum: None,
+            coarse_optimum: None,
         }
     }
 
@@ -52,38 +55,24 @@ impl Emulator {
     /// with it runs first at the optimum of this one.
     #[must_use]
     pub fn of_finer(self) -> Self {
-        let fresh = Self::new(self.parameters.clone(), self.parts.clone());
         Self {
-            trend: Some(Arc::new(self)),
-            ..fresh
+            trend: [self.trend, self.krigings].concat(),
+            coarse_optimum: self.optimum,
+            ..Self::new(self.parameters, self.parts)
         }
     }
 
     /// The same for a model whose own noise is the share `relative_noise` of its predictions.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::Invalid`] unless it is an emulator of these parameters and parts.
-    pub(crate) fn of_model(
-        self,
-        parameters: &[Parameter],
-        parts: &[Part],
-        relative_noise: f64,
-    ) -> Result<Self, CalibrationError> {
-        if self.parameters != parameters || self.parts != parts {
-            let what = "number of parameters of a fit that begins with an earlier one";
-            let allowed = "the same parameters and number of observations as there";
-            return Err(CalibrationError::invalid(what, parameters.len() as f64, allowed));
-        }
-        Ok(Self {
+    pub(crate) fn with_noise(self, relative_noise: f64) -> Self {
+        Self {
             nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
             ..self
-        })
+        }
     }
 
-    /// The optimum of the coarser model, if there is one.
-    pub(crate) fn coarse_optimum(&self) -> Option<DVector<f64>> {
-        self.trend.as_ref()?.optimum.clone()
+    /// Whether it is of a model with the same parameters and parts.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.parameters == other.parameters && self.parts == other.parts
     }
 
     /// Runs of the model that it rests on, without those of a coarser model.
@@ -99,9 +88,8 @@ impl Emulator {
     /// Values of the model's parameters at a place.
     pub(crate) fn values(&self, place: &DVector<f64>) -> Vec<f64> {
         let pairs = self.parameters.iter().zip(place);
-        pairs
-            .map(|(parameter, &share)| parameter.value_at(share))
-            .collect()
+        let values = pairs.map(|(parameter, &share)| parameter.value_at(share));
+        values.collect()
     }
 
     /// Whether the model ran there.
@@ -113,7 +101,7 @@ impl Emulator {
     /// What the model predicted there, if it ran and had an answer.
     pub(crate) fn known(&self, place: &DVector<f64>) -> Option<Vec<f64>> {
         let (_, beyond) = self.runs.iter().find(|(run, _)| is_same(run, place))?;
-        Some((self.expected(place) + beyond).data.into())
+        Some((self.sum(&self.trend, place) + beyond).data.into())
     }
 
     /// Adds runs at places, with what the model predicted where it had an answer.
@@ -122,7 +110,7 @@ impl Emulator {
             match predicted {
                 None => self.failures.push(place),
                 Some(predicted) => {
-                    let beyond = DVector::from_vec(predicted) - self.expected(&place);
+                    let beyond = DVector::from_vec(predicted) - self.sum(&self.trend, &place);
                     self.runs.push((place, beyond));
                 }
             }
@@ -142,33 +130,28 @@ impl Emulator {
         let distance = |run: &DVector<f64>| (run - place).norm_squared();
         let failed = self.failures.iter().map(distance).fold(f64::INFINITY, f64::min);
         let has_answer = failed.is_infinite() || self.runs.iter().any(|(run, _)| distance(run) < failed);
-        has_answer.then(|| self.predict(place))
+        has_answer.then(|| self.sum(self.trend.iter().chain(&self.krigings), place))
     }
 
+    /// The sum of what these say of the predictions.
+    fn sum<'a>(&self, krigings: impl IntoIterator<Item = &'a Kriging>, place: &DVector<f64>) -> DVector<f64> {
+        let mut sum = DVector::zeros(self.count());
+        for kriging in krigings {
+            let mut rows = sum.rows_range_mut(kriging.rows.clone());
+            rows += kriging.at(place);
+        }
+        sum
+    }
+
+    /// Number of predictions.
     fn count(&self) -> usize {
         self.parts.iter().map(|part| part.predictions).sum()
     }
 
-    /// What the coarser model predicts, if there is one.
-    fn expected(&self, place: &DVector<f64>) -> DVector<f64> {
-        let trend = self.trend.as_ref().map(|trend| trend.predict(place));
-        trend.unwrap_or_else(|| DVector::zeros(self.count()))
-    }
-
-    fn predict(&self, place: &DVector<f64>) -> DVector<f64> {
-        let mut predicted = self.expected(place);
-        for kriging in &self.krigings {
-            let mut rows = predicted.rows_range_mut(kriging.rows.clone());
-            rows += kriging.at(place);
-        }
-        predicted
-    }
-
     /// Derivatives of the predictions by the shares, a column each.
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DMatrix<f64> {
-        let trend = self.trend.as_ref().map(|trend| trend.slopes(place));
-        let mut slopes = trend.unwrap_or_else(|| DMatrix::zeros(self.count(), place.len()));
-        for kriging in &self.krigings {
+        let mut slopes = DMatrix::zeros(self.count(), place.len());
+        for kriging in self.trend.iter().chain(&self.krigings) {
             for (input, slope) in kriging.slopes(place) {
                 let mut rows = slopes.rows_range_mut(kriging.rows.clone());
                 rows.column_mut(input).add_assign(&slope);

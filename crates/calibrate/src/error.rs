@@ -1,5 +1,7 @@
 //! What can go wrong in a calibration.
 
+use std::borrow::Cow;
+
 use crate::ModelError;
 
 /// Error of a calibration.
@@ -14,34 +16,7 @@ pub enum CalibrationError {
         /// What was found.
         value: f64,
         /// What is allowed.
-        allowed: &'static str,
-    },
-    /// Two parameters have one name.
-    #[error("two parameters are called {name}")]
-    DuplicateParameter {
-        /// The name.
-        name: String,
-    },
-    /// The observations cannot determine the parameters.
-    #[error(
-        "{observations} observations cannot determine {parameters} parameters; needed: {needed} (one more than \
-         parameters without prior knowledge if the noise is to be estimated as well)"
-    )]
-    TooFewObservations {
-        /// Number of observations.
-        observations: usize,
-        /// Number of parameters.
-        parameters: usize,
-        /// Fewest observations that would do.
-        needed: usize,
-    },
-    /// The model predicts another number of observations than there are.
-    #[error("the model predicts {found} observations; there are {expected}")]
-    PredictionLength {
-        /// Number of observations.
-        expected: usize,
-        /// Number of predictions.
-        found: usize,
+        allowed: Cow<'static, str>,
     },
     /// The model failed wherever it ran first.
     #[error("the model has no answer at any of {places} places all over the range")]
@@ -65,16 +40,26 @@ pub enum CalibrationError {
 }
 
 impl CalibrationError {
-    pub(crate) fn invalid(what: impl Into<String>, value: f64, allowed: &'static str) -> Self {
-        let what = what.into();
+    pub(crate) fn invalid(
+        what: impl Into<String>,
+        value: f64,
+        allowed: impl Into<Cow<'static, str>>,
+    ) -> Self {
+        let (what, allowed) = (what.into(), allowed.into());
         Self::Invalid { what, value, allowed }
+    }
+
+    /// Refuses another number of things than of observations.
+    pub(crate) fn check_count(what: &str, found: usize, observations: usize) -> Result<(), Self> {
+        if found == observations {
+            return Ok(());
+        }
+        let (what, allowed) = (format!("number of {what}"), "one for each observation");
+        Err(Self::invalid(what, found as f64, allowed))
     }
 
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
-        !matches!(
-            self,
-            Self::NoAnswer { .. } | Self::NotConverged | Self::EvaluationLimit { .. }
-        )
+        matches!(self, Self::Invalid { .. })
     }
 }

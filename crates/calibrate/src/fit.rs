@@ -25,8 +25,6 @@ pub struct Fit {
     pub smooth: Vec<f64>,
     /// How much each observation counts: 1 with least squares, less for an outlier in a robust fit.
     pub weights: Vec<f64>,
-    /// Share of the observations' variance that the model explains; `None` if they do not vary.
-    pub r_squared: Option<f64>,
     /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the
     /// given sigmas.
     pub noise: f64,
@@ -63,17 +61,12 @@ impl Fit {
         let sigmas = DVector::from_column_slice(&problem.sigmas);
         let standardised = optimum.point.residuals.rows(0, count).into_owned();
         let mut smooth = DVector::zeros(count);
-        for (parameter, &z) in problem
-            .parameters
-            .iter()
-            .zip(&optimum.point.free)
-            .skip(problem.asked)
-        {
+        let pairs = problem.parameters.iter().zip(&optimum.point.free);
+        for (parameter, &z) in pairs.skip(problem.asked) {
             let column = DVector::from_column_slice(parameter.column().unwrap_or_default());
             smooth += column * parameter.value(z);
         }
         let residuals = &smooth - standardised.component_mul(&sigmas);
-        let variation = observed.add_scalar(-observed.mean()).norm_squared();
         let weight = |r: &f64| deviance.loss.weight(r / deviance.spread);
         let curvatures = deviance.curvatures(&optimum.point.residuals);
         let covariance = &solution.covariance;
@@ -82,7 +75,6 @@ impl Fit {
             warnings: warnings(problem, &solution, &estimates),
             correlation: (0..problem.asked).map(correlations).collect(),
             fitted: (&observed - &residuals).data.into(),
-            r_squared: (variation > 0.0).then(|| 1.0 - residuals.norm_squared() / variation),
             residuals: residuals.data.into(),
             smooth: smooth.data.into(),
             weights: standardised.iter().map(weight).collect(),
@@ -116,9 +108,8 @@ impl Fit {
     /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
     pub fn standardised_noise(&self) -> Vec<f64> {
         let parts = self.residuals.iter().zip(&self.smooth).zip(&self.sigmas);
-        parts
-            .map(|((residual, smooth), sigma)| (residual - smooth) / sigma)
-            .collect()
+        let noise = parts.map(|((residual, smooth), sigma)| (residual - smooth) / sigma);
+        noise.collect()
     }
 
     /// What an error of the model by which it predicts `change` more, in the observations' unit, does to the
@@ -135,10 +126,8 @@ impl Fit {
             if error > 0.0 { moved[k] / error } else { 0.0 }
         };
         let left = change.dot(&weighted) + across.dot(&moved);
-        (
-            (0..self.estimates.len()).map(shift).collect(),
-            left.max(0.0).sqrt(),
-        )
+        let shifts = (0..self.estimates.len()).map(shift);
+        (shifts.collect(), left.max(0.0).sqrt())
     }
 }
 
@@ -156,7 +145,7 @@ fn warnings(problem: &Problem<'_>, solution: &Solution, estimates: &[Estimate]) 
     // An interval that is open says more than another minimum does.
     let closed = estimates.iter().all(|estimate| estimate.identifiable);
     warnings.extend(solution.rival().filter(|_| closed).map(|rival| {
-        let pairs = problem.parameters.iter().take(problem.asked).zip(&rival.free);
+        let pairs = problem.parameters.iter().take(problem.asked).zip(rival);
         Warning::Ambiguous(pairs.map(|(parameter, &z)| parameter.value(z)).collect())
     }));
     warnings

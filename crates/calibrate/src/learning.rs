@@ -21,19 +21,16 @@ use crate::{CalibrationError, Emulator, ModelError};
 const ROUNDS: usize = 80;
 
 /// An emulator that has seen the model run at its first places.
-///
-/// # Errors
-///
-/// Those of the model's parts and of an emulator of others, [`CalibrationError::EvaluationLimit`],
-/// and [`CalibrationError::NoAnswer`] if the model has none at any of the first places.
 pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError> {
     let mut emulator = problem.first_emulator()?;
     if emulator.evaluations() > 0 {
         return Ok(emulator);
     }
     let dimensions = problem.of_model().len();
-    let all = || all_over(dimensions, FIRST_RUNS * (1 + dimensions));
-    let places = emulator.coarse_optimum().map_or_else(all, |place| vec![place]);
+    let places = match &emulator.coarse_optimum {
+        Some(place) => vec![place.clone()],
+        None => all_over(dimensions, FIRST_RUNS * (1 + dimensions)),
+    };
     match run(problem, &mut emulator, places)? {
         Some(source) if emulator.runs() == 0 => {
             let places = emulator.evaluations();
@@ -44,11 +41,6 @@ pub(crate) fn begin(problem: &Problem<'_>) -> Result<Emulator, CalibrationError>
 }
 
 /// A solution that rests on runs of the model wherever the emulator could be wrong about it.
-///
-/// # Errors
-///
-/// [`CalibrationError::NotConverged`], [`CalibrationError::EvaluationLimit`], and
-/// [`CalibrationError::PredictionLength`].
 pub(crate) fn converge(problem: &Problem<'_>, emulator: &mut Emulator) -> Result<Solution, CalibrationError> {
     let mut last: Option<DVector<f64>> = None;
     for _ in 0..ROUNDS {
@@ -105,12 +97,12 @@ fn run(
     let expected = problem.observations.len();
     let run = |place: DVector<f64>| {
         let predicted = match problem.model.predict(&emulator.values(&place)) {
-            Ok(values) if values.len() != expected => {
-                let found = values.len();
-                return Err(CalibrationError::PredictionLength { expected, found });
+            Ok(values) => {
+                CalibrationError::check_count("predictions", values.len(), expected)?;
+                let is_finite = values.iter().all(|value| value.is_finite());
+                let reason = || "a prediction is not a finite number".into();
+                is_finite.then_some(values).ok_or_else(reason)
             }
-            Ok(values) if values.iter().all(|value| value.is_finite()) => Ok(values),
-            Ok(_) => Err("a prediction is not a finite number".into()),
             failed => failed,
         };
         Ok((place, predicted))

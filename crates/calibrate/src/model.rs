@@ -1,5 +1,7 @@
 //! What is fitted: a map from parameters to predicted observations.
 
+use std::fmt;
+
 /// Why a model could not predict.
 pub type ModelError = Box<dyn std::error::Error + Send + Sync>;
 
@@ -21,6 +23,12 @@ pub trait Model: Sync {
     /// series has parameters of its own, the emulator follows each by itself, and takes fewer runs.
     fn parts(&self) -> Vec<Part> {
         Vec::new()
+    }
+}
+
+impl fmt::Debug for dyn Model + '_ {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Model({:?})", self.parts())
     }
 }
 

@@ -3,13 +3,6 @@
 use crate::Loss;
 
 /// How to fit.
-///
-/// ```
-/// use calibrate::{Loss, Options};
-///
-/// let mut options = Options::default();
-/// options.loss = Loss::Tukey;
-/// ```
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Options {

@@ -6,7 +6,7 @@ use crate::{CalibrationError, Emulator, Model, Options, Parameter, Part};
 const RESOLUTION: f64 = 1e-7;
 
 /// A model to be fitted to observations.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Problem<'a> {
     pub model: &'a dyn Model,
     /// Those asked for, and in a fit with a discrepancy its coefficients.
@@ -42,16 +42,20 @@ impl Problem<'_> {
     }
 
     /// What is known of the model before the fit.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::Invalid`] for parts that are not those of the observations, and an emulator of others.
     pub fn first_emulator(&self) -> Result<Emulator, CalibrationError> {
-        let own = self.of_model().into_iter().map(|k| self.parameters[k].clone());
-        let (own, parts): (Vec<_>, _) = (own.collect(), self.parts()?);
-        let known = self.emulator.clone();
-        let known = known.unwrap_or_else(|| Emulator::new(own.clone(), parts.clone()));
-        known.of_model(&own, &parts, self.options.relative_noise)
+        let parameters = self.of_model().into_iter().map(|k| self.parameters[k].clone());
+        let fresh = Emulator::new(parameters.collect(), self.parts()?);
+        let emulator = match &self.emulator {
+            Some(known) if !known.is_like(&fresh) => {
+                let what = "number of parameters of a fit that begins with an earlier one";
+                let allowed = "the same parameters and number of observations as there";
+                let count = self.of_model().len() as f64;
+                return Err(CalibrationError::invalid(what, count, allowed));
+            }
+            Some(known) => known.clone(),
+            None => fresh,
+        };
+        Ok(emulator.with_noise(self.options.relative_noise))
     }
 
     /// What acts on which predictions: by default every parameter of the model on all.
@@ -64,15 +68,8 @@ impl Problem<'_> {
                 parameters: (0..count).collect(),
             });
         }
-        let predictions: usize = parts.iter().map(|part| part.predictions).sum();
-        if predictions != observations {
-            let what = "number of predictions of the model's parts";
-            return Err(CalibrationError::invalid(
-                what,
-                predictions as f64,
-                "one for each observation",
-            ));
-        }
+        let predictions = parts.iter().map(|part| part.predictions).sum();
+        CalibrationError::check_count("predictions of the model's parts", predictions, observations)?;
         let mut indices = parts.iter().flat_map(|part| &part.parameters);
         match indices.find(|&&index| index >= count) {
             None => Ok(parts),
@@ -83,7 +80,8 @@ impl Problem<'_> {
         }
     }
 
-    /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.
+    /// Refuses too few observations: priors count as one; noise to be estimated needs one more, and at least
+    /// two of the data.
     pub fn check(&self) -> Result<(), CalibrationError> {
         let (observations, parameters) = (self.observations.len(), self.parameters.len());
         let unknown = parameters - self.priors();
@@ -92,13 +90,17 @@ impl Problem<'_> {
         } else {
             (unknown + 1).max(2)
         };
-        if parameters == 0 || observations < needed {
-            return Err(CalibrationError::TooFewObservations {
-                observations,
-                parameters,
-                needed,
-            });
+        if parameters > 0 && observations >= needed {
+            return Ok(());
         }
-        Ok(())
+        let allowed = format!(
+            "{needed} or more to determine {parameters} parameters: one more than parameters without prior knowledge \
+             if the noise is to be estimated as well"
+        );
+        Err(CalibrationError::invalid(
+            "number of observations",
+            observations as f64,
+            allowed,
+        ))
     }
 }

@@ -10,6 +10,8 @@
 //! that makes an interval: by four standard errors. For a true value at the bound itself, one such distance
 //! would close one of forty intervals by chance.
 
+use nalgebra::DVector;
+
 use crate::CalibrationError;
 use crate::covariance::Covariance;
 use crate::descent::{Optimum, descend};
@@ -25,7 +27,7 @@ const HALVINGS: usize = 40;
 /// A point of a profile: one parameter held, all others fitted.
 #[derive(Debug, Clone)]
 pub(crate) struct ProfilePoint {
-    pub point: Point,
+    pub free: DVector<f64>,
     /// The deviance there above that of the optimum; negative where the optimum is none.
     pub rise: f64,
 }
@@ -61,20 +63,15 @@ pub(crate) struct Profiler<'a> {
 impl Profiler<'_> {
     /// The profiles of the first `count` parameters. What any descent has found is true for all: where it lies
     /// below a profile, that one is in a wrong valley there.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::NotConverged`].
     pub fn profiles(&self, count: usize) -> Result<Vec<Profile>, CalibrationError> {
-        let first = (0..count)
-            .map(|k| self.points(k))
-            .collect::<Result<Vec<_>, _>>()?;
-        let others = self.others.iter().map(|other| self.at(other.clone()));
+        let first = (0..count).map(|k| self.points(k));
+        let first = first.collect::<Result<Vec<_>, _>>()?;
+        let others = self.others.iter().map(|other| self.at(other));
         let known: Vec<ProfilePoint> = first.iter().flatten().cloned().chain(others).collect();
         let profile = |(k, mut points): (usize, Vec<ProfilePoint>)| {
             let count = points.len();
             for point in &known {
-                let next = points.partition_point(|other| other.point.free[k] < point.point.free[k]);
+                let next = points.partition_point(|other| other.free[k] < point.free[k]);
                 let mut around = points[next.saturating_sub(1)..].iter().take(2);
                 if around.all(|other| point.rise < other.rise - BETTER) {
                     points.insert(next, point.clone());
@@ -90,7 +87,7 @@ impl Profiler<'_> {
 
     /// The profile of parameter `k` along its grid.
     fn points(&self, k: usize) -> Result<Vec<ProfilePoint>, CalibrationError> {
-        let optimum = self.at(self.optimum.point.clone());
+        let optimum = self.at(&self.optimum.point);
         let points = self.grid(k).into_iter().map(|z| self.fit_others(k, z, &optimum));
         let mut points = points.collect::<Result<Vec<_>, _>>()?;
         self.spread(k, &mut points)?;
@@ -102,8 +99,8 @@ impl Profiler<'_> {
     fn spread(&self, k: usize, points: &mut [ProfilePoint]) -> Result<(), CalibrationError> {
         for _ in 0..2 {
             for index in 1..points.len() {
-                let z = points[index].point.free[k];
-                let mut moved = &points[index].point.free - &points[index - 1].point.free;
+                let z = points[index].free[k];
+                let mut moved = &points[index].free - &points[index - 1].free;
                 moved[k] = 0.0;
                 if moved.amax() >= JUMP {
                     let other = self.fit_others(k, z, &points[index - 1])?;
@@ -153,15 +150,18 @@ impl Profiler<'_> {
 
     /// Fits all parameters but `k`, held at `z`, from where a neighbour has them.
     fn fit_others(&self, k: usize, z: f64, from: &ProfilePoint) -> Result<ProfilePoint, CalibrationError> {
-        let mut start = from.point.free.clone();
+        let mut start = from.free.clone();
         start[k] = z;
         let point = descend(self.likelihood, self.optimum.deviance, start, Some(k))?;
-        Ok(self.at(point))
+        Ok(self.at(&point))
     }
 
-    fn at(&self, point: Point) -> ProfilePoint {
-        let rise = self.optimum.deviance.total(&point.residuals) - self.optimum.value();
-        ProfilePoint { point, rise }
+    fn at(&self, Point { free, residuals }: &Point) -> ProfilePoint {
+        let rise = self.optimum.deviance.total(residuals) - self.optimum.value();
+        ProfilePoint {
+            free: free.clone(),
+            rise,
+        }
     }
 
     /// The free variable at the end before the first of these points, which begin at a bound, and a point
@@ -182,28 +182,20 @@ impl Profiler<'_> {
             if off(&inner).min(off(&outer)) < ACCURACY * self.wanted {
                 break;
             }
-            let z = 0.5 * (inner.point.free[k] + outer.point.free[k]);
+            let z = 0.5 * (inner.free[k] + outer.free[k]);
             let mut middle = self.fit_others(k, z, &inner)?;
             if outer.rise.is_finite() {
                 let other = self.fit_others(k, z, &outer)?;
                 middle = if other.rise < middle.rise { other } else { middle };
             }
-            let side = if middle.root() < self.wanted {
-                &mut inner
-            } else {
-                &mut outer
-            };
-            *side = middle;
+            let is_inside = middle.root() < self.wanted;
+            *(if is_inside { &mut inner } else { &mut outer }) = middle;
         }
-        let (a, b) = (inner.point.free[k], outer.point.free[k]);
+        let (a, b) = (inner.free[k], outer.free[k]);
         // Beyond an infinite rise the model has no answer.
         let share = ((self.wanted - inner.root()) / (outer.root() - inner.root())).clamp(0.0, 1.0);
-        let end = if outer.rise.is_finite() {
-            a + share * (b - a)
-        } else {
-            a
-        };
+        let share = if outer.rise.is_finite() { share } else { 0.0 };
         let near = if off(&inner) < off(&outer) { inner } else { outer };
-        Ok(Some((end, near)))
+        Ok(Some((a + share * (b - a), near)))
     }
 }

@@ -31,10 +31,6 @@ pub(crate) fn all_over(dimensions: usize, count: usize) -> Vec<DVector<f64>> {
 
 /// The optimum on the emulator, and where other descents ended. The `last` one stays, unless another is better
 /// by more than a fraction of a standard error. Where the sigmas are not believed, only their ratios are.
-///
-/// # Errors
-///
-/// [`CalibrationError::NotConverged`] if no descent comes to an end.
 pub(crate) fn optimum(
     likelihood: &Likelihood<'_>,
     last: Option<&DVector<f64>>,

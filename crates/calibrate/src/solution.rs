@@ -28,10 +28,6 @@ pub(crate) struct Solution {
 
 impl Solution {
     /// What is known around an optimum, where descents ended at `others` too.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError::NotConverged`].
     pub fn around(
         likelihood: &Likelihood<'_>,
         optimum: Optimum,
@@ -49,12 +45,8 @@ impl Solution {
             others,
             wanted,
         };
-        let count = if problem.options.profiles {
-            problem.asked
-        } else {
-            0
-        };
-        let profiles = profiler.profiles(count)?;
+        let count = Some(problem.asked).filter(|_| problem.options.profiles);
+        let profiles = profiler.profiles(count.unwrap_or(0))?;
         Ok(Self {
             optimum,
             covariance,
@@ -69,7 +61,7 @@ impl Solution {
         let points = self.profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
         let is_lower = lowest.rise < -settled(problem, &self.optimum).max(BETTER);
-        is_lower.then_some(&lowest.point.free)
+        is_lower.then_some(&lowest.free)
     }
 
     /// Places on which it rests, each with the standard error of all readings together up to which the emulator
@@ -79,7 +71,7 @@ impl Solution {
         let hidden = HIDDEN.max(noise(likelihood.problem, &self.optimum).sqrt());
         let support = |point: &ProfilePoint, least: f64, threshold: f64| {
             let allowed = least.max(0.25 * (point.root() - threshold).abs());
-            (likelihood.place(&point.point.free), allowed)
+            (likelihood.place(&point.free), allowed)
         };
         let mut supports = Vec::new();
         for Profile { points, at_ends, .. } in &self.profiles {
@@ -87,7 +79,7 @@ impl Solution {
             let bounds = points.first().into_iter().chain(points.last());
             supports.extend(bounds.map(|point| support(point, SURE, EXCLUSION * self.wanted)));
             // A coarser model has shown where the others lie.
-            if likelihood.emulator.coarse_optimum().is_none() {
+            if likelihood.emulator.coarse_optimum.is_none() {
                 let low = points.iter().filter(|point| point.root() < HIGH);
                 supports.extend(low.map(|point| support(point, hidden, self.wanted)));
             }
@@ -97,17 +89,17 @@ impl Solution {
 
     /// The lowest place that an interval holds beyond some that fit worse, where a parameter fits about as
     /// well.
-    pub fn rival(&self) -> Option<&Point> {
+    pub fn rival(&self) -> Option<&DVector<f64>> {
         let mut rivals = Vec::new();
         for (k, profile) in self.profiles.iter().enumerate() {
-            let is_below = |point: &ProfilePoint| point.point.free[k] < self.optimum.point.free[k];
+            let is_below = |point: &ProfilePoint| point.free[k] < self.optimum.point.free[k];
             let inside = |point: &&ProfilePoint| point.root() < self.wanted;
             let (below, above) = profile.points.split_at(profile.points.partition_point(is_below));
             rivals.extend(below.iter().rev().skip_while(inside).filter(inside));
             rivals.extend(above.iter().skip_while(inside).filter(inside));
         }
         let lowest = rivals.into_iter().min_by(|a, b| a.rise.total_cmp(&b.rise));
-        lowest.map(|lowest| &lowest.point)
+        lowest.map(|lowest| &lowest.free)
     }
 
     /// Of all parameters that are asked for.
@@ -123,21 +115,17 @@ impl Solution {
         let interval = Interval { lower, upper };
         // Where the model is steepest nowhere near, as at its largest value, only the interval tells how
         // exactly the parameter is known.
-        let half = lower
-            .zip(upper)
-            .map(|(lower, upper)| 0.5 * (upper - lower) / self.wanted);
-        let by_slopes = self
-            .covariance
-            .standard_error(k)
-            .map(|error| error * parameter.slope(free));
+        let width = lower.zip(upper).map(|(lower, upper)| upper - lower);
+        let half = width.map(|width| 0.5 * width / self.wanted);
+        let error = self.covariance.standard_error(k);
+        let by_slopes = error.map(|error| error * parameter.slope(free));
         let by_slopes = by_slopes.filter(|error| half.is_none_or(|half| *error <= 2.0 * half));
         let points = profile
-            .into_iter()
+            .iter()
             .flat_map(|profile| profile.points.iter().chain(&profile.at_ends));
         let finite = points.filter(|point| point.rise.is_finite());
-        let mut curve: Vec<(f64, f64)> = finite
-            .map(|point| (parameter.value(point.point.free[k]), point.rise))
-            .collect();
+        let curve = finite.map(|point| (parameter.value(point.free[k]), point.rise));
+        let mut curve: Vec<(f64, f64)> = curve.collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         Estimate {
             name: parameter.name().to_owned(),

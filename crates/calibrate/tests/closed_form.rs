@@ -508,18 +508,12 @@ fn bad_input_is_named() {
     ));
     assert!(matches!(
         new(vec![1.0, 2.0]).unwrap().fit(),
-        Err(CalibrationError::TooFewObservations {
-            observations: 2,
-            parameters: 2,
-            needed: 3
-        })
+        Err(CalibrationError::Invalid { what, value: 2.0, allowed })
+            if what == "number of observations" && allowed.starts_with("3 or more")
     ));
     assert!(matches!(
         new(vec![1.0; 4]).unwrap().fit(),
-        Err(CalibrationError::PredictionLength {
-            expected: 4,
-            found: 5
-        })
+        Err(CalibrationError::Invalid { what, value: 5.0, .. }) if what == "number of predictions"
     ));
     assert!(matches!(
         new(vec![1.0; 5]).unwrap().with_sigmas(vec![1.0; 4]),
@@ -545,6 +539,6 @@ fn bad_input_is_named() {
     ];
     assert!(matches!(
         Calibration::new(&model, same, vec![1.0; 5]),
-        Err(CalibrationError::DuplicateParameter { .. })
+        Err(CalibrationError::Invalid { what, .. }) if what.starts_with("number of parameters called")
     ));
 }

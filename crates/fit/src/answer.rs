@@ -3,16 +3,17 @@
 use cable_dem::Mesh;
 use calibrate::{Estimate, Fit, Loss};
 
-use super::diagnosis::{LEFT_OUT, diagnose};
-use super::ground;
-use super::meshes::Final;
-use super::model::{MeshOf, SeriesModel};
-use super::problem::Problem;
-use super::result::{
+use crate::diagnosis::{LEFT_OUT, diagnose};
+use crate::ground;
+use crate::instrument::Row;
+use crate::meshes::Final;
+use crate::model::{MeshOf, SeriesModel};
+use crate::parameters::Fitted;
+use crate::problem::Problem;
+use crate::readings::Measured;
+use crate::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
-use super::row::Row;
-use crate::readings::Measured;
 use creepage_plan::finite;
 use creepage_run::Error;
 use creepage_scene::four_digits;
@@ -21,32 +22,36 @@ use creepage_scene::four_digits;
 const MESH_SHIFT: f64 = 0.8;
 
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
-    let fit = &found.fit;
+    let (fit, series) = (&found.fit, problem.series);
     let readings = readings(problem, found);
     let r_squared = explained(&readings);
-    let diagnosis = diagnose(problem, found, mistakes, r_squared)?;
-    let suspicious = diagnosis.lack_of_fit.suspicious;
-    let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
-    let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    let parameters = fit.estimates.iter().zip(units);
-    let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
+    let (lack_of_fit, mut warnings) = diagnose(problem, found, mistakes, r_squared)?;
+    warnings.extend(fit.warnings.iter().map(ToString::to_string));
+    let model_error = model_error(found);
+    for (Estimate { name, .. }, error) in fit.estimates.iter().zip(&model_error.standard_errors) {
+        if *error > MESH_SHIFT {
+            let words = "standard errors: its interval is too narrow";
+            warnings.push(format!("the mesh may move {name} by {error:.1} {words}"));
+        }
+    }
+    warnings.extend(series.iter().flat_map(|one| one.readings.notes()).cloned());
+    let parameters = fit.estimates.iter().zip(problem.fitted);
+    let parameter = |(estimate, fitted): (&Estimate, _)| parameter(estimate, fitted, lack_of_fit.suspicious);
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
-    let model_error = model_error(found);
+    // Where readings have their own sigmas, there is no single noise.
+    let own_sigmas = series.iter().all(|one| one.readings.sigmas().is_some());
     let answer = Calibrated {
-        titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
-        parameters: parameters
-            .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
-            .collect(),
+        titles: series.iter().map(|one| one.scene.title.clone()).collect(),
+        parameters: parameters.map(parameter).collect(),
         correlation: fit.correlation.clone(),
         residual_rms_n: forces.map_or(0.0, |forces| forces.rms),
         residuals,
         r_squared,
         evaluations: found.evaluations,
-        warnings: warnings(problem, fit, &model_error, diagnosis.warnings),
-        lack_of_fit: diagnosis.lack_of_fit,
+        warnings,
+        lack_of_fit,
         assumptions: ground::assumption(problem, found)?.into_iter().collect(),
-        // Where readings have their own sigmas, there is no single noise.
         noise_n: (!own_sigmas).then_some(fit.noise),
         degrees_of_freedom: fit.degrees_of_freedom,
         method: method(problem, fit)?,
@@ -67,34 +72,11 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
     }
 }
 
-fn warnings(
-    problem: &Problem<'_>,
-    fit: &Fit,
-    error: &ModelErrorEstimate,
-    mut warnings: Vec<String>,
-) -> Vec<String> {
-    warnings.extend(fit.warnings.iter().map(ToString::to_string));
-    for (Estimate { name, .. }, error) in fit.estimates.iter().zip(&error.standard_errors) {
-        if *error > MESH_SHIFT {
-            let words = "standard errors: its interval is too narrow";
-            warnings.push(format!("the mesh may move {name} by {error:.1} {words}"));
-        }
-    }
-    warnings.extend(
-        problem
-            .series
-            .iter()
-            .flat_map(|one| one.readings.notes())
-            .cloned(),
-    );
-    warnings
-}
-
-fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> FittedParameter {
+fn parameter(estimate: &Estimate, fitted: &Fitted, suspicious: bool) -> FittedParameter {
     let profile = estimate.profile.iter();
     FittedParameter {
         name: estimate.name.clone(),
-        unit,
+        unit: fitted.unknown.quantity.unit(),
         value: estimate.value,
         standard_error: estimate.standard_error,
         interval_95: [estimate.interval.lower, estimate.interval.upper],
@@ -106,28 +88,28 @@ fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> Fitte
 }
 
 fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
-    let mesh = |model: &SeriesModel| model.levels.mesh(MeshOf::Answer.level(model));
-    let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
-    let places = problem.models.iter().map(|model| model.observed[0].1.place());
+    let (models, options) = (problem.models, problem.options);
+    let mesh = |model: &SeriesModel| model.levels.mesh(model.level(MeshOf::Answer));
+    let meshes = models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
+    let places = models.iter().map(|model| model.rows[0].reading.measured.place());
     let freedom = four_digits(fit.degrees_of_freedom);
     let noise = if fit.noise_estimated {
         format!(", Student's t with {freedom} degrees of freedom")
     } else {
         " with the given sigmas".into()
     };
-    let error = problem.options.discrepancy.map_or_else(String::new, |share| {
+    let error = options.discrepancy.map_or_else(String::new, |share| {
         let percent = four_digits(100.0 * share);
         format!(", beside a smooth error of the model of {percent} % of the largest reading")
     });
     Ok(FitMethod {
-        cable: problem.models[0].method().to_string(),
+        cable: models[0].method().to_string(),
         load_cell: places.collect(),
         node_spacing_m: meshes.iter().map(Mesh::spacing).collect(),
         vehicle_step_m: meshes.iter().map(Mesh::vehicle_step).collect(),
-        loss: if problem.options.loss == Loss::Squares {
-            "squares"
-        } else {
-            "tukey"
+        loss: match options.loss {
+            Loss::Squares => "squares",
+            _ => "tukey",
         },
         intervals: format!("profile likelihood{noise}{error}"),
     })
@@ -135,7 +117,7 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
 
 fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
     let fit = &found.fit;
-    let fitted = |(k, row): (usize, &Row<'_>)| {
+    let fitted = |(k, row): (usize, &Row)| {
         let (reading, measured) = (row.reading, row.reading.measured);
         let force = |value: f64| matches!(measured, Measured::Force(_)).then_some(value);
         let (fitted, residual) = (fit.fitted[k] + found.difference[k], fit.residuals[k]);
@@ -149,7 +131,7 @@ fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
             run: problem.series[row.series].readings.runs()[reading.run].clone(),
             line: reading.line,
             measured: measured.name(),
-            at: row.observed.place(),
+            at: measured.place(),
             value: reading.value,
             fitted,
             residual,
@@ -159,7 +141,8 @@ fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
     problem.rows.iter().enumerate().map(fitted).collect()
 }
 
-/// The share of the variance of the readings that are kept which the model explains; `None` where they do not vary.
+/// The share of the variance of the readings that are kept which the model explains; `None` where
+/// they do not vary.
 fn explained(readings: &[FittedReading]) -> Option<f64> {
     let kept = || readings.iter().filter(|reading| reading.weight >= LEFT_OUT);
     let mean = kept().map(|reading| reading.value).sum::<f64>() / kept().count().max(1) as f64;
@@ -171,11 +154,10 @@ fn explained(readings: &[FittedReading]) -> Option<f64> {
 /// By kind of reading, in the order of the file.
 fn residuals(readings: &[FittedReading]) -> Vec<ResidualSize> {
     let mut sizes: Vec<ResidualSize> = Vec::new();
-    for reading in readings {
-        if sizes.iter().any(|size| size.measured == reading.measured) {
+    for &FittedReading { measured, unit, .. } in readings {
+        if sizes.iter().any(|size| size.measured == measured) {
             continue;
         }
-        let (measured, unit) = (reading.measured, reading.unit);
         let all = readings.iter().filter(|other| other.measured == measured);
         let (kept, left): (Vec<_>, Vec<_>) = all.partition(|other| other.weight >= LEFT_OUT);
         let squares: f64 = kept.iter().map(|other| other.residual * other.residual).sum();

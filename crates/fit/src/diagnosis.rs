@@ -1,81 +1,56 @@
 //! Whether a fit can be believed: what its residuals say, and what they would call for.
 //!
-//! Residuals of a model that holds, read by a cell without faults, are noise: their signs change as coins do, they are as large as
-//! neighbouring readings differ, no constant and no line explains a part of them, and none is far from all others.
+//! Residuals of a model that holds, read by a cell without faults, are noise: their signs change as
+//! coins do, they are as large as neighbouring readings differ, no constant and no line explains a
+//! part of them, and none is far from all others.
 
 use calibrate::{Loss, probability_of_scatter, probability_of_signs, probability_of_size};
-use serde::Serialize;
 
-use super::alternatives::{Alternative, alternative};
-use super::meshes::Final;
-use super::problem::Problem;
-use super::row::Row;
-use super::terms::cells;
-use super::unknown::Quantity;
+use crate::cell_errors::{CellError, cell_error};
+use crate::instrument::Row;
+use crate::meshes::Final;
+use crate::noise::{MEDIAN_TO_SIGMA, median};
+use crate::problem::Problem;
+use crate::result::{LackOfFit, misses_by};
+use crate::unknown::Quantity;
 use creepage_plan::shown::words_if;
 use creepage_run::Error;
 use creepage_scene::FrictionLaw;
 
-/// Probability below which chance is no longer believed. Four tests then call about three clean series in a hundred suspicious.
+/// Probability below which chance is no longer believed. Four tests then call about three clean
+/// series in a hundred suspicious.
 const CHANCE: f64 = 0.01;
-/// The same for errors of a cell, which move friction farthest where they show least: of 200 series with a drift of 0.8 N a pass 18 go unseen with
-/// 0.02, 11 with 0.03 and 10 with 0.05, and of 200 clean ones 4, 6 and 14 seem to have such errors (tests/faulty_cells.rs).
+/// The same for errors of a cell, which move friction farthest where they show least: of 200 series
+/// with a drift of 0.8 N a pass 18 go unseen with 0.02, 11 with 0.03 and 10 with 0.05, and of 200
+/// clean ones 4, 6 and 14 seem to have such errors (tests/faulty_cells.rs).
 const CHANCE_OF_ERRORS: f64 = 0.03;
-/// Robust standard deviations from which on a reading is an outlier: of forty, Gaussian noise makes one in a thousand series.
+/// Robust standard deviations from which on a reading is an outlier: of forty, Gaussian noise makes
+/// one in a thousand series.
 const OUTLIER: f64 = 4.5;
-/// Makes the median of |r| under Gaussian noise a standard deviation.
-const MEDIAN_TO_SIGMA: f64 = 1.4826;
-/// R² of a model whose residuals are three times the spread of the readings: it does not follow them
-/// at all, however few they are.
-const MISSED: f64 = -8.0;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
 /// Fewest readings that are judged beside the parameters.
 const FEWEST: f64 = 3.0;
 
-/// Whether the residuals are noise.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LackOfFit {
-    /// Probability of so few changes of sign by chance.
-    pub p_runs: f64,
-    /// Probability that noise alone shows so much drift; null where it is fitted or cannot be told.
-    pub p_trend: Option<f64>,
-    /// Probability that noise alone shows a zero that is off by so much; null as before.
-    pub p_offset: Option<f64>,
-    /// Probability of residuals so much larger than neighbouring readings differ: of an R² below what the noise explains.
-    pub p_noise: Option<f64>,
-    /// Probability of residuals so much larger than the sigmas of the readings; null where these have none.
-    pub p_sigma: Option<f64>,
-    /// Whether any of these is below 0.01 (0.03 of the second and third), readings are outliers, or the data look mistaken: then no parameter is called identifiable.
-    pub suspicious: bool,
-}
-
-/// A verdict with its reasons.
-pub struct Diagnosis {
-    pub lack_of_fit: LackOfFit,
-    pub warnings: Vec<String>,
-}
-
 /// Judges the fit, which explains the share `r_squared` of the readings; `mistakes` are those of
-/// sign and unit that were found.
+/// sign and unit that were found. Verdict and warnings.
 pub fn diagnose(
     problem: &Problem<'_>,
     found: &Final,
     mistakes: Vec<String>,
     r_squared: Option<f64>,
-) -> Result<Diagnosis, Error> {
+) -> Result<(LackOfFit, Vec<String>), Error> {
     let (fit, rows) = (&found.fit, problem.rows);
     let noise = fit.standardised_noise();
     let outliers = outliers(&noise, &fit.weights);
     let judged: Vec<usize> = (0..noise.len()).filter(|row| !outliers.contains(row)).collect();
     let sequences = sequences(rows, &noise, &judged);
-    let cells = cells(rows);
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
     let is_told = fit.degrees_of_freedom >= FEWEST && !hidden;
-    let of_cell = |quantity| match is_told.then_some(&cells) {
-        Some(cells) => alternative(problem, found, quantity, cells, &judged),
-        None => Ok(None),
+    let of_cell = |quantity| {
+        let error = is_told.then(|| cell_error(problem, found, quantity, &judged));
+        error.unwrap_or(Ok(None))
     };
     let errors = [of_cell(Quantity::Drift)?, of_cell(Quantity::ZeroOffset)?];
     let [p_trend, p_offset] = errors.each_ref().map(|error| Some(error.as_ref()?.probability));
@@ -88,10 +63,7 @@ pub fn diagnose(
         p_sigma: (!fit.noise_estimated).then(|| probability_of_scatter(&sequences, used)),
         suspicious: false,
     };
-    let mut failed = failed_tests(&lack_of_fit, &errors, &fit.estimates[0].name);
-    if misses_by(r_squared).is_some() {
-        failed.push("they are many times the spread of the readings".into());
-    }
+    let failed = failed_tests(&lack_of_fit, &errors, r_squared);
     let is_robust = problem.options.loss != Loss::Squares;
     let draw = !outliers.is_empty() && !is_robust;
     lack_of_fit.suspicious = !failed.is_empty() || !mistakes.is_empty() || draw;
@@ -104,101 +76,91 @@ pub fn diagnose(
         let best = errors.min_by(|a, b| a.probability.total_cmp(&b.probability));
         let best = best.filter(|error| error.probability < CHANCE_OF_ERRORS);
         let explained = r_squared.map_or_else(String::new, |r| format!(" (R² {r:.3})"));
+        let way_out = way_out(problem, best.map(|error| error.quantity), draw);
+        let failed = failed.join(", ");
         warnings.push(format!(
-            "the model does not follow these readings{explained}: of the residuals, {}; values and intervals may be wrong, and no parameter is \
-             called identifiable: {}",
-            failed.join(", "),
-            way_out(problem, best.map(|error| error.quantity), draw)
+            "the model does not follow these readings{explained}: of the residuals, {failed}; values and intervals \
+             may be wrong, and no parameter is called identifiable: {way_out}"
         ));
     }
-    Ok(Diagnosis {
-        lack_of_fit,
-        warnings,
-    })
+    Ok((lack_of_fit, warnings))
 }
 
 /// The tests that the residuals fail, each in words.
-fn failed_tests(lack: &LackOfFit, errors: &[Option<Alternative<'_>>; 2], first: &str) -> Vec<String> {
-    let of_cell = |error: &Option<Alternative<'_>>| {
-        error
-            .as_ref()
-            .map_or_else(String::new, |error| error.words(first))
-    };
+fn failed_tests(lack: &LackOfFit, errors: &[Option<CellError>; 2], r_squared: Option<f64>) -> Vec<String> {
+    let errors = errors.each_ref().map(Option::as_ref);
+    let [drift, offset] = errors.map(|error| error.map_or("", |error| &error.words));
+    let larger = "they are larger than neighbouring readings differ";
     let tests = [
-        (Some(lack.p_runs), CHANCE, "they keep their sign".into()),
-        (
-            lack.p_noise,
-            CHANCE,
-            "they are larger than neighbouring readings differ".into(),
-        ),
-        (lack.p_sigma, CHANCE, "they are larger than their sigmas".into()),
-        (lack.p_trend, CHANCE_OF_ERRORS, of_cell(&errors[0])),
-        (lack.p_offset, CHANCE_OF_ERRORS, of_cell(&errors[1])),
+        (Some(lack.p_runs), CHANCE, "they keep their sign"),
+        (lack.p_noise, CHANCE, larger),
+        (lack.p_sigma, CHANCE, "they are larger than their sigmas"),
+        (lack.p_trend, CHANCE_OF_ERRORS, drift),
+        (lack.p_offset, CHANCE_OF_ERRORS, offset),
     ];
-    let failed = tests
-        .into_iter()
-        .filter_map(|(p, chance, words): (Option<f64>, f64, String)| {
-            let p = p.filter(|p| *p < chance)?;
-            Some(format!("{words} (by chance {p:.1e})"))
-        });
-    failed.collect()
+    let failed = tests.into_iter().filter_map(|(p, chance, words)| {
+        let p = p.filter(|p| *p < chance)?;
+        Some(format!("{words} (by chance {p:.1e})"))
+    });
+    let missed = "they are many times the spread of the readings".to_owned();
+    failed.chain(misses_by(r_squared).map(|_| missed)).collect()
 }
 
-/// How many times the spread of the readings the residuals are, if the model does not follow them.
-pub fn misses_by(r_squared: Option<f64>) -> Option<f64> {
-    let missed = r_squared.filter(|explained| *explained < MISSED)?;
-    Some((1.0 - missed).sqrt())
-}
-
-/// What to try where tests fail: to fit the `error` of a cell that would explain the residuals best, or what else.
+/// What to try where tests fail: to fit the `error` of a cell that would explain the residuals
+/// best, or what else.
 fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -> String {
-    let fitted = || problem.unknowns.iter().map(|unknown| unknown.quantity);
+    let (of_model, series) = (problem.of_model().len(), problem.series);
+    let mut fitted: Vec<Quantity> = problem.fitted.iter().map(|one| one.unknown.quantity).collect();
     // A wrong shape factor looks like an error of the cell.
-    let mut laws = problem.series.iter().map(|one| one.scene.friction.law());
-    let is_elastic = laws.any(|law| law != FrictionLaw::Coulomb);
-    let is_held = is_elastic && !fitted().any(|quantity| quantity == Quantity::ShapeFactor);
-    let held = is_held.then_some(Quantity::ShapeFactor);
+    let mut laws = series.iter().map(|one| one.scene.friction.law());
+    if laws.any(|law| law != FrictionLaw::Coulomb) && !fitted.contains(&Quantity::ShapeFactor) {
+        fitted.insert(of_model, Quantity::ShapeFactor);
+    }
     let fit_it = |quantity: Quantity| {
-        let terms = problem.terms.iter().map(|term| term.quantity);
-        let all = fitted().chain(held).chain(terms).chain([quantity]);
-        let mut names: Vec<String> = all.map(|one| one.to_string()).collect();
+        let all = fitted.iter().chain([&quantity]);
+        let mut names: Vec<String> = all.map(ToString::to_string).collect();
         names.dedup();
         names.join(",")
     };
-    let has_runs = problem.series.iter().any(|one| one.readings.runs().len() > 1);
+    let discrepancy = words_if(
+        problem.options.discrepancy.is_none(),
+        "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them",
+    );
     match error {
         _ if has_outliers => "try --robust first, which leaves the outliers out".into(),
         Some(quantity) => format!("try --fit {}", fit_it(quantity)),
-        None if has_runs => "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of the scene".into(),
+        None if series.iter().any(|one| one.readings.runs().len() > 1) => {
+            "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of \
+             the scene"
+                .into()
+        }
         None => format!(
-            "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with --deflection{}",
+            "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with \
+             --deflection{discrepancy}",
             fit_it(Quantity::ZeroOffset),
-            words_if(problem.options.discrepancy.is_none(), "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them")
         ),
     }
 }
 
 /// Rows whose residual lies far from all others, or which a robust fit left out.
 fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
-    let mut sizes: Vec<f64> = noise.iter().map(|r| r.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let spread = MEDIAN_TO_SIGMA * sizes.get(noise.len() / 2).copied().unwrap_or(0.0);
+    let spread = MEDIAN_TO_SIGMA * median(noise.iter().map(|r| r.abs()));
     let is_far = |&row: &usize| noise[row].abs() > OUTLIER * spread || weights[row] < LEFT_OUT;
     let far: Vec<usize> = (0..noise.len()).filter(is_far).collect();
-    // Of so many, they are no outliers: the rest is not what they lie out of. Of few readings none is told apart.
+    // Of so many, they are no outliers: the rest is not what they lie out of. Of few readings none
+    // is told apart.
     let are_outliers = noise.len() >= 6 && 4 * far.len() <= noise.len();
     if are_outliers { far } else { Vec::new() }
 }
 
-/// Residuals of each run and instrument, or of all that have one reading, in the order of the passes.
-fn sequences(rows: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
+/// Residuals of each run and instrument, or of all that have one reading, in the order of the
+/// passes.
+fn sequences(rows: &[Row], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
     let group_of = |row: usize| (rows[row].instrument(), rows[row].reading.run);
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for &row in judged {
-        match groups
-            .iter_mut()
-            .find(|group| group_of(group[0]) == group_of(row))
-        {
+        let mut known = groups.iter_mut();
+        match known.find(|group| group_of(group[0]) == group_of(row)) {
             Some(group) => group.push(row),
             None => groups.push(vec![row]),
         }
@@ -214,7 +176,7 @@ fn sequences(rows: &[Row<'_>], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>>
 }
 
 /// The outliers by pass and line.
-fn outlier_words(rows: &[Row<'_>], outliers: &[usize], is_robust: bool) -> String {
+fn outlier_words(rows: &[Row], outliers: &[usize], is_robust: bool) -> String {
     let several = rows.iter().any(|row| row.series > 0);
     let one = |&row: &usize| {
         let (reading, of_series) = (rows[row].reading, format!(" of series {}", rows[row].series + 1));

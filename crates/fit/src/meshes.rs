@@ -2,44 +2,42 @@
 
 use calibrate::Fit;
 
-use super::model::MeshOf;
-use super::problem::{Problem, Way};
+use crate::model::MeshOf;
+use crate::problem::{Problem, Way};
 use creepage_run::Error;
 
 pub struct Final {
     pub fit: Fit,
-    /// How much more a mesh twice as fine says at the optimum, which was added to what the mesh predicts, and how many standard errors
-    /// that moved each parameter.
+    /// How much more a mesh twice as fine says at the optimum, which was added to what the mesh
+    /// predicts, and how many standard errors that moved each parameter.
     pub difference: Vec<f64>,
     pub shift: Vec<f64>,
     /// Model runs, all meshes together.
     pub evaluations: usize,
 }
 
-/// Fits with profiles or without: on the coarsest mesh, whose runs cost least, then on that of the plan, then on the same with what a mesh twice as
-/// fine says more at the optimum.
+/// Fits with profiles or without: on the coarsest mesh, whose runs cost least, then on that of the
+/// plan, then on the same with what a mesh twice as fine says more at the optimum.
 pub fn fit(problem: &Problem<'_>, profiles: bool) -> Result<Final, Error> {
     let none = vec![0.0; problem.rows.len()];
-    let way = |mesh, profiles, evaluations| Way {
+    let way = |mesh, profiles| Way {
         mesh,
         difference: &none,
         profiles,
-        runs: problem.limit.saturating_sub(evaluations),
     };
-    let (mut evaluations, mut coarse) = (0, None);
+    let (mut evaluations, mut coarse) = (1, None);
     if !problem.models.iter().any(|model| model.levels.named) {
-        let guess = problem.fit(way(MeshOf::Guess, profiles, 0), None)?;
-        evaluations = guess.evaluations;
+        let guess = problem.fit(way(MeshOf::Guess, profiles), None)?;
+        evaluations += guess.evaluations;
         coarse = Some(guess.emulator.of_finer());
     }
-    let first = problem.fit(way(MeshOf::Answer, false, evaluations), coarse)?;
+    let first = problem.fit(way(MeshOf::Answer, false), coarse)?;
     let finer = problem.predict(MeshOf::Check, 1.0, &first.values())?;
-    evaluations += 1;
     let difference: Vec<f64> = finer.iter().zip(&first.fitted).map(|(a, b)| a - b).collect();
     let (shift, _) = first.shift(&difference);
     let last = Way {
         difference: &difference,
-        ..way(MeshOf::Answer, profiles, evaluations)
+        ..way(MeshOf::Answer, profiles)
     };
     let fit = problem.fit(last, Some(first.emulator))?;
     Ok(Final {

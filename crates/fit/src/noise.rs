@@ -1,49 +1,48 @@
 //! Noise of readings by themselves, before any fit.
 
-use super::row::Row;
-use crate::readings::{Measured, Reading};
+use crate::instrument::Row;
 
 /// Makes the median of |e| under Gaussian noise a standard deviation.
-const MEDIAN_TO_SIGMA: f64 = 1.4826;
+pub const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// Least noise beside the largest value: digits that an instrument shows.
 const LEAST: f64 = 1e-3;
 
-/// Standard deviations that weigh readings of several kinds against each other; `None` where all are of one kind.
-pub fn relative_sigmas(rows: &[Row<'_>]) -> Option<Vec<f64>> {
-    let first = rows.first()?.reading.measured;
-    if rows.iter().all(|row| row.reading.measured.is_like(first)) {
-        return None;
-    }
-    Some(rows.iter().map(|row| noise(rows, row.reading.measured)).collect())
+/// Standard deviations that weigh readings of several kinds against each other; `None` where all
+/// are of one kind.
+pub fn relative_sigmas(rows: &[Row]) -> Option<Vec<f64>> {
+    let kinds = || rows.iter().map(|row| row.reading.measured.name());
+    let first = kinds().next()?;
+    let noises = || kinds().map(|kind| noise(rows, kind)).collect();
+    (!kinds().all(|kind| kind == first)).then(noises)
 }
 
-/// Noise of what is like `measured`: by how far each reading lies off the line between its neighbours (T. Gasser, L. Sroka,
-/// C. Jennen-Steinmetz, "Residual variance and residual pattern in nonlinear regression", Biometrika 73, 1986).
-fn noise(rows: &[Row<'_>], measured: Measured) -> f64 {
-    let mut like: Vec<&Row<'_>> = rows
-        .iter()
-        .filter(|row| row.reading.measured.is_like(measured))
-        .collect();
+/// Noise of readings of a kind: by how far each reading lies off the line between its
+/// neighbours (T. Gasser, L. Sroka, C. Jennen-Steinmetz, "Residual variance and residual pattern in
+/// nonlinear regression", Biometrika 73, 1986).
+fn noise(rows: &[Row], kind: &str) -> f64 {
+    let is_like = |row: &&Row| row.reading.measured.name() == kind;
+    let mut like: Vec<&Row> = rows.iter().filter(is_like).collect();
     like.sort_by_key(|row| (row.series, row.reading.run, row.reading.passes));
-    let largest = like
-        .iter()
-        .fold(0.0_f64, |most, row| most.max(row.reading.value.abs()));
-    let threes = like.windows(3).filter(|three| {
-        let [first, last] = [three[0], three[2]];
-        (first.instrument(), first.reading.run) == (last.instrument(), last.reading.run)
-    });
-    let mut off: Vec<f64> = threes
-        .map(|three| off_line([0, 1, 2].map(|k| three[k].reading)))
-        .collect();
-    off.sort_by(f64::total_cmp);
-    let median = off.get(off.len() / 2).copied().unwrap_or(0.0);
-    (MEDIAN_TO_SIGMA * median)
-        .max(LEAST * largest)
-        .max(f64::MIN_POSITIVE)
+    let sizes = like.iter().map(|row| row.reading.value.abs());
+    let largest = sizes.fold(0.0, f64::max);
+    let group = |row: &Row| (row.instrument(), row.reading.run);
+    let threes = like.windows(3).filter(|three| group(three[0]) == group(three[2]));
+    let least = (LEAST * largest).max(f64::MIN_POSITIVE);
+    least.max(MEDIAN_TO_SIGMA * median(threes.map(off_line)))
 }
 
-fn off_line(three: [&Reading; 3]) -> f64 {
-    let [before, here, after] = three.map(|reading| (reading.passes as f64, reading.value));
+/// The median of some numbers, the higher of two; 0 of none.
+pub fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// How far the second of three readings lies off the line between the others, in standard
+/// deviations of that distance.
+fn off_line(three: &[&Row]) -> f64 {
+    let point = |k: usize| (three[k].reading.passes as f64, three[k].reading.value);
+    let [before, here, after] = [0, 1, 2].map(point);
     let width = after.0 - before.0;
     let share = if width > 0.0 {
         (here.0 - before.0) / width

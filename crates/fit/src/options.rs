@@ -2,8 +2,8 @@
 
 use calibrate::Loss;
 
-use super::unknown::Unknown;
 use crate::readings::Readings;
+use crate::unknown::Unknown;
 use creepage_run::Progress;
 use creepage_scene::Scene;
 
@@ -32,17 +32,17 @@ pub struct CalibrateOptions<'a> {
     pub unknowns: Vec<Unknown>,
     /// Prior knowledge of the ground's stiffness, which is then fitted as well.
     pub deflection: Option<Deflection>,
-    /// Standard deviation of a load cell's zero before the readings \[N\], where it is fitted; a quarter of the largest force if left out.
+    /// Standard deviation of a load cell's zero before the readings \[N\], where it is fitted; a
+    /// quarter of the largest force if left out.
     pub zero_offset_sigma: Option<f64>,
-    /// That of its drift \[N per pass\]; a quarter of the largest force over all passes if left out.
+    /// That of its drift \[N per pass\]; if left out, a quarter of that force over all passes.
     pub drift_sigma: Option<f64>,
-    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation, as a share
-    /// of the largest reading, 1e-4 to 10. Least squares only.
+    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation,
+    /// as a share of the largest reading, 1e-4 to 10. Least squares only.
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,
-    /// Largest number of model runs; 0 takes 2000.
-    pub max_evaluations: usize,
-    /// Called after each model run with its share of all that are allowed; it may stop the calibration.
+    /// Called after each model run with its share of [`MOST_RUNS`](crate::MOST_RUNS); it may stop
+    /// the calibration.
     pub progress: Progress<'a>,
 }

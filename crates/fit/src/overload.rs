@@ -1,16 +1,17 @@
-//! Forces beyond any that friction could make: overloads of an instrument, any one of which would outweigh all other readings.
+//! Forces beyond any that friction could make: overloads of an instrument, any one of which would
+//! outweigh all other readings.
 //!
-//! Friction along the whole duct, with the largest coefficient that is considered, and the weight along its slope bound the force in a cable
-//! without heat: F ≤ (μ N′ + |p|) L.
+//! Friction along the whole duct, with the largest coefficient that is considered, and the weight
+//! along its slope bound the force in a cable without heat: F ≤ (μ N′ + |p|) L.
 
-use super::cell::Observed;
-use super::options::Series;
-use super::unknown::Quantity;
-use crate::readings::{Reading, Readings};
+use crate::instrument::located;
+use crate::options::Series;
+use crate::readings::{Measured, Reading, Readings};
+use crate::unknown::Quantity;
 use creepage_scene::{Scene, four_digits};
 
-/// Share of an instrument's forces beyond which they are no exceptions, but unit, sign or scene not what they seem; and the fewest forces of
-/// which that can be said.
+/// Share of an instrument's forces beyond which they are no exceptions, but unit, sign or scene not
+/// what they seem; and the fewest forces of which that can be said.
 const FEW: f64 = 0.25;
 const FEWEST: usize = 6;
 
@@ -24,37 +25,29 @@ fn largest_force(scene: &Scene) -> f64 {
 /// The readings without those that are beyond reach, and words on these if there are any.
 pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
     let (scene, most) = (one.scene, largest_force(one.scene));
-    let instrument = |reading: &Reading| match Observed::of(scene, reading.measured) {
-        Ok(cell @ (Observed::Force(_) | Observed::ForceAt(_))) => Some(cell),
-        _ => None,
+    let instrument = |reading: &Reading| {
+        let located = located(scene, reading.measured).ok();
+        located.filter(|measured| matches!(measured, Measured::Force(_)))
     };
-    let list = one.readings.readings();
-    let is_large = |reading: &&Reading| reading.value.abs() > most;
+    let is_large = |reading: &Reading| reading.value.abs() > most;
+    let list = || one.readings.readings().iter();
     // Among the forces of its instrument it is an exception.
-    let is_beyond = |reading: &Reading| {
+    let is_exception = |reading: &Reading| {
         let cell = instrument(reading);
-        let all: Vec<&Reading> = list.iter().filter(|other| instrument(other) == cell).collect();
-        let beyond = all.iter().filter(|other| is_large(other)).count();
-        cell.is_some() && all.len() >= FEWEST && beyond as f64 <= FEW * all.len() as f64
+        let all: Vec<&Reading> = list().filter(|other| instrument(other) == cell).collect();
+        let large = all.iter().filter(|other| is_large(other)).count();
+        cell.is_some() && all.len() >= FEWEST && large as f64 <= FEW * all.len() as f64
     };
-    let beyond: Vec<&Reading> = list
-        .iter()
-        .filter(is_large)
-        .filter(|reading| is_beyond(reading))
-        .collect();
-    let kept = one
-        .readings
-        .keep(|reading| !(is_large(&reading) && is_beyond(reading)));
+    let is_beyond = |reading: &Reading| is_large(reading) && is_exception(reading);
+    let kept = one.readings.keep(|reading| !is_beyond(reading));
+    let beyond = list().filter(|reading| is_beyond(reading));
+    let beyond = beyond.map(|reading| format!("pass {} (line {})", reading.pass, reading.line));
+    let beyond: Vec<String> = beyond.collect();
     if beyond.is_empty() || scene.heat.is_some() || kept.last_pass() == 0 {
         return (one.readings.clone(), None);
     }
-    let passes = beyond
-        .iter()
-        .map(|reading| format!("pass {} (line {})", reading.pass, reading.line));
-    let words = format!(
-        "forces larger than friction makes in this duct, at most {} N, were left out: {}",
-        four_digits(most),
-        passes.collect::<Vec<_>>().join(", ")
-    );
+    let (most, passes) = (four_digits(most), beyond.join(", "));
+    let words =
+        format!("forces larger than friction makes in this duct, at most {most} N, were left out: {passes}");
     (kept, Some(words))
 }

@@ -1,8 +1,7 @@
-//! What a calibration answers. The names of the fields are those of the JSON document, units included.
+//! What a calibration answers. Fields have the names of the JSON document, units included.
 
 use serde::Serialize;
 
-use super::diagnosis::{LackOfFit, misses_by};
 use creepage_plan::finite;
 
 /// A calibrated scene.
@@ -14,7 +13,7 @@ pub struct Calibrated {
     pub parameters: Vec<FittedParameter>,
     /// Their correlation; null where one of them has no standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
-    /// Root of the mean square of the residuals of the forces that the fit keeps \[N\]; 0 without forces.
+    /// Root of the mean square of the residuals of the forces that are kept \[N\]; 0 without any.
     pub residual_rms_n: f64,
     /// How large the residuals are, of each kind of reading.
     pub residuals: Vec<ResidualSize>,
@@ -26,7 +25,8 @@ pub struct Calibrated {
     pub warnings: Vec<String>,
     /// Whether the residuals are noise.
     pub lack_of_fit: LackOfFit,
-    /// What the answer takes from the scene that these readings do not show, and what an error of it would do.
+    /// What the answer takes from the scene that these readings do not show, and what an error of
+    /// it would do.
     pub assumptions: Vec<String>,
     /// Standard deviation of the noise \[N\] as estimated; null where every reading has its own.
     pub noise_n: Option<f64>,
@@ -40,8 +40,19 @@ pub struct Calibrated {
     pub fit: Vec<FittedReading>,
 }
 
+/// R² of a model whose residuals are three times the spread of the readings: it does not follow
+/// them at all, however few they are.
+const MISSED: f64 = -8.0;
+
+/// How many times the spread of the readings the residuals are, if the model does not follow them.
+pub fn misses_by(r_squared: Option<f64>) -> Option<f64> {
+    let missed = r_squared.filter(|explained| *explained < MISSED)?;
+    Some((1.0 - missed).sqrt())
+}
+
 impl Calibrated {
-    /// How many times their spread the model misses the readings by, if it does not follow them at all.
+    /// How many times their spread the model misses the readings by, if it does not follow them at
+    /// all.
     pub fn misses_by(&self) -> Option<f64> {
         misses_by(self.r_squared)
     }
@@ -58,7 +69,7 @@ pub struct FittedParameter {
     pub value: f64,
     /// Standard error; null where the readings say nothing about it.
     pub standard_error: Option<f64>,
-    /// Interval that holds the true value in 95 % of all cases; null is an end that the readings do not close.
+    /// Interval that holds the true value in 95 % of all cases; null is an end that is not closed.
     pub interval_95: [Option<f64>; 2],
     /// Whether the interval is closed on both sides, and the fit not suspicious.
     pub identifiable: bool,
@@ -71,7 +82,7 @@ pub struct FittedParameter {
 pub struct ProfilePoint {
     /// Value of the parameter.
     pub value: f64,
-    /// Rise of the deviance above its minimum with all other parameters fitted, in squared standard errors.
+    /// Rise of the deviance above its minimum, all others fitted, in squared standard errors.
     pub rise: f64,
 }
 
@@ -132,6 +143,26 @@ pub struct FittedReading {
     pub residual: f64,
     /// Unit of these three; 1 for a number.
     pub unit: &'static str,
+}
+
+/// Whether the residuals are noise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LackOfFit {
+    /// Probability of so few changes of sign by chance.
+    pub p_runs: f64,
+    /// Probability that noise alone shows so much drift; null where it is fitted or cannot be told.
+    pub p_trend: Option<f64>,
+    /// Probability that noise alone shows a zero that is off by so much; null as before.
+    pub p_offset: Option<f64>,
+    /// Probability of residuals so much larger than neighbouring readings differ: of an R² below
+    /// what the noise explains.
+    pub p_noise: Option<f64>,
+    /// Probability of residuals so much larger than the sigmas of the readings; null where these
+    /// have none.
+    pub p_sigma: Option<f64>,
+    /// Whether any of these is below 0.01 (0.03 of the second and third), readings are outliers, or
+    /// the data look mistaken: then no parameter is called identifiable.
+    pub suspicious: bool,
 }
 
 /// How large the residuals of one kind of reading are.

@@ -3,8 +3,6 @@
 use std::fmt;
 use std::str::FromStr;
 
-use calibrate::{CalibrationError, Parameter, Prior, Scale};
-
 use creepage_scene::Scene;
 
 /// A quantity that can be fitted.
@@ -13,10 +11,10 @@ use creepage_scene::Scene;
 pub enum Quantity {
     /// μ_d, dynamic friction coefficient.
     DynamicCoefficient,
-    /// b \[1/m\], how steeply friction builds up before the cable slips. From about 1e9 1/m on no force tells it from Coulomb's
-    /// law, which is the upper bound's meaning.
+    /// b \[1/m\], how steeply friction builds up before the cable slips. From about 1e9 1/m on no
+    /// force tells it from Coulomb's law, which is the upper bound's meaning.
     ShapeFactor,
-    /// How many times stiffer the ground is than the scene says: the duct's motion is divided by it.
+    /// How many times stiffer the ground is than the scene's: the duct's motion is divided by it.
     GroundStiffness,
     /// What a load cell reads too much of any force \[N\].
     ZeroOffset,
@@ -37,10 +35,11 @@ const NAMES: [(&str, Quantity); 5] = [
 /// Its name; of a section its key, `route.1.dynamic_coefficient`.
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self, NAMES.iter().find(|(_, quantity)| quantity == self)) {
-            (Self::SectionCoefficient(index), _) => write!(f, "route.{index}.dynamic_coefficient"),
-            (_, name) => f.pad(name.map_or("", |(name, _)| name)),
+        if let Self::SectionCoefficient(index) = self {
+            return write!(f, "route.{index}.dynamic_coefficient");
         }
+        let name = NAMES.iter().find(|(_, quantity)| quantity == self);
+        f.pad(name.map_or("", |(name, _)| name))
     }
 }
 
@@ -48,19 +47,14 @@ impl FromStr for Quantity {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if let Some((_, quantity)) = NAMES.iter().find(|(name, _)| *name == text) {
-            return Ok(*quantity);
-        }
-        let section = text
-            .strip_prefix("route.")
-            .and_then(|rest| rest.strip_suffix(".dynamic_coefficient"));
-        section
-            .and_then(|index| index.parse().ok())
-            .map(Self::SectionCoefficient)
-            .ok_or_else(|| {
-                let names = NAMES.map(|(name, _)| name).join(", ");
-                format!("found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient")
-            })
+        let named = NAMES.iter().find(|(name, _)| *name == text);
+        let section = || text.strip_prefix("route.")?.strip_suffix(".dynamic_coefficient");
+        let section = || section()?.parse().ok().map(Self::SectionCoefficient);
+        let found = named.map(|(_, quantity)| *quantity).or_else(section);
+        found.ok_or_else(|| {
+            let names = NAMES.map(|(name, _)| name).join(", ");
+            format!("found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient")
+        })
     }
 }
 
@@ -80,8 +74,8 @@ impl Quantity {
         matches!(self, Self::ZeroOffset | Self::Drift)
     }
 
-    /// Least and largest value that a fit considers; those of a cell's errors follow from its readings.
-    pub fn bounds(self) -> (f64, f64) {
+    /// Least and largest value that a fit considers; of a cell's errors they follow from readings.
+    pub(super) fn bounds(self) -> (f64, f64) {
         match self {
             Self::DynamicCoefficient | Self::SectionCoefficient(_) => (0.03, 1.0),
             Self::ShapeFactor => (1e5, 1e9),
@@ -96,10 +90,8 @@ impl Quantity {
             Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
             Self::ShapeFactor => scene.friction.law().shape_factor(),
             Self::SectionCoefficient(index) => {
-                let own = scene
-                    .route
-                    .get(index)
-                    .and_then(|section| section.dynamic_coefficient);
+                let section = scene.route.get(index);
+                let own = section.and_then(|section| section.dynamic_coefficient);
                 own.unwrap_or(scene.friction.dynamic_coefficient)
             }
             Self::GroundStiffness => 1.0,
@@ -129,7 +121,7 @@ pub struct Unknown {
 
 impl Unknown {
     /// One value for all series.
-    pub fn shared(quantity: Quantity) -> Self {
+    pub const fn shared(quantity: Quantity) -> Self {
         Self {
             quantity,
             series: None,
@@ -137,7 +129,7 @@ impl Unknown {
     }
 
     /// A value of one series alone.
-    pub fn of(quantity: Quantity, series: usize) -> Self {
+    pub const fn of(quantity: Quantity, series: usize) -> Self {
         Self {
             quantity,
             series: Some(series),
@@ -147,15 +139,6 @@ impl Unknown {
     /// Whether it acts on the series of this index.
     pub(super) fn acts_on(self, series: usize) -> bool {
         self.series.is_none_or(|own| own == series)
-    }
-
-    pub(super) fn parameter(self, prior: Option<Prior>) -> Result<Parameter, CalibrationError> {
-        let (lower, upper) = self.quantity.bounds();
-        let parameter = Parameter::new(&self.to_string(), lower, upper, Scale::Logarithmic)?;
-        match prior {
-            Some(prior) => parameter.with_prior(prior),
-            None => Ok(parameter),
-        }
     }
 }
 

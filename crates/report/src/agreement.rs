@@ -1,10 +1,7 @@
 //! Computed force against readings of a load cell.
 
-use creepage_fit::{
-    Series, force_ends, held_end, of_forces,
-    readings::{Reading, Readings},
-    within_reach,
-};
+use creepage_fit::readings::{Measured, Place, Reading, Readings};
+use creepage_fit::{Series, held_end, located, of_forces, within_reach};
 use creepage_run::{Error, PassRecord, Run};
 use creepage_scene::{CableEnd, Scene};
 
@@ -34,15 +31,13 @@ impl Agreement {
     /// [`Error`] where no end of the cable is held.
     pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
         let (readings, beyond) = within_reach(&Series { scene, readings });
-        let ends = force_ends(scene, &readings)?;
         // One cell is drawn: of two, the one that the scene holds.
         let end = held_end(scene)?;
-        let of_end = readings
-            .readings()
-            .iter()
-            .zip(ends)
-            .filter(|(_, cell)| *cell == Some(end));
-        let readings: Vec<Reading> = of_end.map(|(reading, _)| *reading).collect();
+        let located = |reading: &Reading| Ok((*reading, located(scene, reading.measured)?));
+        let located = readings.readings().iter().map(located);
+        let mut located = located.collect::<Result<Vec<(Reading, Measured)>, Error>>()?;
+        located.retain(|(_, measured)| *measured == Measured::Force(Place::End(end)));
+        let readings: Vec<Reading> = located.into_iter().map(|(reading, _)| reading).collect();
         let computed = |reading: &Reading| Some((*reading, force_at(&run.passes, end, reading.passes)?));
         let compared: Vec<(Reading, f64)> = readings.iter().filter_map(computed).collect();
         let differences: Vec<f64> = compared.iter().map(|(read, force)| read.value - force).collect();

@@ -1,6 +1,5 @@
 //! Readings, in the order of their file.
 
-use super::DataError;
 use super::reading::Reading;
 
 /// Readings of one scene, in the order of the file.
@@ -15,35 +14,12 @@ use super::reading::Reading;
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Readings {
-    pub(super) file: String,
     pub(super) list: Vec<Reading>,
     pub(super) runs: Vec<String>,
-    pub(super) skipped: usize,
     pub(super) notes: Vec<String>,
 }
 
 impl Readings {
-    /// Makes sure that there are at least `needed` readings for this number of parameters.
-    ///
-    /// # Errors
-    ///
-    /// [`DataError::Line`].
-    pub fn check_count(&self, parameters: usize, needed: usize) -> Result<(), DataError> {
-        if self.list.len() >= needed {
-            return Ok(());
-        }
-        let line = self.list.last().map_or(0, |reading| reading.line);
-        let allowed = format!(
-            "{needed} or more to fit this ({parameters} parameters); the zero before the first pass counts, as pass 0"
-        );
-        Err(DataError::line(
-            &self.file,
-            line,
-            format!("too few readings: {}", self.list.len()),
-            allowed,
-        ))
-    }
-
     /// The readings, in the order of the file.
     pub fn readings(&self) -> &[Reading] {
         &self.list
@@ -60,11 +36,6 @@ impl Readings {
     /// Names of the runs; one without a name where the file tells none apart.
     pub fn runs(&self) -> &[String] {
         &self.runs
-    }
-
-    /// Rows or cells without a value.
-    pub fn skipped(&self) -> usize {
-        self.skipped
     }
 
     /// What the user should know of how the file was read.
@@ -91,7 +62,6 @@ impl Readings {
 impl FromIterator<Reading> for Readings {
     fn from_iter<I: IntoIterator<Item = Reading>>(readings: I) -> Self {
         Self {
-            file: "readings".into(),
             list: readings.into_iter().collect(),
             runs: vec![String::new()],
             ..Self::default()

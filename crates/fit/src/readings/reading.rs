@@ -48,9 +48,16 @@ impl Measured {
         }
     }
 
-    /// Whether both are of one kind, wherever they were measured.
-    pub fn is_like(self, other: Self) -> bool {
-        std::mem::discriminant(&self) == std::mem::discriminant(&other)
+    /// Where, in words.
+    pub(crate) fn place(self) -> String {
+        match self {
+            Self::Deflection => "first vehicle".into(),
+            Self::Force(place) | Self::Movement(place) | Self::Strain(place) => match place {
+                Place::Natural => "held end".into(),
+                Place::End(end) => end.name().into(),
+                Place::At(x) => format!("{x} m"),
+            },
+        }
     }
 }
 

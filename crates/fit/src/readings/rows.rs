@@ -60,10 +60,7 @@ fn given(row: &Row, column: Option<usize>) -> Option<usize> {
 
 impl Columns<'_> {
     fn readings(&self) -> Result<Readings, DataError> {
-        let mut readings = Readings {
-            file: self.table.file.clone(),
-            ..Readings::default()
-        };
+        let mut readings = Readings::default();
         // Vehicles of each run so far; rows without a value, and what stands there.
         let mut counted: Vec<u64> = Vec::new();
         let (mut blank, mut unusable) = (Vec::new(), Vec::new());
@@ -71,7 +68,7 @@ impl Columns<'_> {
             let label = self.run.map_or("", |column| row.cell(column));
             let known = readings.runs.iter().position(|run| run == label);
             let run = known.unwrap_or(readings.runs.len());
-            if known.is_none() {
+            if run == counted.len() {
                 readings.runs.push(label.to_owned());
                 counted.push(0);
             }
@@ -87,7 +84,6 @@ impl Columns<'_> {
                 }
             }
         }
-        readings.skipped = blank.len() + unusable.len();
         self.check(&readings.list, unusable.first())?;
         let measured = measured(self.values[0].kind, Place::Natural).name();
         let blank = left_out(&format!("rows without a {measured}"), &blank);
@@ -119,7 +115,9 @@ impl Columns<'_> {
         let mut reading = Reading::force(passes, if is_tension { -force } else { force });
         (reading.run, reading.line) = (run, row.line);
         reading.measured = measured(values.kind, place);
-        if let Some((column, like)) = values.sigma.filter(|(column, _)| !row.cell(*column).is_empty()) {
+        if let Some((column, like)) = values.sigma
+            && !row.cell(column).is_empty()
+        {
             let sigma = table.value(row, column, like)?;
             if sigma <= 0.0 {
                 return Err(table.wrong_cell(row, column, "a finite, positive number"));
@@ -131,30 +129,25 @@ impl Columns<'_> {
 
     /// Refuses what are no readings as a whole.
     fn check(&self, list: &[Reading], unusable: Option<&(u64, &str)>) -> Result<(), DataError> {
+        let wrong = |line, found: &str, allowed| Err(self.table.wrong(line, found, allowed));
         let name = &self.table.names[self.values[0].column].text;
-        let blank = list.iter().find(|reading| reading.sigma.is_none());
-        let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
-        let is_zero = list.iter().all(|reading| reading.pass == 0);
-        let (line, found, allowed) = match (list.first(), unusable, blank) {
-            (None, None, _) => (0, "no rows".into(), LAYOUT.allowed),
-            (None, Some((line, text)), _) => (
-                *line,
-                format!("{name}: found \"{text}\", and no number anywhere"),
-                "a finite number",
-            ),
-            (Some(first), ..) if is_zero => (
-                first.line,
-                "pass: found \"0\" alone".into(),
-                "readings after at least one pass",
-            ),
-            (_, _, Some(blank)) if has_sigmas => (
-                blank.line,
-                "sigma_n is blank, but given for other readings".into(),
-                "all or none",
-            ),
-            _ => return Ok(()),
+        let Some(first) = list.first() else {
+            let Some((line, text)) = unusable else {
+                return wrong(0, "no rows", LAYOUT.allowed);
+            };
+            let found = format!("{name}: found \"{text}\", and no number anywhere");
+            return wrong(*line, &found, "a finite number");
         };
-        Err(self.table.wrong(line, found, allowed))
+        if list.iter().all(|reading| reading.pass == 0) {
+            let allowed = "readings after at least one pass";
+            return wrong(first.line, "pass: found \"0\" alone", allowed);
+        }
+        let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
+        let blank = list.iter().find(|reading| reading.sigma.is_none());
+        blank.filter(|_| has_sigmas).map_or(Ok(()), |blank| {
+            let found = "sigma_n is blank, but given for other readings";
+            wrong(blank.line, found, "all or none")
+        })
     }
 
     /// Refuses vehicles that may be a running total, unless their column was chosen.
