@@ -8,7 +8,6 @@ pub mod error_estimate;
 mod heat;
 mod limits;
 mod listed;
-mod numbers;
 mod place;
 mod record;
 mod saturation;
