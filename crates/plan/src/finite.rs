@@ -32,6 +32,7 @@ mod tests {
     use super::*;
 
     #[derive(Debug)]
+    #[allow(dead_code, reason = "what is read is its text")]
     struct Answer {
         title: &'static str,
         force_n: f64,
@@ -53,11 +54,20 @@ mod tests {
             other => panic!("{other:?} of {}", answer.title),
         };
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let force = Answer { force_n: bad, ..good() };
+            let force = Answer {
+                force_n: bad,
+                ..good()
+            };
             assert_eq!(found(force), ("force_n".to_owned(), bad.to_bits()));
-            let positions = Answer { positions_m: vec![0.0, bad], ..good() };
+            let positions = Answer {
+                positions_m: vec![0.0, bad],
+                ..good()
+            };
             assert_eq!(found(positions).0, "positions_m");
-            let years = Answer { years: Some(bad), ..good() };
+            let years = Answer {
+                years: Some(bad),
+                ..good()
+            };
             assert_eq!(found(years).0, "years");
         }
     }

@@ -1,5 +1,6 @@
 //! Passes as days and years, where the vehicles a day are known.
 
+use creepage_plan::shown::without_zeros;
 use creepage_scene::{DAYS_PER_YEAR, Traffic};
 
 /// Days of a month, on average.
@@ -46,11 +47,7 @@ pub fn after(years: f64) -> String {
     };
     let decimals = (2 - number.max(1e-9).log10().floor() as i32).max(0) as usize;
     let text = format!("{number:.decimals$}");
-    let text = match text.split_once('.') {
-        Some(_) => text.trim_end_matches('0').trim_end_matches('.'),
-        None => &text,
-    };
-    format!("{text} {unit}")
+    format!("{} {unit}", without_zeros(&text))
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::Statistics;
+use cable_dem::{SlipLengths, Statistics};
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
-use super::along_cable::{ForceProfile, SlipRecord, Stage};
+use super::along_cable::{ForceProfile, Stage};
 use super::differences::larger;
 use super::error_estimate::ErrorEstimate;
 use super::heat::{DayExtremes, HeatRecord};
@@ -63,7 +63,7 @@ pub struct Run {
     pub stages: Vec<Stage>,
     /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure
     /// 7).
-    pub slip_lengths: Option<SlipRecord>,
+    pub slip_lengths: Option<SlipLengths>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
     /// Where the run began, if not with the cable as laid.

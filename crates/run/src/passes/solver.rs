@@ -87,7 +87,7 @@ impl PassSolver {
                 .map(|node| mesh.spacing() * node as f64)
                 .collect(),
             friction_n_per_m: state.friction().to_vec(),
-            slip_lengths: state.slip_lengths(&cable).unwrap_or_default().into(),
+            slip_lengths: state.slip_lengths(&cable).unwrap_or_default(),
         });
         Ok((outcome, friction))
     }
