@@ -1,6 +1,6 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::{SlipLengths, Statistics};
+use cable_dem::SlipLengths;
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
@@ -8,6 +8,7 @@ use super::along_cable::{ForceProfile, Stage};
 use super::differences::larger;
 use super::error_estimate::ErrorEstimate;
 use super::heat::{DayExtremes, HeatRecord};
+use crate::passes::FixedMesh;
 use creepage_plan::SavedState;
 use creepage_scene::{CableEnd, Traffic};
 
@@ -72,6 +73,10 @@ pub struct Run {
     /// The cable after the last pass, with which another run can begin; not in the JSON document.
     #[serde(skip)]
     pub state: Option<SavedState>,
+    /// What the run has shown of its mesh, for others that differ from it little: for
+    /// [`RunOptions::mesh`](crate::RunOptions::mesh); not in the JSON document.
+    #[serde(skip)]
+    pub shown: Option<FixedMesh>,
     /// What the answer cost, in counts that do not depend on the machine.
     pub cost: Cost,
     /// What the user should know before trusting the answer.
@@ -297,17 +302,6 @@ pub struct Cost {
     pub sweeps: u64,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: u64,
-}
-
-impl Cost {
-    pub fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
-        Self {
-            simulated_passes,
-            steps: statistics.steps as u64,
-            sweeps: statistics.sweeps as u64,
-            node_updates: statistics.node_updates as u64,
-        }
-    }
 }
 
 impl PassRecord {

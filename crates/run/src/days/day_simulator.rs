@@ -9,7 +9,7 @@ use crate::Progress;
 use crate::answer::differences::{Scale, Shares};
 use crate::answer::listed;
 use crate::passes::{Passes, Simulation, Task, listed_passes};
-use crate::refine::OnMeshes;
+use crate::refine::{OnMeshes, Work};
 use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use creepage_plan::{Error, Plan, cable::traffic};
 use creepage_scene::{Heat, Scene};
@@ -36,6 +36,8 @@ pub struct DaySimulator<'a> {
     /// Whether days are jumped over with a quarter of the error and a first jump half as long,
     /// which shows the error of the others.
     pub finer: bool,
+    /// What all days have cost.
+    pub work: &'a Work,
 }
 
 impl DaySimulator<'_> {
@@ -168,6 +170,7 @@ impl OnMeshes for DaySimulator<'_> {
         simulation.statistics += of_law;
         simulation.statistics.sweeps += days.sweeps as usize;
         simulation.statistics.node_updates += days.sweeps as usize * mesh.nodes();
+        self.work.add(simulation.statistics);
         let passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
         Ok(Passes {
             peaks: days.peaks.clone(),

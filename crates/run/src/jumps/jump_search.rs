@@ -3,7 +3,6 @@
 //! Two runs that differ in the error of a single jump and in the length of the first one differ by
 //! about the error of either. Each is compared with one whose jumps are half as large.
 
-use cable_dem::Statistics;
 use cycle_jump::Record;
 
 use super::PassesOnMeshes;
@@ -32,8 +31,6 @@ pub struct Found {
     pub known: KnownJumps,
     /// What a random order changes.
     pub draws: Option<Draws>,
-    /// The work of all runs.
-    pub statistics: Statistics,
 }
 
 /// Finds jumps for `passes` that take at most their share of the tolerance, or the best that are
@@ -43,9 +40,7 @@ pub fn find<'a>(passes: PassesOnMeshes<'a>, progress: Progress<'a>) -> Result<Fo
     let mut search = Search {
         passes,
         allowed: Shares::both(SHARE * scene.solver.tolerance),
-        // How many runs it takes is not known: each is half of what is left.
-        parts: Box::new(progress.parts(0.5)),
-        statistics: Statistics::default(),
+        progress,
     };
     let mut found = search.jumps()?;
     let mut error = found.known.error + search.mix_error(&found)?;
@@ -54,7 +49,7 @@ pub fn find<'a>(passes: PassesOnMeshes<'a>, progress: Progress<'a>) -> Result<Fo
         error = error + draws.error;
         found.draws = Some(draws);
     }
-    (found.known.error, found.statistics) = (error, search.statistics);
+    found.known.error = error;
     Ok(found)
 }
 
@@ -84,8 +79,7 @@ struct Search<'a> {
     passes: PassesOnMeshes<'a>,
     /// Error that jumps may leave.
     allowed: Shares,
-    parts: Box<dyn FnMut() -> Progress<'a> + 'a>,
-    statistics: Statistics,
+    progress: Progress<'a>,
 }
 
 impl Search<'_> {
@@ -97,9 +91,14 @@ impl Search<'_> {
             period,
             ..self.passes
         };
-        let simulated = passes.simulate(self.passes.plan.scene, level, None, (self.parts)(), false)?;
-        self.statistics += simulated.statistics;
-        Ok(simulated)
+        // How many runs it takes is not known: each is half of what is left.
+        passes.simulate(
+            self.passes.plan.scene,
+            level,
+            None,
+            self.progress.next(0.5),
+            false,
+        )
     }
 
     /// The largest jumps whose error is allowed.
@@ -138,7 +137,6 @@ impl Search<'_> {
             passes,
             known: KnownJumps { size, error },
             draws: None,
-            statistics: self.statistics,
         })
     }
 

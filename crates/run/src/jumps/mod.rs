@@ -11,7 +11,7 @@ use crate::Progress;
 use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::{ErrorParts, mesh_error};
 use crate::passes::{FixedMesh, JumpSize, Jumping, Passes, RunOptions, Task, listed_passes};
-use crate::refine::{MeshLoop, OnMeshes, Solved};
+use crate::refine::{MeshLoop, OnMeshes, Solved, Work};
 use crate::tuning::meshes::FINDING;
 use creepage_plan::{Error, Levels, Period, Plan};
 use creepage_scene::{Scene, SolverMethod};
@@ -28,6 +28,8 @@ struct PassesOnMeshes<'a> {
     jumps: Option<JumpSize>,
     /// Their lengths, if these were found before.
     schedule: Option<&'a [u64]>,
+    /// What all passes have cost.
+    work: &'a Work,
 }
 
 /// Carries `plan` out by `method`, where `error` has what no mesh makes smaller.
@@ -37,6 +39,7 @@ pub fn solve(
     options: &RunOptions<'_>,
     mut error: ErrorParts,
 ) -> Result<Solved, Error> {
+    let work = Work::default();
     let mut passes = PassesOnMeshes {
         plan,
         scale: Scale::new(plan.scene, &plan.ground.motions),
@@ -44,6 +47,7 @@ pub fn solve(
         stages: options.stages,
         jumps: None,
         schedule: None,
+        work: &work,
     };
     let jumps = method == SolverMethod::PassLaw;
     // The scatter of random orders is every run's own.
@@ -75,11 +79,11 @@ pub fn solve(
             draws.correct(&mut solved.passes);
         }
         let task = Task::of(plan, plan.scene, plan.levels.mesh(found.level)?);
-        let (spread, work) = random_spread::spread(&task, &found.passes.state, &solved.passes)?;
+        let (spread, cost) = random_spread::spread(&task, &found.passes.state, &solved.passes)?;
         solved.random = spread;
-        solved.statistics += found.statistics;
-        solved.statistics += work;
+        work.add(cost);
     }
+    solved.statistics = work.get();
     Ok(solved)
 }
 
@@ -98,17 +102,19 @@ impl OnMeshes for PassesOnMeshes<'_> {
             progress,
             ..Task::of(self.plan, scene, levels.mesh(level)?)
         };
-        let Some(size) = self.jumps else {
-            return task.every_pass();
-        };
-        let jumping = Jumping {
+        let jumping = self.jumps.map(|size| Jumping {
             period: self.period,
             size,
             most_passes: levels.affordable_passes(level),
             guide: self.schedule.map_or(Guide::Free, Guide::Follow),
             beyond: answer,
-        };
-        task.with_jumps(&jumping, &listed_passes(scene, self.period))
+        });
+        let passes = match jumping {
+            Some(jumping) => task.with_jumps(&jumping, &listed_passes(scene, self.period)),
+            None => task.every_pass(),
+        }?;
+        self.work.add(passes.statistics);
+        Ok(passes)
     }
 
     fn levels_below(&self) -> usize {

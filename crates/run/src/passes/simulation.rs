@@ -78,7 +78,9 @@ impl<'a> Simulation<'a> {
         let count = self.task.scene.traffic.passes;
         let stage = number.filter(|pass| self.task.stages.contains(pass));
         let outcome = if stage.is_some() || number == Some(count) {
-            let (outcome, friction) = self.solver.pass_and_look(vehicle, state)?;
+            let (outcome, friction) =
+                self.solver
+                    .pass_and_look(vehicle, &self.cable, self.task.mesh, state)?;
             if number == Some(count) {
                 self.slip = friction.as_ref().map(|friction| friction.slip_lengths);
             }
