@@ -40,7 +40,6 @@ pub struct ErrorShares {
     /// Passes that were not simulated.
     pub passes: f64,
     /// Heat and traffic of days of which few passes were simulated, or none.
-    #[serde(default)]
     pub temperature: f64,
     /// The same as `passes`, by its older name.
     pub law: f64,

@@ -60,10 +60,8 @@ pub struct Verdict {
     /// The largest in size of all listed passes \[N or m\].
     pub largest: f64,
     /// Whether the largest force pulls the end; else it presses on it.
-    #[serde(default)]
     pub pulled: bool,
     /// Whether it is larger than all that passes and heat leave: while a vehicle is above the duct.
-    #[serde(default)]
     pub during_a_pass: bool,
     /// The first pass that exceeds the limit; `None` where none does.
     pub reached_after: Option<Reached>,

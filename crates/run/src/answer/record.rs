@@ -139,10 +139,8 @@ pub struct PassRecord {
     /// Work that slip between cable and duct has turned into heat in this pass \[J\].
     pub dissipated_energy_j: Option<f64>,
     /// Least force on the downstream end during the pass: the largest tension where it is negative.
-    #[serde(default)]
     pub downstream_least_n: f64,
     /// Least force on the upstream end during the pass.
-    #[serde(default)]
     pub upstream_least_n: f64,
     /// Whether the pass was not simulated but lies within a jump between simulated ones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -175,10 +173,8 @@ pub struct RestraintRecord {
     /// Force of the cable on it after the last pass \[N\], positive toward growing x.
     pub force_n: f64,
     /// The same after each of [`Run::passes`] \[N\].
-    #[serde(default)]
     pub after_passes_n: Vec<f64>,
     /// The largest in size during each of them and after it \[N\], with its sign.
-    #[serde(default)]
     pub during_passes_n: Vec<f64>,
     /// How far it has slipped after each of them \[m\]; left out if it never slips.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -294,7 +290,6 @@ pub struct Quantiles {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cost {
     /// Passes simulated on the mesh of the answer.
-    #[serde(default)]
     pub simulated_passes: u64,
     /// Vehicle positions, or steps of time.
     pub steps: u64,
