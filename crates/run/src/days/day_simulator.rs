@@ -72,25 +72,19 @@ impl DaySimulator<'_> {
         }
     }
 
-    /// Where the next day goes on in the sequence of the traffic, if days do not begin with the
-    /// same vehicle as every day here does.
-    pub fn broken_sequence(&self) -> Option<usize> {
-        let passes = a_day(self.plan.scene);
-        let left = (passes % self.vehicles.len() as u64) as usize;
-        let several = self.plan.scene.traffic.passes > passes;
-        (several && !self.every_pass && !self.plan.period.reordered && left > 0).then_some(left)
-    }
-
-    /// The warning of that.
-    pub fn warning(&self) -> Option<String> {
+    /// Where the next day goes on in the sequence of the traffic, if days do not begin with the same
+    /// vehicle as every day here does; and the warning of that.
+    pub fn broken_sequence(&self) -> Option<(usize, String)> {
         let (passes, period) = (a_day(self.plan.scene), self.vehicles.len() as u64);
+        let (left, several) = (passes % period, self.plan.scene.traffic.passes > passes);
         let whole = (passes / period * period).max(period);
-        self.broken_sequence().map(|_| {
-            format!(
+        (several && !self.every_pass && !self.plan.period.reordered && left > 0).then(|| {
+            let warning = format!(
                 "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
                  began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {whole} has none of \
                  that"
-            )
+            );
+            (left as usize, warning)
         })
     }
 
@@ -178,10 +172,6 @@ impl OnMeshes for DaySimulator<'_> {
             days: Some(days),
             ..passes
         })
-    }
-
-    fn levels_below(&self) -> usize {
-        1
     }
 
     /// Largest difference on any listed day or pass: of a force as a share of the largest of all

@@ -49,12 +49,14 @@ pub fn solve(
         plan,
         options,
         simulation: &days,
+        below: 1,
         known_error: None,
     };
     let mut solved = meshes.refine(first, options.progress.part(FINDING, 1.0), error)?;
     solved.error.days = error.days + error_of_days(&days, solved.level, &solved.passes)?;
     solved.statistics = work.get();
-    solved.warnings.extend(days.warning());
+    let broken = days.broken_sequence();
+    solved.warnings.extend(broken.map(|(_, warning)| warning));
     let known = solved.passes.days.as_ref().ok_or(Error::NoPass)?;
     solved.reasons.push(days.reason(known)?);
     solved.heat = Some(days.record(solved.mesh, known)?);
@@ -118,7 +120,8 @@ fn error_of_days(days: &DaySimulator<'_>, level: usize, finest: &Passes) -> Resu
     // Where the sequence goes on the next day; nor does the traffic keep the hours at which the
     // seldom vehicles of stand-ins come.
     let half = (!others.is_empty()).then_some(days.vehicles.len() / 2);
-    let begun_later = days.broken_sequence().or(half);
+    let broken = days.broken_sequence();
+    let begun_later = broken.map(|(left, _)| left).or(half);
     others.extend(begun_later.map(|begin| (DaySimulator { begin, ..*days }, 1.0)));
     let are_jumped = finest.schedule.iter().any(|length| *length > 0);
     if !are_jumped && others.is_empty() {

@@ -87,8 +87,8 @@ impl Search<'_> {
     fn simulate(&mut self, level: usize, size: JumpSize, period: &Period) -> Result<Passes, Error> {
         let jumps = Some(size);
         let passes = PassesOnMeshes {
-            jumps,
             period,
+            jumps,
             ..self.passes
         };
         // How many runs it takes is not known: each is half of what is left.

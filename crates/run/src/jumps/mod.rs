@@ -9,10 +9,10 @@ use cycle_jump::Guide;
 
 use crate::Progress;
 use crate::answer::differences::{Scale, Shares, difference};
-use crate::answer::error_estimate::{ErrorParts, mesh_error};
+use crate::answer::error_estimate::ErrorParts;
 use crate::passes::{FixedMesh, JumpSize, Jumping, Passes, RunOptions, Task, listed_passes};
 use crate::refine::{MeshLoop, OnMeshes, Solved, Work};
-use crate::tuning::meshes::FINDING;
+use crate::tuning::meshes::{FINDING, MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 use creepage_plan::{Error, Levels, Period, Plan};
 use creepage_scene::{Scene, SolverMethod};
 
@@ -67,6 +67,7 @@ pub fn solve(
         plan,
         options,
         simulation: &passes,
+        below: if known.is_some() { 0 } else { plan.levels.first },
         known_error: known.map(|known| known.error),
     };
     let mut solved = meshes.refine(plan.levels.first, options.progress.part(begin, 1.0), error)?;
@@ -117,18 +118,23 @@ impl OnMeshes for PassesOnMeshes<'_> {
         Ok(passes)
     }
 
-    fn levels_below(&self) -> usize {
-        self.plan.levels.first
-    }
-
     fn difference(&self, one: &Passes, other: &Passes) -> Shares {
         difference(&one.records, &other.records, self.scale)
     }
 
+    /// A scheme of second order leaves a third of the last difference and a twelfth of the one before.
+    /// Friction that turns at a node or between two makes the sequence uneven, and two meshes may
+    /// agree by chance. So more is counted: the largest of a share of each difference seen so far,
+    /// and never less than what is typical of the level.
     fn mesh_error(&self, level: usize, meshes: &[Passes]) -> Shares {
-        let pairs = meshes.windows(2).rev();
-        let differences: Vec<Shares> = pairs.map(|pair| self.difference(&pair[1], &pair[0])).collect();
         let passes = meshes.last().map_or(0, |finest| finest.records.len());
-        mesh_error(&differences, passes, Levels::typical_error(level))
+        let weights = match meshes.len() {
+            2 => &[WEIGHT_ALONE][..],
+            _ if passes < MANY => &WEIGHTS,
+            _ => &WEIGHTS_OF_MANY,
+        };
+        let weighted = |(pair, &weight): (&[Passes], &f64)| self.difference(&pair[1], &pair[0]).times(weight);
+        let error: Shares = meshes.windows(2).rev().zip(weights).map(weighted).collect();
+        error.max(Shares::both(Levels::typical_error(level)))
     }
 }

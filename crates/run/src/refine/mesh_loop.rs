@@ -36,9 +36,6 @@ pub trait OnMeshes {
         answer: bool,
     ) -> Result<Passes, Error>;
 
-    /// How many levels below the first show its error.
-    fn levels_below(&self) -> usize;
-
     /// Difference of passes on two meshes.
     fn difference(&self, one: &Passes, other: &Passes) -> Shares;
 
@@ -105,6 +102,8 @@ pub struct MeshLoop<'a, S> {
     pub plan: &'a Plan<'a>,
     pub options: &'a RunOptions<'a>,
     pub simulation: &'a S,
+    /// How many levels below the first show its error.
+    pub below: usize,
     /// The error of the first mesh, if another run has shown it: then there is no other mesh.
     pub known_error: Option<Shares>,
 }
@@ -123,8 +122,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         // Mostly the first mesh is good enough.
         let mut next = || progress.next(0.8);
         let (mut level, begin, mut meshes) = (first, next(), Vec::new());
-        let below = self.known_error.map_or(simulation.levels_below(), |_| 0);
-        for level in plan.levels.below(first, below).chain([first]) {
+        for level in plan.levels.below(first, self.below).chain([first]) {
             // Each level costs a quarter of the next.
             let share = |level: usize| (REFINEMENT_COST as f64).powi(level as i32 - first as i32 - 1);
             let part = begin.part(share(level), share(level + 1));
