@@ -12,7 +12,6 @@ use cable_dem::PassOutcome;
 use cycle_jump::Record;
 use ground_field::DuctMotion;
 
-use crate::passes::record_of;
 use creepage_plan::ground::peak;
 use creepage_scene::Scene;
 
@@ -120,8 +119,8 @@ impl Scale {
 pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
     let whole = Whole::of(a, scale);
     let of_both = a.iter().filter_map(|record| {
-        let same = record_of(b, record.pass)?;
-        let (a, b) = (places(&record.outcome), places(&same.outcome));
+        let same = b.binary_search_by_key(&record.pass, |other| other.pass).ok()?;
+        let (a, b) = (places(&record.outcome), places(&b[same].outcome));
         let own = |place: usize| match place {
             MOVEMENT.. => whole.places[place],
             _ => largest(&a[place]).max(whole.force),

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::along_cable::{ForceProfile, Stage};
 use super::differences::larger;
 use super::error_estimate::ErrorEstimate;
+use super::fixed_mesh::FixedMesh;
 use super::heat::{DayExtremes, HeatRecord};
-use crate::passes::FixedMesh;
 use creepage_plan::SavedState;
 use creepage_scene::{CableEnd, Traffic};
 
