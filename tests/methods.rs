@@ -90,7 +90,7 @@ fn friction_is_shown_by_every_method() {
         let method = format!("solver.method={method}");
         let slip = run(&["traffic.passes=40", "solver.tolerance=5 %", &method]).slip_lengths;
         assert!(
-            slip.is_some_and(|slip| slip.forward_m + slip.backward_m > 1.0),
+            slip.is_some_and(|slip| slip.forward + slip.backward > 1.0),
             "{method}: {slip:?}"
         );
     }

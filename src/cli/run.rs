@@ -184,7 +184,7 @@ fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
         writeln!(out, "{}", sentence.trim_start())?;
     }
     if let Some(slip) = &run.slip_lengths {
-        let [forward, backward] = [slip.forward_m, slip.backward_m].map(|length| reader.length(length));
+        let [forward, backward] = [slip.forward, slip.backward].map(|length| reader.length(length));
         writeln!(
             out,
             "length of cable that slides under a vehicle at mid-duct: {forward} forward, {backward} backward"

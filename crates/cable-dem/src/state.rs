@@ -16,11 +16,14 @@ const AT_LIMIT: f64 = 1e-6;
 
 /// Lengths of cable over which the duct slips past it (Kashiro et al., Figure 7).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SlipLengths {
     /// Friction at its limit toward growing x \[m\].
+    #[cfg_attr(feature = "serde", serde(rename = "forward_m"))]
     pub forward: f64,
     /// Friction at its limit toward falling x \[m\].
+    #[cfg_attr(feature = "serde", serde(rename = "backward_m"))]
     pub backward: f64,
 }
 

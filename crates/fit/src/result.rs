@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use creepage_plan::finite;
 
 /// A calibrated scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -178,17 +177,6 @@ pub struct ResidualSize {
     pub readings: usize,
     /// Outliers that a robust fit leaves out.
     pub left_out: usize,
-}
-
-finite::numbers! {
-    Calibrated: parameters correlation residual_rms_n residuals r_squared lack_of_fit noise_n degrees_of_freedom method model_error fit;
-    FittedParameter: value standard_error interval_95 profile;
-    ProfilePoint: value rise;
-    FitMethod: node_spacing_m vehicle_step_m;
-    ModelErrorEstimate: relative standard_errors;
-    FittedReading: force_n fitted_n residual_n weight value fitted residual;
-    ResidualSize: rms;
-    LackOfFit: p_runs p_trend p_offset p_noise p_sigma;
 }
 
 impl std::fmt::Display for ResidualSize {

@@ -8,7 +8,7 @@ use crate::mesh::Levels;
 use crate::period::Period;
 use crate::tuning::methods::{
     DAYS, EVERY_PASS_MESHES, EXPLICIT_SECONDS, JUMP_MESHES, MOST_PERIODS, PERIODS_A_DAY,
-    QUASI_STATIC_SECONDS, SPARED, TYPICAL_PERIODS,
+    QUASI_STATIC_SECONDS, TYPICAL_PERIODS,
 };
 use creepage_scene::{Scene, SolverMethod};
 
@@ -57,11 +57,6 @@ impl Estimates {
                 * explicit_steps(scene, levels)?
                 * levels.whole_cable_updates(levels.first),
         })
-    }
-
-    /// Whether jumps spare enough of the passes.
-    pub fn jumps_pay(&self) -> bool {
-        self.most < (1.0 - SPARED) * self.passes
     }
 
     /// Time of every pass on one mesh \[s\].

@@ -4,6 +4,8 @@
 //! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value;
 //! a table would hold the text `inf`.
 
+use std::fmt::Debug;
+
 use crate::error::Error;
 
 /// Makes sure that no number of the answer is infinite or NaN.
@@ -11,59 +13,62 @@ use crate::error::Error;
 /// # Errors
 ///
 /// [`Error::NotFinite`] with the first such number and its field.
-pub fn check<T: Numbers + ?Sized>(answer: &T) -> Result<(), Error> {
-    let mut found = Ok(());
-    answer.each("", &mut |field, value| {
-        if found.is_ok() && !value.is_finite() {
-            let field = field.to_owned();
-            found = Err(Error::NotFinite { field, value });
+pub fn check(answer: &impl Debug) -> Result<(), Error> {
+    let mut field = "";
+    // The long form of `Debug` has one field or element a line, and texts in quotes.
+    for line in format!("{answer:#?}").lines() {
+        let (name, value) = line.trim().split_once(": ").unwrap_or((field, line.trim()));
+        field = name;
+        if let word @ ("NaN" | "inf" | "-inf") = value.trim_end_matches(',') {
+            let (field, value) = (field.to_owned(), word.parse().unwrap_or(f64::NAN));
+            return Err(Error::NotFinite { field, value });
         }
-    });
-    found
+    }
+    Ok(())
 }
 
-/// What holds numbers: shows each with the name of its field.
-pub trait Numbers {
-    /// Shows all numbers; one that has no field of its own is called `field`.
-    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64));
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Numbers for f64 {
-    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-        see(field, *self);
+    #[derive(Debug)]
+    #[allow(dead_code, reason = "what is read is its text")]
+    struct Answer {
+        title: &'static str,
+        force_n: f64,
+        positions_m: Vec<f64>,
+        years: Option<f64>,
+    }
+
+    #[test]
+    fn a_number_that_is_none_is_found_wherever_it_stands() {
+        let good = || Answer {
+            title: "x: NaN,\ninf",
+            force_n: 1e300,
+            positions_m: vec![0.0, -1e-300],
+            years: None,
+        };
+        assert!(check(&good()).is_ok());
+        let found = |answer: Answer| match check(&answer) {
+            Err(Error::NotFinite { field, value }) => (field, value.to_bits()),
+            other => panic!("{other:?} of {}", answer.title),
+        };
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let force = Answer {
+                force_n: bad,
+                ..good()
+            };
+            assert_eq!(found(force), ("force_n".to_owned(), bad.to_bits()));
+            let positions = Answer {
+                positions_m: vec![0.0, bad],
+                ..good()
+            };
+            assert_eq!(found(positions).0, "positions_m");
+            let years = Answer {
+                years: Some(bad),
+                ..good()
+            };
+            assert_eq!(found(years).0, "years");
+        }
     }
 }
-
-/// Of several parts, those of each.
-macro_rules! of_parts {
-    ($([$($generics:tt)+] $list:ty;)+) => {
-        $(impl<$($generics)+> Numbers for $list {
-            fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-                for part in self.iter() {
-                    part.each(field, see);
-                }
-            }
-        })+
-    };
-}
-
-of_parts! {
-    [T: Numbers] Option<T>;
-    [T: Numbers] [T];
-    [T: Numbers] Vec<T>;
-    [T: Numbers, const N: usize] [T; N];
-}
-
-/// The fields of records that are numbers or hold some.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! numbers {
-    ($($record:ty: $($field:ident)*;)*) => {
-        $(impl $crate::finite::Numbers for $record {
-            fn each(&self, _: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-                $($crate::finite::Numbers::each(&self.$field, stringify!($field), see);)*
-            }
-        })*
-    };
-}
-pub use crate::numbers;

@@ -10,7 +10,7 @@ use crate::cost::Estimates;
 use crate::error::Error;
 use crate::period::Period;
 use crate::shown;
-use crate::tuning::methods::DRAWN_ERROR;
+use crate::tuning::methods::{DRAWN_ERROR, SPARED};
 use creepage_scene::{Scene, SolverMethod};
 
 /// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
@@ -56,12 +56,14 @@ fn automatic(scene: &Scene, period: &Period, estimates: &Estimates) -> (SolverMe
         "inertia changes the force by at most {:.2} %, (v/c)²",
         100.0 * estimates.inertia
     );
-    if !estimates.jumps_pay() {
+    // Jumps have to spare enough of the passes.
+    if estimates.most >= (1.0 - SPARED) * estimates.passes {
         return (every_pass, reason);
     }
+    let stands_in = period.is_drawn || !period.others.is_empty();
     let good_enough = period.is_drawn && scene.solver.tolerance >= DRAWN_ERROR;
     let affordable = estimates.every_pass(every_pass) <= LONGEST_EVERY_PASS;
-    if period.stands_in() && !good_enough && affordable {
+    if stands_in && !good_enough && affordable {
         let why = "with jumps, another order of vehicles would stand in for the traffic";
         return (every_pass, format!("{reason}; {why}"));
     }

@@ -113,11 +113,6 @@ impl Period {
         vehicles
     }
 
-    /// Whether it stands in for the traffic, and others are compared with it.
-    pub fn stands_in(&self) -> bool {
-        self.is_drawn || !self.others.is_empty()
-    }
-
     /// Whether its passes are those of the scene's traffic.
     pub fn is_own(&self) -> bool {
         self.others.is_empty() && !self.reordered

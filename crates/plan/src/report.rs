@@ -101,12 +101,7 @@ impl Plan<'_> {
 
     /// The plan for a reader.
     pub fn report(&self) -> PlanReport {
-        let Self {
-            scene,
-            ground,
-            levels,
-            ..
-        } = self;
+        let (scene, ground, levels) = (self.scene, &self.ground, &self.levels);
         let (node_spacing_m, vehicle_step_m) = levels.spacing(levels.first);
         let chosen = Candidate {
             part: Part::Ground,

@@ -17,6 +17,14 @@ pub fn rounded(value: f64, decimals: usize) -> String {
     }
 }
 
+/// A number without zeros at the end of its decimals.
+pub fn without_zeros(number: &str) -> &str {
+    if number.contains('.') {
+        return number.trim_end_matches('0').trim_end_matches('.');
+    }
+    number
+}
+
 /// A node spacing or a vehicle step: three decimals, and two digits of one that is smaller.
 pub fn spacing(length: f64) -> String {
     let decimals = if length > 0.0 && length < 0.01 {

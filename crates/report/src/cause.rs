@@ -175,8 +175,8 @@ fn areas(report: &Report, pass: u64, friction: &FrictionProfile) -> String {
         "Pass {}: at its limit over {:.1} {metres} forward and {:.1} {metres} backward; in total over the whole cable {forward} forward and \
          {backward} backward.",
         count(pass),
-        unit.of_si(lengths.forward_m),
-        unit.of_si(lengths.backward_m),
+        unit.of_si(lengths.forward),
+        unit.of_si(lengths.backward),
         metres = unit.symbol(),
     )
 }

@@ -17,9 +17,10 @@ mod tuning;
 pub use answer::{
     ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
     ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
-    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation,
-    SlipRecord, Stage, Start, Units, Verdict,
+    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation, Stage,
+    Start, Units, Verdict,
 };
+pub use cable_dem::SlipLengths;
 pub use creepage_plan::{
     Candidate, Error, ErrorSource, Part, PastPass, Plan, PlanReport, SavedState, occurrence, plan, plan_on,
     with_causes,

@@ -25,10 +25,6 @@ pub struct Profile {
     pub longitudinal_velocity_m_per_s: Vec<f64>,
 }
 
-finite::numbers! {
-    Profile: positions_m longitudinal_m vertical_m longitudinal_velocity_m_per_s;
-}
-
 /// The profile over eight depths to either side of the vehicle.
 ///
 /// # Errors

@@ -52,14 +52,11 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Parts of it one after the other, each this `share` of what is left: where nobody knows how
-    /// many there will be.
-    pub(crate) fn parts(mut self, share: f64) -> impl FnMut() -> Self {
-        move || {
-            let now = self.part(0.0, share);
-            self = self.part(share, 1.0);
-            now
-        }
+    /// The next part of it, this `share` of what is left: where nobody knows how many there will be.
+    pub(crate) fn next(&mut self, share: f64) -> Self {
+        let now = self.part(0.0, share);
+        *self = self.part(share, 1.0);
+        now
     }
 
     /// Reports the share done.

@@ -38,11 +38,6 @@ pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError
     scene.solver.approach.map_or_else(|| needed(scene, motions), Ok)
 }
 
-/// Whether that is as far as they have to be followed.
-pub fn is_followed_enough(scene: &Scene, motions: &[DuctMotion]) -> Result<bool, CableError> {
-    Ok(approach(scene, motions)? >= needed(scene, motions)?)
-}
-
 /// How far beyond the duct's ends vehicles have to be followed \[m\].
 pub fn needed(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
     cable_dem::approach(motions, scene.duct.depth, farthest(scene))

@@ -47,23 +47,5 @@ pub struct FrictionProfile {
     /// Friction on the cable there \[N/m\], positive toward growing x.
     pub friction_n_per_m: Vec<f64>,
     /// Lengths at the limit.
-    pub slip_lengths: SlipRecord,
-}
-
-/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct SlipRecord {
-    /// Friction at its limit toward growing x \[m\].
-    pub forward_m: f64,
-    /// Friction at its limit toward falling x \[m\].
-    pub backward_m: f64,
-}
-
-impl From<SlipLengths> for SlipRecord {
-    fn from(lengths: SlipLengths) -> Self {
-        Self {
-            forward_m: lengths.forward,
-            backward_m: lengths.backward,
-        }
-    }
+    pub slip_lengths: SlipLengths,
 }

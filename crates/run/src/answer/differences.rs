@@ -121,15 +121,11 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
     let of_both = a.iter().filter_map(|record| {
         let same = b.binary_search_by_key(&record.pass, |other| other.pass).ok()?;
         let (a, b) = (places(&record.outcome), places(&b[same].outcome));
-        let shares = a.iter().zip(&b).enumerate().map(|(place, (a, b))| {
-            let own = if place < MOVEMENT {
-                largest(a).max(whole.force)
-            } else {
-                whole.places[place]
-            };
-            share(apart(a, b), own)
-        });
-        Some(of_places(shares))
+        let own = |place: usize| match place {
+            MOVEMENT.. => whole.places[place],
+            _ => largest(&a[place]).max(whole.force),
+        };
+        Some(apart(&a, &b, own))
     });
     of_both.collect()
 }
@@ -143,16 +139,13 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
 /// the largest at its place.
 pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     let whole = Whole::of(a, scale);
-    let bounds = [f64::min, f64::max].map(|bound| {
-        let (a, b) = (extremes(a, bound), extremes(b, bound));
-        let apart = a.iter().zip(&b).map(|(a, b)| apart(a, b));
-        of_places(
-            apart
-                .zip(&whole.places)
-                .map(|(apart, largest)| share(apart, *largest)),
-        )
-    });
-    bounds.into_iter().collect()
+    let bounds: [fn(f64, f64) -> f64; 2] = [f64::min, f64::max];
+    let of_bound = |bound| {
+        apart(&extremes(a, bound), &extremes(b, bound), |place| {
+            whole.places[place]
+        })
+    };
+    bounds.into_iter().map(of_bound).collect()
 }
 
 /// Largest force on an end during a pass or in the cable after it, in size \[N\].
@@ -175,17 +168,11 @@ const MOVEMENT: usize = 3;
 
 /// Forces and movements of a pass, place by place.
 fn places(outcome: &PassOutcome) -> Vec<Values> {
-    let PassOutcome {
-        force,
-        peak,
-        lowest,
-        max_compression,
-        max_tension,
-        ..
-    } = outcome;
+    let (force, peak, lowest) = (outcome.force, outcome.peak, outcome.lowest);
+    let inside = [outcome.max_compression, outcome.max_tension];
     let moved = [outcome.upstream_displacement, outcome.downstream_displacement];
     let mut places = vec![
-        [force.upstream, force.downstream, *max_compression, *max_tension],
+        [force.upstream, force.downstream, inside[0], inside[1]],
         [peak.upstream, lowest.upstream, 0.0, 0.0],
         [peak.downstream, lowest.downstream, 0.0, 0.0],
         [moved[0], moved[1], 0.0, 0.0],
@@ -195,13 +182,18 @@ fn places(outcome: &PassOutcome) -> Vec<Values> {
     places
 }
 
-/// The largest share at any place: a clamp moves with its force.
-fn of_places(shares: impl Iterator<Item = f64>) -> Shares {
-    let of_place = |(place, share)| Shares {
-        force: if place == MOVEMENT { 0.0 } else { share },
-        movement: if place < MOVEMENT { 0.0 } else { share },
+/// The largest difference at any place, as a share of what `whole` gives for it: a clamp moves with
+/// its force.
+fn apart(a: &[Values], b: &[Values], whole: impl Fn(usize) -> f64) -> Shares {
+    let of_place = |(place, (a, b)): (usize, (&Values, &Values))| {
+        let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let share = if apart == 0.0 { 0.0 } else { apart / whole(place) };
+        Shares {
+            force: if place == MOVEMENT { 0.0 } else { share },
+            movement: if place < MOVEMENT { 0.0 } else { share },
+        }
     };
-    shares.enumerate().map(of_place).collect()
+    a.iter().zip(b).enumerate().map(of_place).collect()
 }
 
 /// What the passes of a run are compared with.
@@ -241,16 +233,6 @@ fn extremes(records: &[Record], bound: fn(f64, f64) -> f64) -> Vec<Values> {
 
 fn largest(values: &Values) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
-}
-
-/// The largest difference of two lists of values.
-fn apart(a: &Values, b: &Values) -> f64 {
-    a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
-}
-
-/// part/whole; nothing of nothing is nothing.
-fn share(part: f64, whole: f64) -> f64 {
-    if part == 0.0 { 0.0 } else { part / whole }
 }
 
 #[cfg(test)]

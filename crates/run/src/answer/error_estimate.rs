@@ -1,15 +1,11 @@
 //! How wrong the forces and the movements of a run are.
 //!
-//! The passes are computed on meshes each twice as fine as the one before. Their differences give
-//! the error of the last: a scheme of second order leaves a third of the last difference and a
-//! twelfth of the one before. Friction that turns at a node or between two makes the sequence
-//! uneven, and two meshes may agree by chance. So more is counted: the largest of a share of each
-//! difference seen so far, and never less than what is typical of the level.
+//! The passes are computed on meshes each twice as fine as the one before, and their differences
+//! give the error of the last.
 
 use serde::{Deserialize, Serialize};
 
 use super::differences::Shares;
-use crate::tuning::meshes::{MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 use creepage_plan::{Error, ErrorSource, shown::percent};
 
 /// How wrong the forces may be: how well the equations are solved, not how well they describe a
@@ -40,7 +36,6 @@ pub struct ErrorShares {
     /// Passes that were not simulated.
     pub passes: f64,
     /// Heat and traffic of days of which few passes were simulated, or none.
-    #[serde(default)]
     pub temperature: f64,
     /// The same as `passes`, by its older name.
     pub law: f64,
@@ -158,21 +153,6 @@ impl std::fmt::Display for ErrorParts {
             percent(self.total().movement)
         )
     }
-}
-
-/// Error of the passes on a mesh from the `differences` between it and the coarser ones, its own
-/// first; at least `typical`.
-pub fn mesh_error(differences: &[Shares], passes: usize, typical: f64) -> Shares {
-    let weights = match differences.len() {
-        1 => &[WEIGHT_ALONE][..],
-        _ if passes < MANY => &WEIGHTS,
-        _ => &WEIGHTS_OF_MANY,
-    };
-    let weighted = weights.iter().zip(differences);
-    let error: Shares = weighted
-        .map(|(&weight, difference)| difference.times(weight))
-        .collect();
-    error.max(Shares::both(typical))
 }
 
 /// Whether an error of the force is too large for an answer.

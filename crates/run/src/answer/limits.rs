@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::place::{Limited, Place};
 use super::record::Run;
 use super::units::{FORCE_DIGIT, MOVEMENT_DIGIT, Units, in_unit};
+use creepage_plan::shown::{without_zeros, words_if};
 use creepage_scene::{CableEnd, Unit};
 
 /// What must not be exceeded at one place; of either sign.
@@ -59,10 +60,8 @@ pub struct Verdict {
     /// The largest in size of all listed passes \[N or m\].
     pub largest: f64,
     /// Whether the largest force pulls the end; else it presses on it.
-    #[serde(default)]
     pub pulled: bool,
     /// Whether it is larger than all that passes and heat leave: while a vehicle is above the duct.
-    #[serde(default)]
     pub during_a_pass: bool,
     /// The first pass that exceeds the limit; `None` where none does.
     pub reached_after: Option<Reached>,
@@ -77,16 +76,11 @@ pub struct Verdict {
 impl Limited {
     /// What is limited at a place, in words.
     pub fn at(self, place: impl Into<Place>) -> String {
-        self.at_in(&Units::default(), place.into())
-    }
-
-    /// The same in units of a reader.
-    fn at_in(self, units: &Units, place: Place) -> String {
-        let shown = place.shown_in(units);
+        let place = place.into();
         match (self, place) {
-            (Self::Force, _) => format!("force on the {shown}"),
-            (Self::Movement, Place::Clamp(_)) => format!("movement at the {shown}"),
-            (Self::Movement, _) => format!("movement of the {shown}"),
+            (Self::Force, _) => format!("force on the {place}"),
+            (Self::Movement, Place::Clamp(_)) => format!("movement at the {place}"),
+            (Self::Movement, _) => format!("movement of the {place}"),
         }
     }
 
@@ -116,11 +110,8 @@ impl Limited {
 
     /// The same of a value that was given: "20 kN", not "20.0000 kN".
     pub fn given_in(self, units: &Units, value: f64) -> String {
-        let mut number = self.number_in(units, value);
-        if number.contains('.') {
-            number = number.trim_end_matches('0').trim_end_matches('.').to_owned();
-        }
-        format!("{number} {}", self.symbol_in(units))
+        let number = self.number_in(units, value);
+        format!("{} {}", without_zeros(&number), self.symbol_in(units))
     }
 }
 
@@ -222,7 +213,7 @@ impl Verdict {
     /// The same with values written by `shown`.
     pub fn shown_with(&self, units: &Units, shown: impl Fn(f64) -> String) -> String {
         let largest = shown(self.largest);
-        let when = if self.during_a_pass { " during a pass" } else { "" };
+        let when = words_if(self.during_a_pass, " during a pass");
         let limit = self.quantity.given_in(units, self.limit);
         let place = self.end.shown_in(units);
         let what = match (self.quantity, self.end) {
@@ -241,17 +232,14 @@ impl Verdict {
             }
             None => format!("limit kept: {what} at most {largest}{when}, limit {limit}"),
         };
-        let verdict = match self.levels_off_above {
-            Some(level) => format!(
-                "{verdict}; with more passes it levels off at {}, above the limit",
+        let level = self.levels_off_above.map_or_else(String::new, |level| {
+            format!(
+                "; with more passes it levels off at {}, above the limit",
                 shown(level)
-            ),
-            None => verdict,
-        };
-        if self.doubtful {
-            return format!("{verdict}; nearer to the limit than the estimated error");
-        }
-        verdict
+            )
+        });
+        let doubt = words_if(self.doubtful, "; nearer to the limit than the estimated error");
+        format!("{verdict}{level}{doubt}")
     }
 }
 

@@ -2,13 +2,12 @@
 
 mod along_cable;
 pub mod balance;
-mod calendar;
 pub mod differences;
 pub mod error_estimate;
+mod fixed_mesh;
 mod heat;
 mod limits;
 mod listed;
-mod numbers;
 mod place;
 mod record;
 mod saturation;
@@ -16,16 +15,14 @@ mod table_rows;
 mod units;
 
 pub use along_cable::*;
-pub use calendar::after;
 pub use differences::larger;
 pub use error_estimate::{ErrorEstimate, ErrorShares};
+pub use fixed_mesh::{FixedMesh, JumpSize, KnownJumps};
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
-pub use listed::{beyond, listed, simulated};
+pub use listed::{after, beyond, listed, simulated};
 pub use place::{Limited, Place, largest_movement_in_duct};
 pub use record::*;
 pub use saturation::saturation;
 pub use table_rows::{in_rows, table_days, table_rows};
-pub use units::Units;
-pub use units::in_unit;
-pub use units::si_of_field;
+pub use units::{Units, in_unit, si_of_field};

@@ -187,10 +187,8 @@ impl Run {
             largest,
         };
         let listed = self.passes.iter().enumerate().map(move |(index, record)| {
-            let forces = self.restraints.iter().map(|clamp| {
-                let after = clamp.after_passes_n[index];
-                [after, clamp.during_passes_n.get(index).copied().unwrap_or(after)]
-            });
+            let clamps = self.restraints.iter();
+            let forces = clamps.map(|clamp| [clamp.after_passes_n[index], clamp.during_passes_n[index]]);
             let [at_rest, largest] = match place.end() {
                 Some(end) => self.on_end(record, end, quantity, self.scatter(end, record)),
                 None => self.on_clamps(place, quantity, record.pass, forces),
@@ -200,9 +198,8 @@ impl Run {
             value(record.pass, [at_rest, if has_peaks { largest } else { at_rest }])
         });
         let extremes = self.extremes.iter().map(move |extreme| {
-            let peak = |index: usize| extreme.restraint_peaks_n.get(index).copied();
-            let forces = extreme.restraints_n.iter().enumerate();
-            let forces = forces.map(|(index, &after)| [after, peak(index).unwrap_or(after)]);
+            let forces = extreme.restraints_n.iter().zip(&extreme.restraint_peaks_n);
+            let forces = forces.map(|(after, peak)| [*after, *peak]);
             let pass = extreme.after.pass;
             let both = match place.end() {
                 Some(end) => self.on_end(&extreme.after, end, quantity, 0.0),

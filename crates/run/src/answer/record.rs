@@ -1,12 +1,13 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::Statistics;
+use cable_dem::SlipLengths;
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
-use super::along_cable::{ForceProfile, SlipRecord, Stage};
+use super::along_cable::{ForceProfile, Stage};
 use super::differences::larger;
 use super::error_estimate::ErrorEstimate;
+use super::fixed_mesh::FixedMesh;
 use super::heat::{DayExtremes, HeatRecord};
 use creepage_plan::SavedState;
 use creepage_scene::{CableEnd, Traffic};
@@ -63,7 +64,7 @@ pub struct Run {
     pub stages: Vec<Stage>,
     /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure
     /// 7).
-    pub slip_lengths: Option<SlipRecord>,
+    pub slip_lengths: Option<SlipLengths>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
     /// Where the run began, if not with the cable as laid.
@@ -72,6 +73,10 @@ pub struct Run {
     /// The cable after the last pass, with which another run can begin; not in the JSON document.
     #[serde(skip)]
     pub state: Option<SavedState>,
+    /// What the run has shown of its mesh, for others that differ from it little: for
+    /// [`RunOptions::mesh`](crate::RunOptions::mesh); not in the JSON document.
+    #[serde(skip)]
+    pub shown: Option<FixedMesh>,
     /// What the answer cost, in counts that do not depend on the machine.
     pub cost: Cost,
     /// What the user should know before trusting the answer.
@@ -134,10 +139,8 @@ pub struct PassRecord {
     /// Work that slip between cable and duct has turned into heat in this pass \[J\].
     pub dissipated_energy_j: Option<f64>,
     /// Least force on the downstream end during the pass: the largest tension where it is negative.
-    #[serde(default)]
     pub downstream_least_n: f64,
     /// Least force on the upstream end during the pass.
-    #[serde(default)]
     pub upstream_least_n: f64,
     /// Whether the pass was not simulated but lies within a jump between simulated ones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -170,10 +173,8 @@ pub struct RestraintRecord {
     /// Force of the cable on it after the last pass \[N\], positive toward growing x.
     pub force_n: f64,
     /// The same after each of [`Run::passes`] \[N\].
-    #[serde(default)]
     pub after_passes_n: Vec<f64>,
     /// The largest in size during each of them and after it \[N\], with its sign.
-    #[serde(default)]
     pub during_passes_n: Vec<f64>,
     /// How far it has slipped after each of them \[m\]; left out if it never slips.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -289,7 +290,6 @@ pub struct Quantiles {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cost {
     /// Passes simulated on the mesh of the answer.
-    #[serde(default)]
     pub simulated_passes: u64,
     /// Vehicle positions, or steps of time.
     pub steps: u64,
@@ -297,17 +297,6 @@ pub struct Cost {
     pub sweeps: u64,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: u64,
-}
-
-impl Cost {
-    pub fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
-        Self {
-            simulated_passes,
-            steps: statistics.steps as u64,
-            sweeps: statistics.sweeps as u64,
-            node_updates: statistics.node_updates as u64,
-        }
-    }
 }
 
 impl PassRecord {

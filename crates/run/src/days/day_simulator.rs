@@ -9,7 +9,7 @@ use crate::Progress;
 use crate::answer::differences::{Scale, Shares};
 use crate::answer::listed;
 use crate::passes::{Passes, Simulation, Task, listed_passes};
-use crate::refine::OnMeshes;
+use crate::refine::{OnMeshes, Work};
 use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use creepage_plan::{Error, Plan, cable::traffic};
 use creepage_scene::{Heat, Scene};
@@ -36,6 +36,8 @@ pub struct DaySimulator<'a> {
     /// Whether days are jumped over with a quarter of the error and a first jump half as long,
     /// which shows the error of the others.
     pub finer: bool,
+    /// What all days have cost.
+    pub work: &'a Work,
 }
 
 impl DaySimulator<'_> {
@@ -70,25 +72,19 @@ impl DaySimulator<'_> {
         }
     }
 
-    /// Where the next day goes on in the sequence of the traffic, if days do not begin with the
-    /// same vehicle as every day here does.
-    pub fn broken_sequence(&self) -> Option<usize> {
-        let passes = a_day(self.plan.scene);
-        let left = (passes % self.vehicles.len() as u64) as usize;
-        let several = self.plan.scene.traffic.passes > passes;
-        (several && !self.every_pass && !self.plan.period.reordered && left > 0).then_some(left)
-    }
-
-    /// The warning of that.
-    pub fn warning(&self) -> Option<String> {
+    /// Where the next day goes on in the sequence of the traffic, if days do not begin with the same
+    /// vehicle as every day here does; and the warning of that.
+    pub fn broken_sequence(&self) -> Option<(usize, String)> {
         let (passes, period) = (a_day(self.plan.scene), self.vehicles.len() as u64);
+        let (left, several) = (passes % period, self.plan.scene.traffic.passes > passes);
         let whole = (passes / period * period).max(period);
-        self.broken_sequence().map(|_| {
-            format!(
+        (several && !self.every_pass && !self.plan.period.reordered && left > 0).then(|| {
+            let warning = format!(
                 "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
                  began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {whole} has none of \
                  that"
-            )
+            );
+            (left as usize, warning)
         })
     }
 
@@ -168,6 +164,7 @@ impl OnMeshes for DaySimulator<'_> {
         simulation.statistics += of_law;
         simulation.statistics.sweeps += days.sweeps as usize;
         simulation.statistics.node_updates += days.sweeps as usize * mesh.nodes();
+        self.work.add(simulation.statistics);
         let passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
         Ok(Passes {
             peaks: days.peaks.clone(),
@@ -175,10 +172,6 @@ impl OnMeshes for DaySimulator<'_> {
             days: Some(days),
             ..passes
         })
-    }
-
-    fn levels_below(&self) -> usize {
-        1
     }
 
     /// Largest difference on any listed day or pass: of a force as a share of the largest of all

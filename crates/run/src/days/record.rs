@@ -28,11 +28,10 @@ impl DaySimulator<'_> {
         ))
     }
 
-    /// The extremes of the listed days and of all.
-    pub fn record(&self, mesh: Mesh, days: &Days) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
+    /// What heat does over all days.
+    pub fn record(&self, mesh: Mesh, days: &Days) -> Result<HeatRecord, Error> {
         let cable = Task::of(self.plan, self.plan.scene, mesh).cable()?;
         let passes_per_day = a_day(self.plan.scene);
-        let of_day = |(day, extremes): &(u64, _)| DayExtremes::new(*day, extremes);
         let per_kelvin = self.per_kelvin();
         let cycle = days.last_day.iter().map(|row| {
             let outcome = &row.outcome;
@@ -46,7 +45,7 @@ impl DaySimulator<'_> {
             }
         });
         let drift = days.periodic_from.map(|_| days.drift);
-        let record = HeatRecord {
+        Ok(HeatRecord {
             cycle: cycle.collect(),
             passes_per_day,
             all_days: DayExtremes::new(days_of(self), &days.extremes),
@@ -55,8 +54,7 @@ impl DaySimulator<'_> {
             drift_per_year_m: drift.map(|drift| DAYS_PER_YEAR * drift),
             hot_profile: ForceProfile::new(&cable, &days.hot)?,
             cold_profile: ForceProfile::new(&cable, &days.cold)?,
-        };
-        Ok((days.days.iter().map(of_day).collect(), record))
+        })
     }
 }
 

@@ -3,14 +3,14 @@
 //! Two runs that differ in the error of a single jump and in the length of the first one differ by
 //! about the error of either. Each is compared with one whose jumps are half as large.
 
-use cable_dem::Statistics;
-use cycle_jump::{Guide, Record};
+use cycle_jump::Record;
 
+use super::PassesOnMeshes;
 use super::draws::Draws;
 use crate::Progress;
-use crate::answer::differences::{Scale, Shares, difference, extremes_difference};
-use crate::passes::{JumpSize, Jumping, KnownJumps, Passes, Task};
-use crate::refine::on_coarse_level;
+use crate::answer::differences::{Shares, difference, extremes_difference};
+use crate::passes::{JumpSize, KnownJumps, Passes};
+use crate::refine::{OnMeshes, on_coarse_level};
 use crate::tuning::jumps::{
     FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, SHARE, SHORT,
 };
@@ -31,29 +31,25 @@ pub struct Found {
     pub known: KnownJumps,
     /// What a random order changes.
     pub draws: Option<Draws>,
-    /// The work of all runs.
-    pub statistics: Statistics,
 }
 
-/// Finds jumps for `plan` that take at most their share of its tolerance, or the best that are
+/// Finds jumps for `passes` that take at most their share of the tolerance, or the best that are
 /// affordable.
-pub fn find<'a>(plan: &'a Plan<'a>, scale: Scale, progress: Progress<'a>) -> Result<Found, Error> {
+pub fn find<'a>(passes: PassesOnMeshes<'a>, progress: Progress<'a>) -> Result<Found, Error> {
+    let Plan { scene, period, .. } = passes.plan;
     let mut search = Search {
-        plan,
-        scale,
-        allowed: Shares::both(SHARE * plan.scene.solver.tolerance),
-        // How many runs it takes is not known: each is half of what is left.
-        parts: Box::new(progress.parts(0.5)),
-        statistics: Statistics::default(),
+        passes,
+        allowed: Shares::both(SHARE * scene.solver.tolerance),
+        progress,
     };
     let mut found = search.jumps()?;
-    found.known.error = found.known.error + search.mix_error(&found)?;
-    if plan.period.is_drawn {
+    let mut error = found.known.error + search.mix_error(&found)?;
+    if period.is_drawn {
         let draws = search.draws(&found)?;
-        found.known.error = found.known.error + draws.error;
+        error = error + draws.error;
         found.draws = Some(draws);
     }
-    found.statistics = search.statistics;
+    found.known.error = error;
     Ok(found)
 }
 
@@ -78,65 +74,51 @@ impl JumpSize {
     }
 }
 
-/// The first passes, by which periods that stand in for the traffic are not compared: those of a
-/// random order are a draw that no mix foretells, and means over periods of other lengths hold
-/// other passes. They are two periods, or half of the traffic if that is less.
-fn first_passes(plan: &Plan<'_>) -> u64 {
-    (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2)
-}
-
 /// Runs with jumps of one plan, each compared with others.
 struct Search<'a> {
-    plan: &'a Plan<'a>,
-    scale: Scale,
+    passes: PassesOnMeshes<'a>,
     /// Error that jumps may leave.
     allowed: Shares,
-    parts: Box<dyn FnMut() -> Progress<'a> + 'a>,
-    statistics: Statistics,
+    progress: Progress<'a>,
 }
 
 impl Search<'_> {
     /// The passes by jumps of this `size` over `period`.
     fn simulate(&mut self, level: usize, size: JumpSize, period: &Period) -> Result<Passes, Error> {
-        let plan = self.plan;
-        let jumping = Jumping {
+        let jumps = Some(size);
+        let passes = PassesOnMeshes {
             period,
-            size,
-            most_passes: plan.levels.affordable_passes(level),
-            guide: Guide::Free,
-            beyond: false,
+            jumps,
+            ..self.passes
         };
-        let task = Task {
-            progress: (self.parts)(),
-            ..Task::of(plan, plan.scene, plan.levels.mesh(level)?)
-        };
-        let passes = task.carry_out(Some(&jumping))?;
-        self.statistics += passes.statistics;
-        Ok(passes)
+        // How many runs it takes is not known: each is half of what is left.
+        passes.simulate(
+            self.passes.plan.scene,
+            level,
+            None,
+            self.progress.next(0.5),
+            false,
+        )
     }
 
     /// The largest jumps whose error is allowed.
     fn jumps(&mut self) -> Result<Found, Error> {
-        let Plan {
-            scene,
-            period,
-            levels,
-            ..
-        } = self.plan;
-        let mut size = JumpSize::largest(self.plan);
+        let PassesOnMeshes { plan, period, .. } = self.passes;
+        let (scene, levels) = (plan.scene, &plan.levels);
+        let mut size = JumpSize::largest(plan);
         // A short duct costs little, and the few nodes of a coarser mesh behave differently.
         let below = usize::from(scene.duct.length > SHORT * scene.duct.depth);
-        let first = levels.first;
-        let (level, mut passes) =
-            on_coarse_level(levels, first, below, |level| self.simulate(level, size, period))?;
-        let cost = 2 * REFINEMENT_COST.pow((first - level) as u32);
+        let (level, mut passes) = on_coarse_level(levels, levels.first, below, |level| {
+            self.simulate(level, size, period)
+        })?;
+        let cost = 2 * REFINEMENT_COST.pow((levels.first - level) as u32);
         let mut error = None;
         for _ in 0..FINEST {
             let finer = match self.simulate(level, size.finer(), period) {
                 Err(Error::Jumps(_)) if error.is_some() => break,
                 finer => finer?,
             };
-            let off = difference(&finer.records, &passes.records, self.scale);
+            let off = self.passes.difference(&finer, &passes);
             (size, passes, error) = (size.finer(), finer, Some(off));
             if off.is_within(self.allowed) || cost * passes.statistics.node_updates > MAX_NODE_UPDATES {
                 break;
@@ -145,53 +127,43 @@ impl Search<'_> {
         let mut error = error.unwrap_or_default();
         if error == Shares::default() && passes.schedule.iter().any(|&length| length > 0) {
             // Both runs took the same jumps: one that takes others shows their error.
-            let others = JumpSize {
-                first_periods: 2 * size.first_periods,
-                ..size.finer()
-            };
+            let mut others = size.finer();
+            others.first_periods *= 2;
             let others = self.simulate(level, others, period)?;
-            error = difference(&passes.records, &others.records, self.scale);
+            error = self.passes.difference(&passes, &others);
         }
         Ok(Found {
             level,
             passes,
             known: KnownJumps { size, error },
             draws: None,
-            statistics: self.statistics,
         })
     }
 
     /// The passes of `vehicles` in place of the period of the plan, by jumps as good as those that
     /// were found.
     fn in_place(&mut self, found: &Found, vehicles: Vec<usize>) -> Result<Passes, Error> {
-        let size = found.known.size;
-        let first = size.first_periods * self.plan.period.len() as u64;
-        let first_periods = first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS);
+        let (mut size, period) = (found.known.size, self.passes.period);
+        let first = size.first_periods * period.len() as u64;
+        size.first_periods = first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS);
         let period = Period {
             vehicles,
-            ..self.plan.period.clone()
+            ..period.clone()
         };
-        self.simulate(
-            found.level,
-            JumpSize {
-                first_periods,
-                ..size
-            },
-            &period,
-        )
+        self.simulate(found.level, size, &period)
     }
 
     /// What random orders of the period leave in the mean, from as many draws as the tolerance
     /// needs or as are affordable.
     fn draws(&mut self, found: &Found) -> Result<Draws, Error> {
-        let mut all = Vec::new();
-        let mut work = 0;
+        let (mut all, mut work) = (Vec::new(), 0);
         loop {
-            let passes = self.in_place(found, self.plan.period.shuffled(all.len() as u64))?;
+            let passes = self.in_place(found, self.passes.period.shuffled(all.len() as u64))?;
             work += passes.statistics.node_updates;
             all.push(passes.records);
             if all.len() >= FEWEST_DRAWS {
-                let draws = Draws::new(&found.passes.records, &all, first_passes(self.plan), self.scale);
+                let first = first_passes(self.passes.plan);
+                let draws = Draws::new(&found.passes.records, &all, first, self.passes.scale);
                 let is_enough = work > MAX_NODE_UPDATES / 4 || all.len() >= MOST_DRAWS;
                 if is_enough || draws.error.is_within(self.allowed) {
                     return Ok(draws);
@@ -203,8 +175,8 @@ impl Search<'_> {
     /// What a period that stands in for the traffic changes: its share of what each other one does,
     /// forces and movements on the passes that both show, and the largest of all.
     fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
-        let Plan { period, .. } = self.plan;
-        let first = first_passes(self.plan);
+        let (period, scale) = (self.passes.period, self.passes.scale);
+        let first = first_passes(self.passes.plan);
         let later = |passes: &Passes| -> [Vec<Record>; 2] {
             let later = passes.records.iter().filter(|record| record.pass > first);
             let rows: Vec<Record> = later.cloned().collect();
@@ -219,12 +191,18 @@ impl Search<'_> {
             // single passes show them.
             let is_absent = vehicles.iter().any(|vehicle| period.absent.contains(vehicle));
             let weight = if is_absent { *share } else { 1.0 };
-            let extremes = extremes_difference(&all, &all_other, self.scale).times(weight);
-            let of_rows = difference(&rows, &other_rows, self.scale).times(*share);
-            error = error + of_rows.max(extremes);
+            let extremes = extremes_difference(&all, &all_other, scale).times(weight);
+            error = error + difference(&rows, &other_rows, scale).times(*share).max(extremes);
         }
         Ok(error)
     }
+}
+
+/// The first passes, by which periods that stand in for the traffic are not compared: those of a
+/// random order are a draw that no mix foretells, and means over periods of other lengths hold
+/// other passes. They are two periods, or half of the traffic if that is less.
+fn first_passes(plan: &Plan<'_>) -> u64 {
+    (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2)
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ mod simulation;
 mod solver;
 mod task;
 
+pub use crate::answer::{FixedMesh, JumpSize, KnownJumps};
 pub use listing::{listed_passes, mean, record_of};
-pub use options::{FixedMesh, JumpSize, Jumping, KnownJumps, RunOptions};
+pub use options::{Jumping, RunOptions};
 pub use simulation::{Passes, Simulation};
 pub use solver::PassSolver;
 pub use task::Task;

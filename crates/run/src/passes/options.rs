@@ -4,7 +4,7 @@ use cycle_jump::Guide;
 use ground_field::GroundField;
 
 use crate::Progress;
-use crate::answer::differences::Shares;
+use crate::answer::{FixedMesh, JumpSize};
 use creepage_plan::{Period, SavedState};
 
 /// How to run.
@@ -24,32 +24,6 @@ pub struct RunOptions<'a> {
     /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's
     /// are left out.
     pub stages: &'a [u64],
-}
-
-/// What a run has shown of its mesh, for others that differ from it little.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FixedMesh {
-    /// Error of the mesh.
-    pub error: Shares,
-    /// Jumps that were good enough.
-    pub jumps: Option<KnownJumps>,
-}
-
-/// Jumps that are good enough, and what they leave wrong.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownJumps {
-    pub size: JumpSize,
-    pub error: Shares,
-}
-
-/// How large jumps are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JumpSize {
-    /// Error of a single jump.
-    pub tolerance: f64,
-    /// Periods simulated at the start, and length of the first jump beside them.
-    pub first_periods: u64,
-    pub first_jump: f64,
 }
 
 /// How jumps are taken.

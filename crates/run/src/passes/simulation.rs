@@ -2,16 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use cable_dem::{CableState, DuctedCable, PassOutcome, Statistics};
+use cable_dem::{CableState, DuctedCable, PassOutcome, SlipLengths, Statistics};
 use cycle_jump::days::Days;
 use cycle_jump::{Beyond, Jumps, Next, Record, Request, evolve, peaks};
 
-use super::listing::{Listing, listed_passes};
+use super::listing::Listing;
 use super::options::Jumping;
 use super::solver::PassSolver;
 use super::task::Task;
 use crate::answer::differences::Scale;
-use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
+use crate::answer::{ForceProfile, Stage, balance, beyond};
 use crate::tuning::jumps::PATIENCE;
 use creepage_plan::{Error, cable::traffic, ground::length_scale};
 
@@ -22,7 +22,7 @@ pub struct Passes {
     pub records: Vec<Record>,
     pub state: CableState,
     /// With the vehicle over the duct's middle in the last pass, where the solver can be looked at.
-    pub slip: Option<SlipRecord>,
+    pub slip: Option<SlipLengths>,
     /// The cable at the passes that were asked for.
     pub stages: Vec<Stage>,
     pub statistics: Statistics,
@@ -43,7 +43,7 @@ pub struct Simulation<'a> {
     task: &'a Task<'a>,
     pub solver: PassSolver,
     pub cable: DuctedCable,
-    slip: Option<SlipRecord>,
+    slip: Option<SlipLengths>,
     stages: Vec<Stage>,
     /// The work so far.
     pub statistics: Statistics,
@@ -78,7 +78,9 @@ impl<'a> Simulation<'a> {
         let count = self.task.scene.traffic.passes;
         let stage = number.filter(|pass| self.task.stages.contains(pass));
         let outcome = if stage.is_some() || number == Some(count) {
-            let (outcome, friction) = self.solver.pass_and_look(vehicle, state)?;
+            let (outcome, friction) =
+                self.solver
+                    .pass_and_look(vehicle, &self.cable, self.task.mesh, state)?;
             if number == Some(count) {
                 self.slip = friction.as_ref().map(|friction| friction.slip_lengths);
             }
@@ -125,14 +127,6 @@ impl<'a> Simulation<'a> {
 }
 
 impl Task<'_> {
-    /// Simulates every pass, or few where there is a `way` to jump over the others.
-    pub fn carry_out(&self, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
-        match way {
-            Some(way) => self.with_jumps(way, &listed_passes(self.scene, way.period)),
-            None => self.every_pass(),
-        }
-    }
-
     /// Simulates every pass.
     pub fn every_pass(&self) -> Result<Passes, Error> {
         let mut simulation = Simulation::new(self)?;

@@ -1,6 +1,8 @@
 //! One loop over meshes, whatever is simulated on them: simulate, compare with the coarser mesh,
 //! judge, refine.
 
+use std::cell::Cell;
+
 use cable_dem::{CableError, Mesh, Statistics};
 
 use super::judge::mesh_reason;
@@ -34,14 +36,27 @@ pub trait OnMeshes {
         answer: bool,
     ) -> Result<Passes, Error>;
 
-    /// How many levels below the first show its error.
-    fn levels_below(&self) -> usize;
-
     /// Difference of passes on two meshes.
     fn difference(&self, one: &Passes, other: &Passes) -> Shares;
 
     /// Error on `level`, the last of these two or more meshes from coarse to fine.
     fn mesh_error(&self, level: usize, meshes: &[Passes]) -> Shares;
+}
+
+/// What all that was simulated has cost.
+#[derive(Default)]
+pub struct Work(Cell<Statistics>);
+
+impl Work {
+    pub fn add(&self, statistics: Statistics) {
+        let mut all = self.get();
+        all += statistics;
+        self.0.set(all);
+    }
+
+    pub fn get(&self) -> Statistics {
+        self.0.get()
+    }
 }
 
 /// What a run has come to, whatever was simulated: passes on the mesh that was good enough.
@@ -59,7 +74,8 @@ pub struct Solved {
     /// What it has shown of its mesh.
     pub shown: Option<FixedMesh>,
     /// Of a cable that is heated every day.
-    pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
+    pub days: Vec<DayExtremes>,
+    pub heat: Option<HeatRecord>,
 }
 
 impl Solved {
@@ -75,6 +91,7 @@ impl Solved {
             warnings: Vec::new(),
             random: None,
             shown: None,
+            days: Vec::new(),
             heat: None,
         }
     }
@@ -85,6 +102,8 @@ pub struct MeshLoop<'a, S> {
     pub plan: &'a Plan<'a>,
     pub options: &'a RunOptions<'a>,
     pub simulation: &'a S,
+    /// How many levels below the first show its error.
+    pub below: usize,
     /// The error of the first mesh, if another run has shown it: then there is no other mesh.
     pub known_error: Option<Shares>,
 }
@@ -96,25 +115,18 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
     pub fn refine(
         &self,
         first: usize,
-        progress: Progress<'_>,
+        mut progress: Progress<'_>,
         mut error: ErrorParts,
     ) -> Result<Solved, Error> {
         let (plan, simulation) = (self.plan, self.simulation);
         // Mostly the first mesh is good enough.
-        let mut parts = progress.parts(0.8);
-        let mut statistics = Statistics::default();
-        let mut simulate = |scene: &Scene, level, below: Option<&Passes>, progress, answer| {
-            let passes = simulation.simulate(scene, level, below, progress, answer)?;
-            statistics += passes.statistics;
-            Ok(passes)
-        };
-        let (mut level, begin, mut meshes) = (first, parts(), Vec::new());
-        let below = self.known_error.map_or(simulation.levels_below(), |_| 0);
-        for level in plan.levels.below(first, below).chain([first]) {
+        let mut next = || progress.next(0.8);
+        let (mut level, begin, mut meshes) = (first, next(), Vec::new());
+        for level in plan.levels.below(first, self.below).chain([first]) {
             // Each level costs a quarter of the next.
             let share = |level: usize| (REFINEMENT_COST as f64).powi(level as i32 - first as i32 - 1);
             let part = begin.part(share(level), share(level + 1));
-            let passes = simulate(plan.scene, level, meshes.last(), part, level == first);
+            let passes = simulation.simulate(plan.scene, level, meshes.last(), part, level == first);
             meshes.extend(unless_coarse(passes, level < first)?);
         }
         loop {
@@ -126,7 +138,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
             if self.is_good_enough(level, &meshes, &error) || !self.may_refine(level, &meshes, &error) {
                 break;
             }
-            match simulate(plan.scene, level + 1, meshes.last(), parts(), true) {
+            match simulation.simulate(plan.scene, level + 1, meshes.last(), next(), true) {
                 // Jumps that fail on this mesh leave the answer of the coarser one.
                 Err(Error::Jumps(_)) if self.error_is_known(&meshes) => break,
                 finer => meshes.push(finer?),
@@ -139,21 +151,19 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let refused = error_estimate::is_doubtful(error.total().force, plan.scene.solver.tolerance);
         let passes = meshes.pop().ok_or(Error::NoPass)?;
         if self.options.verify || alone || plan.levels.named && refused {
-            let finer = simulate(plan.scene, level + 1, Some(&passes), parts(), true)?;
+            let finer = simulation.simulate(plan.scene, level + 1, Some(&passes), next(), true)?;
             error.mesh = simulation.difference(&passes, &finer).times(VERIFIED);
             error.measured = true;
         }
-        if !road::is_followed_enough(plan.scene, &plan.ground.motions)? {
+        let motions = &plan.ground.motions;
+        if road::approach(plan.scene, motions)? < road::needed(plan.scene, motions)? {
             let mut far = plan.scene.clone();
             far.solver.approach = None;
-            let farther = simulate(&far, level, Some(&passes), Progress::default(), false)?;
+            let farther = simulation.simulate(&far, level, Some(&passes), Progress::default(), false)?;
             error.road = simulation.difference(&passes, &farther);
         }
         let mesh = plan.levels.mesh(level)?;
-        Ok(Solved {
-            statistics,
-            ..Solved::new(level, mesh, passes, error, mesh_reason(plan, &mesh))
-        })
+        Ok(Solved::new(level, mesh, passes, error, mesh_reason(plan, &mesh)))
     }
 
     /// Whether the passes on all `meshes` up to `level` leave an `error` of the last that the

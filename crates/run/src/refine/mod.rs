@@ -4,4 +4,4 @@ mod judge;
 mod mesh_loop;
 
 pub use judge::judge;
-pub use mesh_loop::{MeshLoop, OnMeshes, Solved, on_coarse_level};
+pub use mesh_loop::{MeshLoop, OnMeshes, Solved, Work, on_coarse_level};

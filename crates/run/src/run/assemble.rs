@@ -14,7 +14,7 @@ use creepage_plan::{Error, PastPass, Plan, SavedState};
 use creepage_scene::{CableEnd, End, Scene, SolverMethod};
 
 /// The answer from passes that were simulated by `method`, for a `reason`.
-pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &Solved) -> Result<Run, Error> {
+pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: Solved) -> Result<Run, Error> {
     let Plan { scene, ground, .. } = plan;
     let found = &solved.passes;
     let cable = Task::of(plan, scene, solved.mesh).cable()?;
@@ -23,11 +23,11 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &So
     let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
     let passes: Vec<PassRecord> = passes.collect();
     balance::of_records(scene, &passes, &restraints)?;
-    let (days, heat) = solved.heat.clone().unzip();
-    let (saturation, range) = match heat {
+    let (saturation, range) = match solved.heat {
         Some(_) => (None, None),
         None => saturation(scene, &plan.period, &found.records, found.beyond.as_ref()),
     };
+    let past = past(scene, &passes);
     let first = &ground.motions[0];
     // A free end is a spring of no stiffness.
     let spring = |end: End| end.stiffness().filter(|stiffness| *stiffness > 0.0);
@@ -42,28 +42,19 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &So
             cable: method.to_string(),
             node_spacing_m: solved.mesh.spacing(),
             vehicle_step_m: solved.mesh.vehicle_step(),
-            reasons: reasons(plan, reason, solved, &passes),
+            reasons: reasons(plan, reason, &solved, &passes),
         },
         saturation,
         range,
         random: solved.random,
-        state: Some(SavedState::new(
-            scene,
-            &cable,
-            &found.state,
-            plan.start,
-            past(scene, &passes),
-        )),
+        state: Some(SavedState::new(scene, &cable, &found.state, plan.start, past)),
         passes,
-        extremes: extremes(plan, method, solved)?,
-        days: days.unwrap_or_default(),
-        heat,
+        extremes: extremes(plan, method, &solved)?,
         upstream_spring_n_per_m: spring(scene.ends.upstream),
         downstream_spring_n_per_m: spring(scene.ends.downstream),
         force_profile: ForceProfile::new(&cable, &found.state)?,
         restraints,
         slip_lengths: found.slip,
-        stages: found.stages.clone(),
         error_estimate: ErrorEstimate {
             relative: solved.error.total().force,
             method: solved.error.to_string(),
@@ -72,8 +63,17 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: &So
         start: plan.start.map(|start| Start {
             passes: start.passes(),
         }),
-        cost: Cost::new(found.simulated, &solved.statistics),
-        warnings: [plan.warnings.clone(), solved.warnings.clone()].concat(),
+        shown: solved.shown,
+        cost: Cost {
+            simulated_passes: found.simulated,
+            steps: solved.statistics.steps as u64,
+            sweeps: solved.statistics.sweeps as u64,
+            node_updates: solved.statistics.node_updates as u64,
+        },
+        warnings: [plan.warnings.clone(), solved.warnings].concat(),
+        days: solved.days,
+        heat: solved.heat,
+        stages: solved.passes.stages,
     };
     run.warn_where_it_leaves(scene);
     run.warn_where_it_creeps_back(scene);
@@ -105,9 +105,9 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
         } else {
             format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
         };
+        let first = first.pass;
         reasons.push(format!(
-            "{of}; from pass {} on, passes between these are interpolated",
-            first.pass
+            "{of}; from pass {first} on, passes between these are interpolated"
         ));
     }
     reasons
@@ -118,8 +118,7 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
 /// as the next one over the cable as it is left.
 fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Vec<ExtremePass>, Error> {
     let Plan { scene, period, .. } = plan;
-    let heat = solved.heat.as_ref();
-    let a_day = heat.map_or(u64::MAX, |(_, heat)| heat.passes_per_day);
+    let a_day = solved.heat.as_ref().map_or(u64::MAX, |heat| heat.passes_per_day);
     let extreme = |vehicle: usize, record: &Record| ExtremePass {
         vehicle: scene.vehicles[vehicle].name.clone(),
         after: PassRecord::new(record, &scene.traffic),
@@ -136,10 +135,9 @@ fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Ve
         let task = Task::of(plan, scene, solved.mesh);
         let mut simulation = Simulation::new(&task)?;
         for &vehicle in &period.absent {
-            let outcome = simulation.pass(vehicle, None, &mut solved.passes.state.clone())?;
             let record = Record {
                 pass: scene.traffic.passes + 1,
-                outcome,
+                outcome: simulation.pass(vehicle, None, &mut solved.passes.state.clone())?,
                 interpolated: true,
             };
             extremes.push(extreme(vehicle, &record));
@@ -150,19 +148,20 @@ fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Ve
 
 /// Without friction every pass leaves the cable as the first one did: where it was laid.
 pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error> {
-    let mesh = plan.levels.mesh(plan.levels.first)?;
+    let (level, count) = (plan.levels.first, plan.scene.traffic.passes);
+    let mesh = plan.levels.mesh(level)?;
     let mut scene = plan.scene.clone();
-    let count = std::mem::replace(&mut scene.traffic.passes, 1);
-    let mut passes = Task::of(plan, &scene, mesh).every_pass()?;
-    let force_profile = ForceProfile::new(&Task::of(plan, &scene, mesh).cable()?, &passes.state)?;
+    scene.traffic.passes = 1;
+    let task = Task::of(plan, &scene, mesh);
+    let mut passes = task.every_pass()?;
+    let force_profile = ForceProfile::new(&task.cable()?, &passes.state)?;
     let stage = |&pass| Stage {
         pass,
         force_profile: force_profile.clone(),
         friction: None,
     };
     let stages = stages.iter().filter(|pass| (1..=count).contains(*pass));
-    passes.stages = stages.map(stage).collect();
-    passes.slip = None;
+    (passes.stages, passes.slip) = (stages.map(stage).collect(), None);
     let first = passes.records.pop().ok_or(Error::NoPass)?;
     let listed = listed_passes(plan.scene, &plan.period).into_iter();
     passes.records = listed
@@ -172,8 +171,13 @@ pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error
         })
         .collect();
     let reason = "without friction nothing drags the cable: every pass is like the first";
-    let error = ErrorParts::new(0.0, 0.0);
-    Ok(Solved::new(plan.levels.first, mesh, passes, error, reason.into()))
+    Ok(Solved::new(
+        level,
+        mesh,
+        passes,
+        ErrorParts::new(0.0, 0.0),
+        reason.into(),
+    ))
 }
 
 /// The largest in size of a range.

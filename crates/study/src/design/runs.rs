@@ -7,10 +7,7 @@ use rayon::prelude::*;
 use super::error::DesignError;
 use super::trade_off::{Spring, TradeOff};
 use creepage_plan::ground::Ground;
-use creepage_run::{
-    FixedMesh, Limits, Place, Progress, RunOptions,
-    run::{run_over, run_shown},
-};
+use creepage_run::{FixedMesh, Limits, Place, Progress, RunOptions, run::run_over};
 use creepage_scene::Scene;
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
@@ -59,14 +56,14 @@ impl<'a> Runs<'a> {
         let ends = places.iter().filter(|place| place.end().is_some());
         let fixed: Vec<Spring> = ends.map(|place| Spring::new(*place, f64::INFINITY)).collect();
         let stiffest = Spring::hold(&fixed, scene)?;
-        let (run, shown) = run_shown(&stiffest, Arc::clone(ground), &options)?;
+        let run = run_over(&stiffest, Arc::clone(ground), &options)?;
         let mut scene = scene.clone();
         scene.solver.node_spacing.get_or_insert(run.plan.node_spacing_m);
         scene.solver.vehicle_step.get_or_insert(run.plan.vehicle_step_m);
         Ok(Self {
             scene,
             ground: Arc::clone(ground),
-            shown,
+            shown: run.shown,
             limits,
             progress,
             expected,

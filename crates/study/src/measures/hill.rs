@@ -60,7 +60,7 @@ mod tests {
     /// An outcome whose only limit is 1.
     fn outcome(at: &[(&str, f64)], largest: f64) -> Outcome {
         let verdict = serde_json::json!({ "end": Place::Upstream, "quantity": Limited::Force, "limit": 1.0, "largest": largest,
-            "reached_after": null, "doubtful": false });
+            "pulled": false, "during_a_pass": false, "reached_after": null, "doubtful": false });
         let verdict: Verdict = serde_json::from_value(verdict).expect("a verdict");
         let at = at.iter().map(|(key, value)| ((*key).to_owned(), *value));
         Outcome {

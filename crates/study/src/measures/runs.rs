@@ -11,7 +11,7 @@ use crate::design;
 use creepage_plan::ground::KnownGrounds;
 use creepage_plan::plan_over;
 use creepage_run::answer::largest_movement_in_duct;
-use creepage_run::run::{run_over, run_shown};
+use creepage_run::run::run_over;
 use creepage_run::{Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions};
 use creepage_scene::{CableEnd, End, Measure, Scene, SceneFile};
 
@@ -69,9 +69,9 @@ impl<'a> Runs<'a> {
             progress: progress.part(0.0, 0.0),
             ..RunOptions::default()
         };
-        runs.shown = match run_shown(&runs.rough(&scene), ground, &options) {
+        runs.shown = match run_over(&runs.rough(&scene), ground, &options) {
             Err(Error::Stopped) => return Err(Error::Stopped),
-            shown => shown.ok().and_then(|(_, shown)| shown),
+            run => run.ok().and_then(|run| run.shown),
         };
         Ok(runs)
     }
