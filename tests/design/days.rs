@@ -1,7 +1,6 @@
 //! Heat and slopes count, and a cable that leaves its duct is told.
 
-use creepage::design::{Spring, compare};
-use creepage::{Limited, Place, Progress, Scene};
+use creepage::{Limited, Place, Scene};
 
 use super::grid::{WARM, check, designed, excess, held, reached, scene};
 
@@ -58,9 +57,15 @@ fn a_slope_counts() {
 fn a_cable_that_leaves_the_duct_is_called_so() {
     // Steeper than friction holds, with the upper end free: the lower end carries what friction does not, and moves by force over stiffness.
     let scene = scene(&["duct.slope=-30 deg"]);
-    let ways = [1e3, 1e6].map(|stiffness| Spring::new(Place::Downstream, stiffness));
-    let ways = compare(&scene, &ways, Progress::default()).expect("runs");
-    let [soft, stiff] = [0, 1].map(|way| ways[way].as_ref().expect("an answer"));
-    assert!(soft.downstream_movement_m > 0.01 * scene.duct.length && soft.leaves_duct);
-    assert!(stiff.movement_m < 0.01 * scene.duct.length && !stiff.leaves_duct);
+    let design = designed(
+        &scene,
+        &[Place::Downstream],
+        &[(Place::Downstream, Limited::Force, 1e9)],
+    );
+    for point in &design.curve {
+        assert_eq!(point.leaves_duct, point.movement_m > 0.01 * scene.duct.length);
+        assert_eq!(point.within_limits, !point.leaves_duct);
+    }
+    let (soft, stiff) = (&design.curve[0], &design.curve[design.curve.len() - 1]);
+    assert!(soft.leaves_duct && !stiff.leaves_duct);
 }

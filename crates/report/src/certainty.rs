@@ -10,6 +10,10 @@ use plain_figure::{Axis, Chart, Reference, Series};
 
 pub fn certainty(html: &mut Html, report: &Report) {
     let (Some(comparison), reader) = (&report.compared, &report.reader) else {
+        html.paragraph(
+            "With limits (--limit-force, --limit-movement) “creepage report” compares measures here, in every combination of what is not known; of \
+             a heated cable only where the scene says what that is ([uncertain]).",
+        );
         return;
     };
     html.paragraph(&recommendation(comparison, reader));

@@ -5,7 +5,6 @@ use super::certainty::certainty;
 use super::content::Report;
 use super::force::force;
 use super::heat::heat;
-use super::holding::holding;
 use super::html::{Html, escaped};
 use super::route::route;
 use super::section::section;
@@ -31,14 +30,13 @@ impl Report {
             dark = dark_style(),
         ));
         self.answer_and_verdicts(&mut html);
-        let sections: [(bool, &str, Section); 10] = [
+        let sections: [(bool, &str, Section); 9] = [
             (!self.warnings.is_empty(), "Warnings", warnings),
             (true, "Scene", scene),
             (true, "Force and movement", force),
             (self.run.heat.is_some(), "Heat, day by day", heat),
             (true, "Why the cable creeps", cause),
-            (self.compared.is_some(), "What to fit", certainty),
-            (self.measures.is_some(), "Ways to hold the cable", holding),
+            (self.history.is_empty(), "What to fit", certainty),
             (true, "How it was computed", computed),
             (true, "What is left out", left_out),
             (true, "Where this page comes from", record),

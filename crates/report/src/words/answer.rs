@@ -59,7 +59,7 @@ impl Load {
 }
 
 /// The held end that is pressed harder after the `last` pass; `None` where both are free.
-pub fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<CableEnd> {
+fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<CableEnd> {
     let force = |end: &CableEnd| last.force_after(*end).abs();
     let held = CableEnd::ALL
         .into_iter()

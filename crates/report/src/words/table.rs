@@ -39,7 +39,7 @@ fn columns(reader: &Reader, moved: &str, is_zero: impl Fn(CableEnd, Limited) -> 
 }
 
 /// The name of an end with a soft hyphen.
-pub fn narrow_name(end: CableEnd) -> String {
+fn narrow_name(end: CableEnd) -> String {
     end.name().replace("stream", "\u{ad}stream")
 }
 

@@ -24,7 +24,6 @@
 //! single one then.
 
 mod answer;
-pub mod compare;
 mod error;
 mod options;
 mod pair_map;
@@ -33,7 +32,6 @@ mod search;
 mod trade_off;
 
 pub use answer::{Design, best};
-pub use compare::compare;
 pub use creepage_run::{ClampLimits, Limits, Place};
 pub use error::DesignError;
 pub use options::DesignOptions;
