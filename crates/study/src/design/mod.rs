@@ -35,7 +35,5 @@ pub use answer::{Design, best};
 pub use creepage_run::{ClampLimits, Limits, Place};
 pub use error::DesignError;
 pub use options::DesignOptions;
-pub(crate) use pair_map::between;
-pub(crate) use runs::rough;
 pub use search::design;
 pub use trade_off::{Binding, ClampPeak, Side, Spring, TradeOff};

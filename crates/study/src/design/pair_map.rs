@@ -1,8 +1,7 @@
 //! Two springs at once.
 //!
 //! Rough runs over a grid of both stiffnesses tell how everything that is limited depends on them,
-//! and between them formulas that are exact for a spring against a spring: 1/u is linear in k, and
-//! 1/F in 1/k. On that map the best point is found by looking at all; a run with the scene's own
+//! and between them it is read as of a spring against a spring. On that map the best point is found by looking at all; a run with the scene's own
 //! tolerance there scales the map, and the next best point is looked for until map and run agree
 //! (space mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536). Every
 //! point of the answer is such a run.
@@ -16,8 +15,10 @@ use rayon::prelude::*;
 
 use super::error::DesignError;
 use super::options::DesignOptions;
-use super::runs::{Runs, rough, springs};
+use super::runs::{Runs, springs};
 use super::trade_off::{Limit, Spring, TradeOff, out_of_reach, with_duct};
+use crate::shared_mesh::rough;
+use crate::springs::read;
 use creepage_plan::ground::Ground;
 use creepage_run::{Limited, Place};
 use creepage_scene::Scene;
@@ -147,19 +148,13 @@ impl Map {
 
     /// The shares of all limits of a pair.
     fn shares(&self, pair: [f64; 2], scale: &[f64]) -> Vec<f64> {
+        let [rows, columns] = &self.levels;
         let share = |(&limit, scale): (&Limit, &f64)| {
-            let sides = [0, 1].map(|axis| between(&self.levels[axis], pair[axis], limit.1));
-            let mut inverse = 0.0;
-            for (row, of_row) in sides[0] {
-                for (column, of_column) in sides[1] {
-                    let weight = of_row * of_column;
-                    if weight > 0.0 {
-                        let point = &self.points[row * self.levels[1].len() + column];
-                        inverse += weight / point.share(limit);
-                    }
-                }
-            }
-            scale / inverse
+            let of_row = |row: usize| {
+                let of_pair = |column: usize| self.points[row * columns.len() + column].share(limit);
+                read(columns, pair[1], limit.1, of_pair)
+            };
+            scale * read(rows, pair[0], limit.1, of_row)
         };
         self.limits.iter().zip(scale).map(share).collect()
     }
@@ -173,49 +168,4 @@ fn around(stiffness: f64) -> Vec<f64> {
     }
     let finer = |i| stiffness * 10_f64.powf(f64::from(i) / f64::from(FINE_PER_DECADE * FINER));
     (-FINER..=FINER).map(finer).collect()
-}
-
-/// The levels on both sides of `stiffness`, with their weights in the mean of the inverse.
-pub fn between(levels: &[f64], stiffness: f64, quantity: Limited) -> [(usize, f64); 2] {
-    let above = levels.partition_point(|level| *level < stiffness);
-    let above = above.min(levels.len() - 1);
-    let below = above.saturating_sub(1);
-    let (low, high) = (levels[below], levels[above]);
-    if high <= stiffness || low == 0.0 || high.is_infinite() || above == below {
-        return [(above, 1.0), (above, 0.0)];
-    }
-    let share = match quantity {
-        Limited::Movement => (stiffness - low) / (high - low),
-        Limited::Force => (1.0 / low - 1.0 / stiffness) / (1.0 / low - 1.0 / high),
-    };
-    [(below, 1.0 - share), (above, share)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A spring k in series with one of stiffness c that is compressed by d together: u = c d / (k
-    /// + c), F = k u.
-    #[test]
-    fn a_spring_against_a_spring_is_read_exactly() {
-        let (c, d) = (3e5, 0.01);
-        let levels = [0.0, 1e4, 1e5, 1e6, f64::INFINITY];
-        let movement = |k: f64| c * d / (k + c);
-        let force = |k: f64| if k.is_infinite() { c * d } else { k * movement(k) };
-        for k in [1e4, 2e4, 1e5, 7e5, 1e6, f64::INFINITY] {
-            for (quantity, of) in [
-                (Limited::Movement, &movement as &dyn Fn(f64) -> f64),
-                (Limited::Force, &force),
-            ] {
-                let inverse: f64 = between(&levels, k, quantity)
-                    .into_iter()
-                    .filter(|(_, weight)| *weight > 0.0)
-                    .map(|(level, weight)| weight / of(levels[level]))
-                    .sum();
-                let read = 1.0 / inverse;
-                assert!((read - of(k)).abs() <= 1e-12 * of(k), "{k} {quantity:?}: {read}");
-            }
-        }
-    }
 }

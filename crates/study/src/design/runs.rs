@@ -1,30 +1,19 @@
 //! Runs of one scene with springs of different stiffness, all on one mesh, none of them twice.
 
+use std::cmp::Ordering;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
 use super::error::DesignError;
 use super::trade_off::{Spring, TradeOff};
+use crate::shared_mesh::SharedMesh;
 use creepage_plan::ground::Ground;
-use creepage_run::{
-    FixedMesh, Limits, Place, Progress, RunOptions,
-    run::{run_over, run_shown},
-};
+use creepage_run::{Limits, Place, Progress};
 use creepage_scene::Scene;
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
 const DECADES: i32 = 2;
-
-/// Tolerance of rough runs, if the scene's own is not looser.
-pub const ROUGH: f64 = 0.05;
-
-/// The scene with that tolerance.
-pub fn rough(scene: &Scene) -> Scene {
-    let mut rough = scene.clone();
-    rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
-    rough
-}
 
 /// A scene on the mesh that its stiffest variant needs, its ground, and what was run: runs that are
 /// to be compared are made on the same ones, and where the end is nearly free there is no force
@@ -32,8 +21,7 @@ pub fn rough(scene: &Scene) -> Scene {
 pub struct Runs<'a> {
     scene: Scene,
     ground: Arc<Ground>,
-    /// What the run of the stiffest variant has shown of the mesh.
-    shown: Option<FixedMesh>,
+    mesh: SharedMesh,
     limits: &'a Limits,
     progress: Progress<'a>,
     expected: usize,
@@ -51,37 +39,17 @@ impl<'a> Runs<'a> {
         progress: Progress<'a>,
         expected: usize,
     ) -> Result<Self, DesignError> {
-        // This run may be stopped, but its share of the work is not counted.
-        let options = RunOptions {
-            progress: progress.part(0.0, 0.0),
-            ..RunOptions::default()
-        };
         let ends = places.iter().filter(|place| place.end().is_some());
         let fixed: Vec<Spring> = ends.map(|place| Spring::new(*place, f64::INFINITY)).collect();
-        let stiffest = Spring::hold(&fixed, scene)?;
-        let (run, shown) = run_shown(&stiffest, Arc::clone(ground), &options)?;
-        let mut scene = scene.clone();
-        scene.solver.node_spacing.get_or_insert(run.plan.node_spacing_m);
-        scene.solver.vehicle_step.get_or_insert(run.plan.vehicle_step_m);
         Ok(Self {
-            scene,
+            mesh: SharedMesh::of(&Spring::hold(&fixed, scene)?, ground, progress)?,
+            scene: scene.clone(),
             ground: Arc::clone(ground),
-            shown,
             limits,
             progress,
             expected,
             points: Mutex::default(),
         })
-    }
-
-    fn compute(&self, springs: &[Spring], mesh: Option<FixedMesh>) -> Result<TradeOff, DesignError> {
-        let options = RunOptions {
-            mesh,
-            ..RunOptions::default()
-        };
-        let held = Spring::hold(springs, &self.scene)?;
-        let run = run_over(&held, Arc::clone(&self.ground), &options)?;
-        Ok(TradeOff::of(&self.scene, &run, springs, self.limits))
     }
 
     fn done(&self) -> MutexGuard<'_, Vec<TradeOff>> {
@@ -94,7 +62,10 @@ impl<'a> Runs<'a> {
         if let Some(done) = done {
             return Ok(done);
         }
-        let point = self.compute(springs, self.shown)?;
+        let run = self
+            .mesh
+            .run(&Spring::hold(springs, &self.scene)?, &self.ground)?;
+        let point = TradeOff::of(&self.scene, &run, springs, self.limits);
         self.done().push(point.clone());
         let share = self.count() as f64 / self.expected as f64;
         self.progress.report(share.min(1.0))?;
@@ -110,7 +81,9 @@ impl<'a> Runs<'a> {
     /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own,
     /// unless its forces so differ just enough to be on the other side of a limit.
     pub fn judged(&self, point: TradeOff) -> Result<TradeOff, DesignError> {
-        let own = self.compute(&point.springs, None)?;
+        let held = Spring::hold(&point.springs, &self.scene)?;
+        let run = self.mesh.judged(&held, &self.ground)?;
+        let own = TradeOff::of(&self.scene, &run, &point.springs, self.limits);
         if own.within_limits == point.within_limits {
             return Ok(own);
         }
@@ -132,7 +105,7 @@ impl<'a> Runs<'a> {
         points.sort_by(|a, b| {
             let pairs = a.springs.iter().zip(&b.springs);
             let orders = pairs.map(|(a, b)| a.stiffness().total_cmp(&b.stiffness()));
-            orders.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+            orders.fold(Ordering::Equal, Ordering::then)
         });
         points
     }
