@@ -5,7 +5,7 @@ use std::io::Write;
 use super::failure::Failure;
 use super::terminal;
 use crate::answer::largest_movement_in_duct;
-use crate::design::{Binding, Design, Place, Side, Spring, TradeOff};
+use crate::design::{Binding, ClampPeak, Design, Place, Side, Spring, TradeOff};
 use crate::shown::{percent, words_if};
 use crate::{Limited, Scene, Units};
 
@@ -45,25 +45,21 @@ fn beside(all: &[Design], units: &Units) -> Table {
     let names = ["held by", "stiffness", "largest share of a limit", "of", "on the clamp", "within limits"];
     let row = |design: &Design| {
         let found = design.found()?;
-        let springs = found.springs.iter().map(|spring| stiffness(units, spring));
-        let mut on_clamps = Vec::new();
-        for clamp in &found.clamps {
+        let is_varied = |clamp: &&ClampPeak| {
             let mut places = design.places.iter();
-            if places.any(|place| place.is_clamp_at(clamp.position_m)) {
-                let force = Limited::Force.shown_in(units, clamp.force_n);
-                let movement = Limited::Movement.shown_in(units, clamp.movement_m);
-                on_clamps.push(format!("{force}, {movement}"));
-            }
-        }
-        if on_clamps.is_empty() {
-            on_clamps.push("–".to_owned());
-        }
+            places.any(|place| place.is_clamp_at(clamp.position_m))
+        };
+        let on_clamps = found.clamps.iter().filter(is_varied).map(|clamp| {
+            let force = Limited::Force.shown_in(units, clamp.force_n);
+            format!("{force}, {}", Limited::Movement.shown_in(units, clamp.movement_m))
+        });
+        let on_clamps = on_clamps.reduce(|one, other| format!("{one} and {other}"));
         Some(vec![
             places(&design.places),
-            springs.collect::<Vec<_>>().join(" and "),
+            stiffness(units, &found.springs[0]),
             percent(design.excess()),
             named(&found.tightest(&design.limits)),
-            on_clamps.join(" and "),
+            on_clamps.unwrap_or_else(|| "–".to_owned()),
             within(found) + words_if(is_near(design), ", nearer than the error"),
         ])
     };
@@ -85,12 +81,7 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
         (Place::Clamp(position), _) => format!("at {position} m"),
         (_, end) => end.map_or_else(String::new, |end| end.name().to_owned()),
     };
-    let symbol = units.stiffness.symbol();
-    let spring = |place: &Place| match design.places.len() {
-        1 => format!("stiffness, {symbol}"),
-        _ => format!("{}, {symbol}", short(*place)),
-    };
-    let mut names: Vec<String> = design.places.iter().map(spring).collect();
+    let mut names = vec![format!("stiffness, {}", units.stiffness.symbol())];
     let limited = design.limits.clamps.iter();
     let limited = limited.map(|clamp| Place::Clamp(clamp.position_m));
     let mut places = vec![Place::Upstream, Place::Downstream];
@@ -119,9 +110,9 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
                 value => quantity.number_in(units, value),
             }
         };
-        let springs = point.springs.iter().map(|spring| number(units, spring));
-        let cells = springs.chain(columns.iter().map(cell));
-        cells.chain([within(point)]).collect()
+        let mut cells = vec![number(units, &point.springs[0])];
+        cells.extend(columns.iter().map(cell).chain([within(point)]));
+        cells
     };
     (names, design.curve.iter().map(row).collect())
 }
@@ -227,8 +218,14 @@ fn named<'a>(limits: impl IntoIterator<Item = &'a Binding>) -> String {
 
 /// Where the range of stiffness ends and why, or which limits decide.
 fn deciding(out: &mut impl Write, design: &Design, answer: &TradeOff, units: &Units) -> Result<(), Failure> {
-    if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
-        let with = |k| stiffness(units, &Spring::new(spring.place, k));
+    if let Some((from, to)) = design.range_n_per_m {
+        let with = |k| {
+            let spring = Spring {
+                stiffness_n_per_m: Some(k),
+                ..answer.springs[0]
+            };
+            stiffness(units, &spring)
+        };
         let from = with(from);
         match to.map(with) {
             None => writeln!(out, "within the limits: {from} and everything stiffer")?,
