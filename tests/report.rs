@@ -525,10 +525,7 @@ fn the_side_view_has_clamps_at_their_places_and_ends_where_the_duct_does() {
     for (clamp, place) in [("1", 12.0), ("2", 27.0)] {
         assert!((at(clamp) - at("0") - place * scale).abs() < 0.2, "clamp {clamp}");
     }
-    assert_says(
-        &page,
-        &["The duct falls by 2 % toward growing x, which is not drawn."],
-    );
+    assert_says(&page, &["it falls with x by 2 %, and "]);
     let along = texts(figure(&all, "Force along the cable"), "text");
     assert!(along.contains(&"30") && !along.contains(&"40"), "{along:?}");
 }

@@ -84,9 +84,8 @@ impl Report {
             ..RunOptions::default()
         };
         let run = creepage_run::run_plan(&plan, &options_of_run)?;
-        let agreement = options
-            .readings
-            .map(|readings| Agreement::new(scene, &run, readings));
+        let agreement = options.readings;
+        let agreement = agreement.map(|readings| Agreement::new(scene, &run, readings));
         let agreement = agreement.transpose()?;
         let mistakes = agreement
             .as_ref()
@@ -114,30 +113,25 @@ impl Report {
 
     /// The run in words.
     pub(super) fn answer(&self) -> Answer<'_> {
-        let Self {
-            scene, run, reader, ..
-        } = self;
         Answer {
-            scene,
-            run,
-            reader: *reader,
+            scene: &self.scene,
+            run: &self.run,
+            reader: self.reader,
         }
     }
 
     /// The scene in words.
     pub(super) fn scene_words(&self) -> SceneWords<'_> {
-        let Self { scene, reader, .. } = self;
         SceneWords {
-            scene,
-            reader: *reader,
+            scene: &self.scene,
+            reader: self.reader,
         }
     }
 
     /// What looks mistaken in the readings.
     pub fn mistakes(&self) -> &[String] {
-        self.agreement
-            .as_ref()
-            .map_or(&[], |agreement| &agreement.mistakes)
+        let agreement = self.agreement.as_ref();
+        agreement.map_or(&[], |agreement| &agreement.mistakes)
     }
 
     /// What the scene's answer makes of the limits.
