@@ -72,10 +72,10 @@ fn course(heat: &Heat) -> String {
 
 /// Force or displacement of an end at a time of the day.
 fn at(point: &DayPoint, end: CableEnd, quantity: Limited) -> f64 {
-    end.of(match quantity {
-        Limited::Force => [point.upstream_force_n, point.downstream_force_n],
-        Limited::Movement => [point.upstream_displacement_m, point.downstream_displacement_m],
-    })
+    end.of(quantity.of([
+        [point.upstream_force_n, point.downstream_force_n],
+        [point.upstream_displacement_m, point.downstream_displacement_m],
+    ]))
 }
 
 /// Temperature, forces and movements over the day.

@@ -13,10 +13,10 @@ pub fn read(levels: &[f64], stiffness: f64, quantity: Limited, value: impl Fn(us
     if high <= stiffness || low == 0.0 || high.is_infinite() || above == below {
         return value(above);
     }
-    let share = match quantity {
-        Limited::Movement => (stiffness - low) / (high - low),
-        Limited::Force => (1.0 / low - 1.0 / stiffness) / (1.0 / low - 1.0 / high),
-    };
+    let share = quantity.of([
+        (1.0 / low - 1.0 / stiffness) / (1.0 / low - 1.0 / high),
+        (stiffness - low) / (high - low),
+    ]);
     1.0 / ((1.0 - share) / value(below) + share / value(above))
 }
 

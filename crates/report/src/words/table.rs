@@ -45,19 +45,12 @@ fn narrow_name(end: CableEnd) -> String {
 
 /// Force \[N\] or displacement \[m\] of an end after a pass.
 pub fn after_pass(record: &PassRecord, end: CableEnd, quantity: Limited) -> f64 {
-    match quantity {
-        Limited::Force => record.force_after(end),
-        Limited::Movement => record.displacement(end),
-    }
+    quantity.of([record.force_after(end), record.displacement(end)])
 }
 
 /// The least and the largest of them on a day.
 pub fn over_day(day: &DayExtremes, end: CableEnd, quantity: Limited) -> [f64; 2] {
-    let [force, movement] = day.of(end);
-    match quantity {
-        Limited::Force => force,
-        Limited::Movement => movement,
-    }
+    quantity.of(day.of(end))
 }
 
 impl Answer<'_> {

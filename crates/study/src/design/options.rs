@@ -1,7 +1,7 @@
 //! What is asked of a design, and what can be wrong with it.
 
 use super::trade_off::held;
-use creepage_run::{Error, Limited, Limits, Place, Progress};
+use creepage_run::{Error, Limits, Place, Progress};
 use creepage_scene::Scene;
 
 /// How to design.
@@ -39,10 +39,7 @@ impl DesignOptions<'_> {
         let clamps = held(scene, &self.places, 1.0)?.restraints;
         for (place, quantity, limit) in self.limits.all() {
             if !(limit > 0.0 && limit.is_finite()) {
-                let name = match quantity {
-                    Limited::Force => "limit of force",
-                    Limited::Movement => "limit of movement",
-                };
+                let name = quantity.of(["limit of force", "limit of movement"]);
                 return invalid(name, limit, "a finite number greater than 0");
             }
             if let Place::Clamp(position) = place

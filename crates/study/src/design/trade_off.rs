@@ -228,10 +228,7 @@ impl TradeOff {
             Place::Downstream => (self.downstream_force_n, self.downstream_movement_m),
             Place::Clamp(_) => clamp.map_or((0.0, 0.0), |clamp| (clamp.force_n, clamp.movement_m)),
         };
-        match quantity {
-            Limited::Force => force,
-            Limited::Movement => movement,
-        }
+        quantity.of([force, movement])
     }
 
     /// What of it is beside a limit, at most 1 within the limit.
