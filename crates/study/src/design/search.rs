@@ -39,7 +39,7 @@ const HALVINGS: usize = 14;
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
     options.check(scene)?;
     scene.validate().map_err(Error::from)?;
-    let ground = Arc::new(Ground::new(scene, None, road::reach(scene)).map_err(Error::from)?);
+    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
     let limits = &options.limits;
     let (runs, rough, chosen) = search(scene, &ground, options)?;
     let curve = runs.points();
