@@ -45,7 +45,7 @@ fn what_takes_many_runs_takes_little_longer_than_the_ground() {
         ("design", 1.5, &mut || {
             drop(design(&scene, &options).expect("a design"));
         }),
-        // A dozen ways to hold the cable, and the motion of the duct.
+        // The run, and the motion of the duct.
         ("report", 1.5, &mut || {
             drop(Report::new(&scene, &ReportOptions::default()).expect("a report"));
         }),

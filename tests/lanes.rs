@@ -110,11 +110,7 @@ fn the_report_tells_each_lane_from_the_duct() {
         "vehicles=[{ preset = \"t-25\", lateral_offset = 0.5 }, { preset = \"t-14\", lateral_offset = \"-3 m\", direction = \"reverse\" }]",
         "traffic.passes=2",
     ]);
-    let options = creepage::report::ReportOptions {
-        measures: Some(&[]),
-        ..Default::default()
-    };
-    let page = creepage::report::Report::new(&scene, &options)
+    let page = creepage::report::Report::new(&scene, &creepage::report::ReportOptions::default())
         .expect("a report")
         .to_html();
     for words in [

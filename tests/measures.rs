@@ -98,7 +98,9 @@ fn worst_of(
 
 fn worst_share(measure: &MeasureAnswer) -> f64 {
     let worst = measure.worst.as_ref().expect("a worst combination");
-    worst.verdicts[0].largest / worst.verdicts[0].limit
+    let first = &worst.outcome.verdicts[0];
+    assert_eq!((first.largest, first.limit), (worst.value, worst.limit));
+    worst.value / worst.limit
 }
 
 /// A cable as it is on a hill: no run of a finer grid is worse than what is said, and the run that is named is what it is said to be.
@@ -114,7 +116,10 @@ fn the_worst_is_that_of_a_finer_grid() {
     );
     assert!((found / brute - 1.0).abs() < 0.02, "{found} {brute}");
     let worst = measure.worst.as_ref().unwrap();
-    let at: Vec<f64> = keys(&comparison).iter().map(|key| worst.at[*key]).collect();
+    let at: Vec<f64> = keys(&comparison)
+        .iter()
+        .map(|key| worst.outcome.at[*key])
+        .collect();
     assert!(
         at[0] > 0.11 && at[0] < 0.49,
         "the worst friction lies within its interval: {at:?}"

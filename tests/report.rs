@@ -3,15 +3,14 @@
 use std::fs;
 
 use super::xml::{Element, parse};
-use creepage::design::{Place, Spring};
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::TrafficVehicle;
-use creepage::{Limits, PassRecord, Readings, Scene};
+use creepage::{Limits, PassRecord, Place, Readings, Scene};
 use serde_json::Value;
 
 use crate::command::{UPPER, answer, assert_says, command, folder, json, list, number as value, output};
 
-const FIGURES: [&str; 9] = [
+const FIGURES: [&str; 8] = [
     "Cross-section of the road",
     "Along the duct",
     "Force against passes",
@@ -20,10 +19,7 @@ const FIGURES: [&str; 9] = [
     "Motion of the duct along its axis; Motion of the duct down",
     "Velocity of the duct along its axis",
     "Friction on the cable, pass 1; Friction on the cable, pass 6",
-    "Force against movement",
 ];
-/// Head of the table of ways to hold the cable where the upstream end is free.
-const HELD_BY: &str = "held by | force downstream, N | moved downstream, mm | moved upstream, mm | largest on a clamp, N | error";
 const LAYERED: [&str; 2] = [
     "ground.rigid_base_depth=12 m",
     r#"ground.layers=[{thickness="50 mm", young_modulus="4000 MPa", poisson_ratio=0.35}, {young_modulus="800 MPa", poisson_ratio=0.4}]"#,
@@ -46,14 +42,6 @@ fn report(scene: &Scene, options: &ReportOptions<'_>) -> Report {
 /// The page for a scene of six passes.
 fn page(overrides: &[&str]) -> String {
     report(&scene(overrides), &ReportOptions::default()).to_html()
-}
-
-/// Without other ways to hold the cable, which take their time.
-fn as_it_is<'a>() -> ReportOptions<'a> {
-    ReportOptions {
-        measures: Some(&[]),
-        ..ReportOptions::default()
-    }
 }
 
 /// The elements of a page, which has to be well-formed.
@@ -241,7 +229,7 @@ fn figures_and_tables_are_over_time_where_the_vehicles_a_day_are_known() {
             "duct.length=8 m",
             "solver.tolerance=0.1",
         ];
-        let page = report(&upper(&set), &as_it_is()).to_html();
+        let page = report(&upper(&set), &ReportOptions::default()).to_html();
         let all = elements(&page);
         let labels = texts(&all, "text");
         let case = format!("{years} years, {per_day} a day");
@@ -264,7 +252,10 @@ fn the_page_begins_with_the_answer_and_a_verdict() {
     let mut limits = Limits::default();
     limits.downstream.force_n = Some(1e4);
     limits.upstream.movement_m = Some(1e-6);
-    let options = ReportOptions { limits, ..as_it_is() };
+    let options = ReportOptions {
+        limits,
+        ..ReportOptions::default()
+    };
     let page = report(&scene(&["traffic.per_day=2"]), &options).to_html();
     let words = [
         "After 6 passes (3 days) the force on the downstream end is ",
@@ -338,7 +329,7 @@ fn readings_are_drawn_and_compared() {
     let readings = cell(|record| 1e-3 * record.downstream_force_n, "");
     let options = ReportOptions {
         readings: Some(&readings),
-        ..as_it_is()
+        ..ReportOptions::default()
     };
     let report = report(&scene(&[]), &options);
     assert_says(&report.mistakes()[0], &["are they kN?"]);
@@ -355,10 +346,8 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
     scene.vehicles.push(other);
     let mut limits = Limits::default();
     limits.downstream.movement_m = Some(1.0);
-    let measures = [Spring::new(Place::Downstream, 1e6)];
     let options = ReportOptions {
         limits,
-        measures: Some(&measures),
         ..ReportOptions::default()
     };
     let report = report(&scene, &options);
@@ -369,9 +358,6 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
         assert_eq!(number(&row[0]), place);
         assert!((number(&row[2]) - largest(place)).abs() < 0.051, "{row:?}");
     }
-    let ways = table(&page, HELD_BY);
-    let most = largest(12.0).max(largest(27.0));
-    assert!((number(&ways[0][4]) - most).abs() < 0.051, "{ways:?}");
     let card = page.split("Largest force on a clamp").nth(1).expect("a card");
     assert_says(card, &["during a pass"]);
     assert_says(&page, &["(--limit-force clamp=FORCE)"]);
@@ -380,37 +366,6 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
     // Of four vehicles, one is the other.
     let back = rows.iter().filter(|row| row[4] == "back").count();
     assert!(rows.len() == 6 && (1..=2).contains(&back), "{rows:?}");
-}
-
-#[test]
-fn a_way_that_fails_is_told_and_the_others_stay() {
-    let measures = [
-        (Place::Downstream, f64::INFINITY),
-        (Place::Downstream, 1e6),
-        (Place::Clamp(99.0), 1e6),
-    ];
-    let measures = measures.map(|(place, stiffness)| Spring::new(place, stiffness));
-    let options = ReportOptions {
-        measures: Some(&measures),
-        ..ReportOptions::default()
-    };
-    let page = report(&scene(&[]), &options).to_html();
-    let rows = table(&page, HELD_BY);
-    let ways: Vec<&str> = rows.iter().map(|row| &*row[0]).collect();
-    assert_eq!(
-        ways,
-        [
-            "fixed end, as in the scene",
-            "spring of 1000 kN/m",
-            "clamp of 1000 kN/m at 99 m"
-        ]
-    );
-    assert!(number(&rows[0][1]) > number(&rows[1][1]) && number(&rows[1][1]) > 0.0);
-    assert_eq!(rows[2][1], "failed");
-    assert_says(
-        &page,
-        &["Failed: clamp of 1000 kN/m at 99 m: position of the clamp: found 99"],
-    );
 }
 
 /// No force at all; both ends free; a lane beside the duct; cables in trefoil; more passes than can be computed one by one.
@@ -475,7 +430,7 @@ fn a_life_in_parts_is_drawn_on_one_axis() {
     };
     let report = report(&scene(&["traffic.passes=30"]), &options);
     let page = report.to_html();
-    assert!(!page.contains("Ways to hold the cable"));
+    assert!(!page.contains("What to fit"));
     let all = elements(&page);
     let force = texts(figure(&all, "Force against passes"), "text");
     // The passes of this part alone would end at 30.
@@ -516,7 +471,7 @@ fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
     (other.direction, other.lateral_offset) = (ground_field::Direction::Reverse, -3.0);
     (scene.vehicles[0].share, other.share) = (0.75, 0.25);
     scene.vehicles.push(other);
-    let all = elements(&report(&scene, &as_it_is()).to_html());
+    let all = elements(&report(&scene, &ReportOptions::default()).to_html());
     let drawing = figure(&all, "Cross-section of the road");
     let words = texts(drawing, "text");
     assert!(words.contains(&"duct, 3 m deep"), "{words:?}");
@@ -548,7 +503,7 @@ fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
 fn the_side_view_has_clamps_at_their_places_and_ends_where_the_duct_does() {
     let clamps =
         r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="50 kN/m"}]"#;
-    let page = report(&scene(&[clamps, "duct.slope=-0.02"]), &as_it_is()).to_html();
+    let page = report(&scene(&[clamps, "duct.slope=-0.02"]), &ReportOptions::default()).to_html();
     let all = elements(&page);
     let drawing = figure(&all, "Along the duct");
     let (words, points) = (texts(drawing, "text"), texts(&all, "li"));
@@ -570,45 +525,9 @@ fn the_side_view_has_clamps_at_their_places_and_ends_where_the_duct_does() {
     for (clamp, place) in [("1", 12.0), ("2", 27.0)] {
         assert!((at(clamp) - at("0") - place * scale).abs() < 0.2, "clamp {clamp}");
     }
-    assert_says(
-        &page,
-        &["The duct falls by 2 % toward growing x, which is not drawn."],
-    );
+    assert_says(&page, &["it falls with x by 2 %, and "]);
     let along = texts(figure(&all, "Force along the cable"), "text");
     assert!(along.contains(&"30") && !along.contains(&"40"), "{along:?}");
-}
-
-#[test]
-fn one_scene_has_one_force() {
-    let mut limits = Limits::default();
-    (limits.downstream.force_n, limits.downstream.movement_m) = (Some(1.0), Some(1.0));
-    let options = ReportOptions {
-        limits,
-        ..ReportOptions::default()
-    };
-    let report = report(
-        &scene(&["ends.downstream.spring=1 MN/m", "traffic.passes=30"]),
-        &options,
-    );
-    let page = report.to_html();
-    let rows = table(&page, HELD_BY);
-    let own = rows
-        .iter()
-        .find(|row| row[0].ends_with("as in the scene"))
-        .expect("a row");
-    let largest = report.run().passes.iter().map(|pass| pass.downstream_peak_n);
-    assert_eq!(own[1], format!("{:.1}", largest.fold(0.0, f64::max)));
-    let moved = 1e3 * report.run().passes[29].upstream_displacement_m;
-    assert!(
-        (number(&own[3]) / moved - 1.0).abs() < 5e-4,
-        "{} for {moved}",
-        own[3]
-    );
-    assert_says(&page, &[&format!("<dd class=\"value\">{} N</dd>", own[1])]);
-    assert!(page.contains(&format!("up to {} N", own[1])) || page.contains(&format!("at most {} N", own[1])));
-    // The free end stands in the table and leaves the chart to the others.
-    assert_eq!((rows[0][0].as_str(), rows[0][1].as_str()), ("free end", "0"));
-    assert_says(&page, &[&format!("moves {} mm and is not drawn", rows[0][2])]);
 }
 
 /// \[N\] and \[m\].

@@ -8,7 +8,7 @@ use super::limits::{LimitArguments, place};
 use super::progress::watched;
 use super::shared::{Input, Json, TrafficArguments};
 use crate::Limits;
-use crate::design::{Design, DesignError, DesignOptions, Place, Spring, best, design};
+use crate::design::{Design, DesignError, DesignOptions, Place, best, design, held};
 use crate::scene::{did_you_mean, nearest};
 use crate::shown::exact;
 
@@ -18,9 +18,8 @@ use crate::shown::exact;
     after_help = "The answer is found by runs of the scene; force and movement are the largest of all passes and, where the cable is heated, of all \
 hours of all days. Without a name a limit is that of both ends, free ones too. A number without a unit is SI.
 
-One spring is as stiff as the force allows, or in the middle of its range where movement is limited too; a clamp is as soft as may be. Two \
-springs at once have the largest margin: the largest share of a limit is the smallest. Where only forces are limited, the ends move least. \
-Where nothing stays within the limits, what comes nearest is printed, with exit status 1.
+A spring is as stiff as the force allows, or in the middle of its range where movement is limited too; a clamp is as soft as may be. Two \
+springs at once have the same stiffness. Where nothing stays within the limits, what comes nearest is printed, with exit status 1.
 
 Examples:
   creepage design my-duct.toml --limit-force \"3 kN\"
@@ -90,18 +89,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let limits = |Places(places): &Places| -> Result<Limits, Failure> {
         // Held somehow: what is limited there counts.
-        let springs: Vec<Spring> = places.iter().map(|place| Spring::new(*place, 1.0)).collect();
-        let held = Spring::hold(&springs, &input.scene)?;
-        let limits = arguments.limits.limits_beside(&held, &everywhere)?;
-        if limits.all().next().is_some() {
-            return Ok(limits);
-        }
-        Err(Failure::Usage {
-            argument: "--limit-force",
-            found: "no limit".into(),
-            allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
-                .into(),
-        })
+        let held = input.located(held(&input.scene, places, 1.0))?;
+        arguments.limits.limits_beside(&held, &everywhere)
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     let units = units.for_springs();

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::failure::Failure;
 use super::terminal;
 use crate::answer::largest_movement_in_duct;
-use crate::design::{Binding, Design, Place, Side, Spring, TradeOff};
+use crate::design::{Binding, ClampPeak, Design, Place, Side, Spring, TradeOff};
 use crate::shown::{percent, words_if};
 use crate::{Limited, Scene, Units};
 
@@ -15,14 +15,14 @@ type Table = (Vec<String>, Vec<Vec<String>>);
 /// The best of all `designs`: with its runs where it is alone, or beside the others.
 pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
-    let (title, held) = (terminal::line(&best.title), places(&best.places));
+    let (title, held, passes) = (terminal::line(&best.title), places(&best.places), best.passes);
     let (what, (names, rows)) = if designs.len() > 1 {
         let ways = format!("{} ways to hold the cable", designs.len());
         (ways, beside(designs, units))
     } else {
         (held.clone(), curve(best, scene, units))
     };
-    writeln!(out, "{title}: {what}, {} passes", best.passes)?;
+    writeln!(out, "{title}: {what}, {passes} passes")?;
     let mut limits: Vec<String> = Vec::new();
     for (place, quantity, limit) in designs.iter().flat_map(|design| design.limits.all()) {
         let limit = format!("{} {}", quantity.at(place), quantity.given_in(units, limit));
@@ -36,7 +36,28 @@ pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) ->
     if designs.len() > 1 && best.answer.is_some() {
         writeln!(out, "best: {held}")?;
     }
-    conclusion(&mut out, best, units)
+    let lines = conclusion(best, units);
+    lines.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    Ok(writeln!(out, "{} runs of the scene", best.runs)?)
+}
+
+/// Words or texts with a word between them.
+fn joined(texts: impl Iterator<Item = String>, between: &str) -> String {
+    texts.collect::<Vec<_>>().join(between)
+}
+
+fn places(places: &[Place]) -> String {
+    let name = |place: &Place| match place {
+        Place::Clamp(_) => place.to_string(),
+        _ => format!("spring at the {place}"),
+    };
+    joined(places.iter().map(name), " and ")
+}
+
+/// Force and movement at a clamp.
+fn peak(clamp: &ClampPeak, units: &Units) -> [String; 2] {
+    let force = Limited::Force.shown_in(units, clamp.force_n);
+    [force, Limited::Movement.shown_in(units, clamp.movement_m)]
 }
 
 /// Several designs beside each other.
@@ -45,25 +66,18 @@ fn beside(all: &[Design], units: &Units) -> Table {
     let names = ["held by", "stiffness", "largest share of a limit", "of", "on the clamp", "within limits"];
     let row = |design: &Design| {
         let found = design.found()?;
-        let springs = found.springs.iter().map(|spring| stiffness(units, spring));
-        let mut on_clamps = Vec::new();
-        for clamp in &found.clamps {
+        let is_varied = |clamp: &&ClampPeak| {
             let mut places = design.places.iter();
-            if places.any(|place| place.is_clamp_at(clamp.position_m)) {
-                let force = Limited::Force.shown_in(units, clamp.force_n);
-                let movement = Limited::Movement.shown_in(units, clamp.movement_m);
-                on_clamps.push(format!("{force}, {movement}"));
-            }
-        }
-        if on_clamps.is_empty() {
-            on_clamps.push("–".to_owned());
-        }
+            places.any(|place| place.is_clamp_at(clamp.position_m))
+        };
+        let varied = found.clamps.iter().filter(is_varied);
+        let on_clamps = joined(varied.map(|clamp| peak(clamp, units).join(", ")), " and ");
         Some(vec![
             places(&design.places),
-            springs.collect::<Vec<_>>().join(" and "),
+            stiffness(units, &found.springs[0]),
             percent(design.excess()),
             named(&found.tightest(&design.limits)),
-            on_clamps.join(" and "),
+            words_if(on_clamps.is_empty(), "–").to_owned() + &on_clamps,
             within(found) + words_if(is_near(design), ", nearer than the error"),
         ])
     };
@@ -71,26 +85,8 @@ fn beside(all: &[Design], units: &Units) -> Table {
     (names.map(str::to_owned).into(), rows)
 }
 
-fn places(places: &[Place]) -> String {
-    let name = |place: &Place| match place {
-        Place::Clamp(_) => place.to_string(),
-        _ => format!("spring at the {place}"),
-    };
-    places.iter().map(name).collect::<Vec<_>>().join(" and ")
-}
-
-/// Every run with the scene's own tolerance.
+/// Every run with the scene's own tolerance: at both ends, where springs are, and at limited clamps.
 fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
-    let short = |place: Place| match (place, place.end()) {
-        (Place::Clamp(position), _) => format!("at {position} m"),
-        (_, end) => end.map_or_else(String::new, |end| end.name().to_owned()),
-    };
-    let symbol = units.stiffness.symbol();
-    let spring = |place: &Place| match design.places.len() {
-        1 => format!("stiffness, {symbol}"),
-        _ => format!("{}, {symbol}", short(*place)),
-    };
-    let mut names: Vec<String> = design.places.iter().map(spring).collect();
     let limited = design.limits.clamps.iter();
     let limited = limited.map(|clamp| Place::Clamp(clamp.position_m));
     let mut places = vec![Place::Upstream, Place::Downstream];
@@ -99,28 +95,30 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
             places.push(place);
         }
     }
-    let quantities = [Limited::Force, Limited::Movement];
-    let columns = quantities.map(|quantity| places.iter().map(move |place| (*place, quantity)));
-    let columns: Vec<(Place, Limited)> = columns.into_iter().flatten().collect();
-    let name =
-        |(place, quantity): &(Place, Limited)| format!("{}, {}", short(*place), quantity.symbol_in(units));
-    names.extend(columns.iter().map(name));
-    names.push("within limits".to_owned());
+    let quantities = [Limited::Force, Limited::Movement].into_iter();
+    let columns = quantities.flat_map(|quantity| places.iter().map(move |place| (*place, quantity)));
+    let columns: Vec<(Place, Limited)> = columns.collect();
+    let name = |(place, quantity): &(Place, Limited)| {
+        let at = match (place, place.end()) {
+            (Place::Clamp(position), _) => format!("at {position} m"),
+            (_, end) => end.map_or("", |end| end.name()).to_owned(),
+        };
+        format!("{at}, {}", quantity.symbol_in(units))
+    };
+    let mut names = vec![format!("stiffness, {}", units.stiffness.symbol())];
+    names.extend(columns.iter().map(name).chain(["within limits".to_owned()]));
     let most = largest_movement_in_duct(scene);
     let row = |point: &TradeOff| {
         let cell = |&(place, quantity): &(Place, Limited)| {
             let mut clamps = point.clamps.iter();
             let is_there = place.end().is_some() || clamps.any(|clamp| place.is_clamp_at(clamp.position_m));
-            match point.value(place, quantity) {
-                _ if !is_there => "–".to_owned(),
-                value if quantity == Limited::Movement && value > most => {
-                    format!("> {}", quantity.number_in(units, most))
-                }
-                value => quantity.number_in(units, value),
-            }
+            let value = point.value(place, quantity);
+            let is_out = quantity == Limited::Movement && value > most;
+            let shown = quantity.number_in(units, if is_out { most } else { value });
+            words_if(!is_there, "–").to_owned() + words_if(is_out, "> ") + words_if(is_there, &shown)
         };
-        let springs = point.springs.iter().map(|spring| number(units, spring));
-        let cells = springs.chain(columns.iter().map(cell));
+        let first = number(units, &point.springs[0]);
+        let cells = [first].into_iter().chain(columns.iter().map(cell));
         cells.chain([within(point)]).collect()
     };
     (names, design.curve.iter().map(row).collect())
@@ -128,62 +126,53 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
 
 fn within(point: &TradeOff) -> String {
     let within = if point.within_limits { "yes" } else { "no" };
-    let leaves = words_if(point.leaves_duct, ", leaves the duct");
-    format!("{within}{leaves}")
+    within.to_owned() + words_if(point.leaves_duct, ", leaves the duct")
 }
 
 /// The answer or what comes nearest, and which limits decide.
-fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<(), Failure> {
+fn conclusion(design: &Design, units: &Units) -> Vec<String> {
+    let mut lines = Vec::new();
     if let Some(nearest) = &design.nearest {
         let nearest = reached(design, nearest, units);
-        writeln!(out, "{}; nearest: {nearest}", none(design))?;
+        lines.push(format!("{}; nearest: {nearest}", none(design)));
     }
     if let Some(answer) = &design.answer {
         let only = format!("only in these {} passes:", design.passes);
-        writeln!(out, "answer: {}", reached(design, answer, units))?;
-        deciding(out, design, answer, units)?;
+        lines.push(format!("answer: {}", reached(design, answer, units)));
+        lines.extend(deciding(design, units));
         if is_near(design) {
             let error = percent(answer.error_estimate);
             let near = format!("nearer to a limit than the estimated error of {error}");
-            writeln!(out, "{near}: repeat the search with limits smaller by that")?;
+            lines.push(format!("{near}: repeat the search with limits smaller by that"));
         }
         if answer.still_growing {
-            writeln!(out, "{only} the forces still grow after them")?;
+            lines.push(format!("{only} the forces still grow after them"));
         }
         for later in &answer.exceeded_later {
             let (quantity, what) = (later.quantity, later.quantity.at(later.end));
             let value = quantity.shown_in(units, later.value);
             let limit = quantity.given_in(units, later.limit);
             let level = format!("levels off at {value}, above its limit of {limit}");
-            writeln!(out, "{only} with more the {what} {level}")?;
+            lines.push(format!("{only} with more the {what} {level}"));
         }
     }
-    clamps(out, design, units)?;
-    writeln!(out, "{} runs of the scene", design.runs)?;
-    Ok(())
-}
-
-/// What each clamp comes to, whether it is limited or not.
-fn clamps(out: &mut impl Write, design: &Design, units: &Units) -> Result<(), Failure> {
+    // What each clamp comes to, whether it is limited or not.
     let clamps = design.found().map_or(&[][..], |found| &found.clamps);
-    for clamp in clamps {
-        let place = Place::Clamp(clamp.position_m);
-        let force = Limited::Force.shown_in(units, clamp.force_n);
-        let movement = Limited::Movement.shown_in(units, clamp.movement_m);
-        write!(out, "{place}: force at most {force}, movement at most {movement}")?;
-        if let Some(slipped) = clamp.slipped_m.filter(|slipped| *slipped != 0.0) {
-            let slipped = Limited::Movement.shown_in(units, slipped);
-            write!(out, ", and it has slipped by {slipped}")?;
-        }
-        writeln!(out)?;
-    }
+    lines.extend(clamps.iter().map(|clamp| {
+        let (place, [force, movement]) = (Place::Clamp(clamp.position_m), peak(clamp, units));
+        let slipped = clamp.slipped_m.filter(|slipped| *slipped != 0.0);
+        let slipped = slipped.map(|slipped| Limited::Movement.shown_in(units, slipped));
+        let slipped = slipped.map_or_else(String::new, |slipped| {
+            format!(", and it has slipped by {slipped}")
+        });
+        format!("{place}: force at most {force}, movement at most {movement}{slipped}")
+    }));
     if !clamps.is_empty() && design.limits.clamps.is_empty() {
-        writeln!(
-            out,
-            "clamps are not limited; --limit-force clamp=FORCE limits their force, --limit-movement clamp=LENGTH their movement"
-        )?;
+        let how =
+            "--limit-force clamp=FORCE limits their force, --limit-movement clamp=LENGTH their movement";
+        lines.push(format!("clamps are not limited; {how}"));
     }
-    Ok(())
+    lines
 }
 
 /// Whether the answer's error decides.
@@ -194,78 +183,83 @@ fn is_near(design: &Design) -> bool {
 
 /// That nothing is within the limits, and what to try.
 pub fn why_none(design: &Design) -> String {
-    let far = design.out_of_reach.first().map_or_else(String::new, |limit| {
-        let [least, limit_of] =
-            [limit.value, limit.limit].map(|value| limit.quantity.shown_in(&Units::default(), value));
-        format!(
-            ", as the {} is {least} at least, limit {limit_of}",
-            limit.quantity.at(limit.end)
-        )
+    let far = design.out_of_reach.first().map(|limit| {
+        let shown = |value| limit.quantity.shown_in(&Units::default(), value);
+        let (least, most) = (shown(limit.value), shown(limit.limit));
+        let what = limit.quantity.at(limit.end);
+        format!(", as the {what} is {least} at least, limit {most}")
     });
     format!(
-        "{}{far}: the nearest is on standard output, with what it exceeds; try springs at both ends (--at upstream+downstream), a clamp \
+        "{}{}: the nearest is on standard output, with what it exceeds; try springs at both ends (--at upstream+downstream), a clamp \
          (--at \"20 m\"), a larger limit, or less load on the duct; `creepage measures` compares them",
-        none(design)
+        none(design),
+        far.unwrap_or_default()
     )
 }
 
 /// That nothing is within the limits, as surely as it is known.
 fn none(design: &Design) -> String {
-    match design.doubt() {
-        None => "no stiffness stays within the limits".to_owned(),
-        Some(error) => format!(
-            "none found within the limits, but the nearest exceeds them by less than the error of the search, {}",
-            percent(error)
-        ),
-    }
+    let none =
+        "none found within the limits, but the nearest exceeds them by less than the error of the search";
+    design.doubt().map_or_else(
+        || "no stiffness stays within the limits".to_owned(),
+        |error| format!("{none}, {}", percent(error)),
+    )
 }
 
 fn named<'a>(limits: impl IntoIterator<Item = &'a Binding>) -> String {
     let names = limits.into_iter().map(|limit| limit.quantity.at(limit.end));
-    names.collect::<Vec<_>>().join(", ")
+    joined(names, ", ")
 }
 
 /// Where the range of stiffness ends and why, or which limits decide.
-fn deciding(out: &mut impl Write, design: &Design, answer: &TradeOff, units: &Units) -> Result<(), Failure> {
-    if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
-        let with = |k| stiffness(units, &Spring::new(spring.place, k));
+fn deciding(design: &Design, units: &Units) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Some((from, to)) = design.range_n_per_m {
+        let with = |k| {
+            let stiffness_n_per_m = Some(k);
+            let place = design.place;
+            stiffness(
+                units,
+                &Spring {
+                    place,
+                    stiffness_n_per_m,
+                },
+            )
+        };
         let from = with(from);
         match to.map(with) {
-            None => writeln!(out, "within the limits: {from} and everything stiffer")?,
-            Some(to) if to != from => writeln!(out, "within the limits: {from} to {to}")?,
+            None => lines.push(format!("within the limits: {from} and everything stiffer")),
+            Some(to) if to != from => lines.push(format!("within the limits: {from} to {to}")),
             Some(_) => {}
         }
     }
-    let by = |side| named(design.binding.iter().filter(|limit| limit.exceeded_by == side));
-    for (side, name) in [(Side::Softer, "softer"), (Side::Stiffer, "stiffer")] {
-        let exceeded = by(Some(side));
-        if !exceeded.is_empty() {
-            writeln!(out, "a {name} one exceeds: {exceeded}")?;
+    let share = format!(", at {} of it", percent(design.excess()));
+    let of = |side| named(design.binding.iter().filter(|limit| limit.exceeded_by == side));
+    for (limits, words, more) in [
+        (of(Some(Side::Softer)), "a softer one exceeds", ""),
+        (of(Some(Side::Stiffer)), "a stiffer one exceeds", ""),
+        (of(None), "governing limit", &*share),
+    ] {
+        if !limits.is_empty() {
+            lines.push(format!("{words}: {limits}{more}"));
         }
     }
-    let tightest = by(None);
-    if !tightest.is_empty() {
-        let share = percent(design.excess());
-        writeln!(out, "governing limit: {tightest}, at {share} of it")?;
-    }
-    Ok(())
+    lines
 }
 
 /// A stiffness without its unit, to four digits, or in a word.
 fn number(units: &Units, spring: &Spring) -> String {
-    match (spring.stiffness_n_per_m, spring.place) {
-        (None, _) => "fixed".to_owned(),
-        (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
-        (Some(0.0), _) => "free".to_owned(),
-        (Some(value), _) => {
-            let value = units.stiffness.of_si(value);
-            let whole = value.log10().floor();
-            if (-3.0..5.0).contains(&whole) {
-                format!("{value:.*}", (3.0 - whole).max(0.0) as usize)
-            } else {
-                format!("{value:.3e}")
-            }
-        }
+    let Some(stiffness) = spring.stiffness_n_per_m else {
+        return "fixed".to_owned();
+    };
+    let value = units.stiffness.of_si(stiffness);
+    let whole = value.log10().floor();
+    match spring.place {
+        Place::Clamp(_) if value == 0.0 => "no clamp".to_owned(),
+        _ if value == 0.0 => "free".to_owned(),
+        _ if (-3.0..5.0).contains(&whole) => format!("{value:.*}", (3.0 - whole).max(0.0) as usize),
+        _ => format!("{value:.3e}"),
     }
 }
 
@@ -278,21 +272,20 @@ fn stiffness(units: &Units, spring: &Spring) -> String {
 
 /// Springs, and what they make of the limits.
 fn reached(design: &Design, point: &TradeOff, units: &Units) -> String {
-    let several = point.springs.len() > 1;
     let spring = |spring: &Spring| {
-        let at = match spring.place {
-            Place::Clamp(position) => format!(" at {position} m"),
-            place => format!(" at the {place}"),
-        };
         let kind = match (spring.stiffness_n_per_m, spring.place) {
             (None | Some(0.0), _) => "",
             (_, Place::Clamp(_)) => "a clamp of ",
             _ => "a spring of ",
         };
-        format!("{kind}{}{}", stiffness(units, spring), words_if(several, &at))
+        let at = match spring.place {
+            Place::Clamp(position) => format!(" at {position} m"),
+            place => format!(" at the {place}"),
+        };
+        let at = words_if(point.springs.len() > 1, &at);
+        format!("{kind}{}{at}", stiffness(units, spring))
     };
-    let springs: Vec<String> = point.springs.iter().map(spring).collect();
-    let mut words = vec![springs.join(" and ")];
+    let mut words = vec![joined(point.springs.iter().map(spring), " and ")];
     for (place, quantity, limit) in design.limits.all() {
         let value = point.value(place, quantity);
         let (times, allowed) = (value / limit, quantity.given_in(units, limit));

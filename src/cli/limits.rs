@@ -183,17 +183,28 @@ impl LimitArguments {
 
     /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.
     pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
-        let clamps: Vec<Place> = scene
-            .restraints
-            .iter()
-            .map(|clamp| Place::Clamp(clamp.position))
-            .collect();
-        let others = elsewhere.iter().filter(|place| place.end().is_none());
-        let there: Vec<Place> = clamps.iter().chain(others).copied().collect();
+        let clamps = scene.restraints.iter();
+        let clamps: Vec<Place> = clamps.map(|clamp| Place::Clamp(clamp.position)).collect();
+        let there = || clamps.iter().chain(elsewhere).copied();
         for (argument, given, _) in self.options() {
-            for limit in given {
-                limit.of.check(argument, &clamps, &there)?;
-            }
+            let found = given.iter().find_map(|limit| match limit.of {
+                Named::One(Place::Clamp(position)) if !there().any(|place| limit.of.is(place)) => {
+                    Some(format!("a clamp at {} m", exact(position)))
+                }
+                Named::Clamps if there().all(|place| place.end().is_some()) => Some("clamp".to_owned()),
+                _ => None,
+            });
+            let Some(found) = found else { continue };
+            let all: Vec<String> = clamps.iter().map(Place::to_string).collect();
+            let allowed = match all.join(", ") {
+                none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
+                all => format!("upstream, downstream, or the position of a clamp: {all}"),
+            };
+            return Err(Failure::Usage {
+                argument,
+                found: format!("{found}, where there is none"),
+                allowed,
+            });
         }
         Ok(self.wherever_they_are(scene))
     }
@@ -202,30 +213,27 @@ impl LimitArguments {
     pub fn wherever_they_are(&self, scene: &Scene) -> Limits {
         let mut limits = Limits::default();
         for end in CableEnd::ALL {
-            *limits.of_mut(end) = self.at(end.into());
+            *limits.of_mut(end) = self.at(end.into(), Named::Ends);
         }
-        for clamp in scene.restraints.iter().map(|clamp| clamp.position) {
-            let own = self.at(Place::Clamp(clamp));
+        for position_m in scene.restraints.iter().map(|clamp| clamp.position) {
+            let place = Place::Clamp(position_m);
+            let own = self.at(place, Named::Clamps);
             let mut known = limits.clamps.iter();
-            let is_known = known.any(|known| Place::Clamp(known.position_m).is_clamp_at(clamp));
+            let is_known = known.any(|known| place.is_clamp_at(known.position_m));
             if own != EndLimits::default() && !is_known {
-                limits.clamps.push(ClampLimits {
-                    position_m: clamp,
+                let limits_of_clamp = ClampLimits {
+                    position_m,
                     limits: own,
-                });
+                };
+                limits.clamps.push(limits_of_clamp);
             }
         }
         limits
     }
 
-    /// The limits at one place.
-    fn at(&self, place: Place) -> EndLimits {
+    /// The limits at one place, which is among `all` of its kind.
+    fn at(&self, place: Place, all: Named) -> EndLimits {
         let of = |given: &[Limit]| {
-            let all = if place.end().is_some() {
-                Named::Ends
-            } else {
-                Named::Clamps
-            };
             let own = given.iter().rfind(|limit| limit.of.is(place));
             let limit = own.or_else(|| given.iter().rfind(|limit| limit.of == all));
             limit.map(|limit| limit.value)
@@ -244,27 +252,5 @@ impl Named {
             Self::One(Place::Clamp(position)) => place.is_clamp_at(position),
             named => named == Self::One(place),
         }
-    }
-
-    /// Refuses a clamp that is not `there`; the scene has `clamps`.
-    fn check(self, argument: &'static str, clamps: &[Place], there: &[Place]) -> Result<(), Failure> {
-        let found = match self {
-            Self::One(Place::Clamp(position)) if !there.iter().any(|place| self.is(*place)) => {
-                format!("a clamp at {} m", exact(position))
-            }
-            Self::Clamps if there.is_empty() => "clamp".to_owned(),
-            _ => return Ok(()),
-        };
-        let all: Vec<String> = clamps.iter().map(Place::to_string).collect();
-        let allowed = match all.join(", ") {
-            none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
-            all => format!("upstream, downstream, or the position of a clamp: {all}"),
-        };
-        let found = format!("{found}, where there is none");
-        Err(Failure::Usage {
-            argument,
-            found,
-            allowed,
-        })
     }
 }

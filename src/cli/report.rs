@@ -24,7 +24,7 @@ const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The page holds scene, numbers, figures and ways to hold the cable; it needs no network and nothing beside it. It names the files it was made from with their SHA-256, and the date: that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it. It is in the units that were typed in limits and scene, where they suit.
+    after_help = "The page holds scene, numbers, figures and, given limits, the measures that keep them; it needs no network and nothing beside it. It names the files it was made from with their SHA-256, and the date: that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it. It is in the units that were typed in limits and scene, where they suit.
 
 Examples:
   creepage report my-duct.toml -o my-duct.html
@@ -86,7 +86,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let is_asked = input.scene.heat.is_none() || !input.scene.uncertain.is_empty();
     let study = arguments.limits.are_given() && start.is_none() && is_asked;
     let study = study.then(|| Study::new(input.file())).transpose()?;
-    let words = |_| "the scene's run, and ways to hold the cable".to_owned();
+    let words = |_| "the scene's run, and measures where limits are given".to_owned();
     let report = watched(1.0, words, |progress| {
         let (of_measures, mut of_page) = (progress.part(0.0, MEASURES_SHARE), progress);
         let mut compared = None;

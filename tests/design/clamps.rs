@@ -3,7 +3,7 @@
 use creepage::design::{Design, best};
 use creepage::{Limited, Place};
 
-use super::grid::{WARM, check, designed, held, reached, scene};
+use super::grid::{WARM, check_none, designed, held, reached, scene};
 
 #[test]
 fn a_clamp_has_limits_of_its_own() {
@@ -16,12 +16,7 @@ fn a_clamp_has_limits_of_its_own() {
     let force = soft.value(clamp, Limited::Force);
     assert_eq!(soft.clamps[0].force_n, force);
     // With less than that on it there is none; with more there is a range, whose ends are the two limits.
-    check(
-        &scene,
-        &[clamp],
-        &[end, (clamp, Limited::Force, 0.6 * force)],
-        false,
-    );
+    check_none(&scene, &[clamp], &[end, (clamp, Limited::Force, 0.6 * force)]);
     let both = designed(&scene, &[clamp], &[end, (clamp, Limited::Force, 1.2 * force)]);
     let (from, to) = both.range_n_per_m.expect("a range");
     let to = to.expect("an upper end");

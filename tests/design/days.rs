@@ -1,9 +1,8 @@
 //! Heat and slopes count, and a cable that leaves its duct is told.
 
-use creepage::design::{Spring, compare};
-use creepage::{Limited, Place, Progress, Scene};
+use creepage::{Limited, Place, Scene};
 
-use super::grid::{WARM, check, designed, excess, held, reached, scene};
+use super::grid::{WARM, check_none, designed, excess, held, reached, scene};
 
 #[test]
 fn heat_counts_with_its_hottest_force_and_its_coldest_movement() {
@@ -26,7 +25,7 @@ fn heat_counts_with_its_hottest_force_and_its_coldest_movement() {
     // The test takes it from the force on the spring, the design from the end itself: the same but for rounding.
     assert!((with.downstream_movement_m / moved - 1.0).abs() < 1e-12);
     let both = [limit[0], (places[0], Limited::Movement, 0.6 * moved)];
-    check(&warm, &places, &both, false);
+    check_none(&warm, &places, &both);
 }
 
 #[test]
@@ -56,11 +55,14 @@ fn a_slope_counts() {
 
 #[test]
 fn a_cable_that_leaves_the_duct_is_called_so() {
-    // Steeper than friction holds, with the upper end free: the lower end carries what friction does not, and moves by force over stiffness.
-    let scene = scene(&["duct.slope=-30 deg"]);
-    let ways = [1e3, 1e6].map(|stiffness| Spring::new(Place::Downstream, stiffness));
-    let ways = compare(&scene, &ways, Progress::default()).expect("runs");
-    let [soft, stiff] = [0, 1].map(|way| ways[way].as_ref().expect("an answer"));
-    assert!(soft.downstream_movement_m > 0.01 * scene.duct.length && soft.leaves_duct);
-    assert!(stiff.movement_m < 0.01 * scene.duct.length && !stiff.leaves_duct);
+    // Steeper than friction holds, with the upper end free: what holds it carries what friction does not, and moves by force over stiffness.
+    let scene = scene(&["duct.slope=-30 deg", "ends.downstream.spring=1 kN/m"]);
+    let all = [(Place::Downstream, Limited::Force, 1e9)];
+    let design = designed(&scene, &[Place::Clamp(13.0)], &all);
+    for point in &design.curve {
+        assert_eq!(point.leaves_duct, point.movement_m > 0.01 * scene.duct.length);
+        assert_eq!(point.within_limits, !point.leaves_duct);
+    }
+    let (soft, stiff) = (&design.curve[0], &design.curve[design.curve.len() - 1]);
+    assert!(soft.leaves_duct && !stiff.leaves_duct);
 }

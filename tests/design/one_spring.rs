@@ -1,9 +1,9 @@
-//! One spring or clamp, and ways to hold the cable beside each other.
+//! One spring or clamp.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use creepage::design::{Design, DesignError, DesignOptions, Limits, Place, Spring, compare, design};
+use creepage::design::{Design, DesignError, DesignOptions, Limits, Place, design};
 use creepage::scene::End;
 use creepage::{Error, Limited, Progress, Run, Scene};
 
@@ -193,39 +193,6 @@ fn years_of_traffic_are_passes_of_the_law() {
 }
 
 #[test]
-fn ways_are_compared_by_runs_of_their_own() {
-    let scene = scene();
-    let ways = compare(
-        &scene,
-        &[
-            Spring::new(Place::Downstream, 0.0),
-            Spring::new(Place::Downstream, 1e6),
-            Spring::new(Place::Downstream, f64::INFINITY),
-            Spring::new(Place::Clamp(7.5), 1e6),
-            Spring::new(Place::Clamp(7.5), f64::INFINITY),
-            Spring::new(Place::Upstream, f64::NAN),
-        ],
-        Progress::default(),
-    )
-    .unwrap();
-    let spring = ways[1].as_ref().unwrap();
-    let run = held(&scene, 1e6);
-    assert_eq!(
-        (spring.force_n, spring.movement_m),
-        (largest_force(&run), largest_movement(&run))
-    );
-    assert_eq!(ways[0].as_ref().unwrap().force_n, 0.0);
-    let fixed = ways[2].as_ref().unwrap();
-    assert_eq!(fixed.force_n, largest_force(&creepage::run(&scene).unwrap()));
-    // The scene's end is fixed: the clamp takes some of what presses on it.
-    let clamped = ways[3].as_ref().unwrap();
-    assert!(clamped.force_n < fixed.force_n && clamped.clamp_force_n.unwrap() > 0.0);
-    for way in &ways[4..] {
-        assert!(matches!(way, Err(DesignError::Invalid { .. })), "{way:?}");
-    }
-}
-
-#[test]
 fn the_progress_grows_and_may_stop_the_search() {
     let mut options = DesignOptions::new(Place::Downstream, Limits::both(Some(150.0), None));
     let calls = AtomicUsize::new(0);
@@ -241,10 +208,6 @@ fn the_progress_grows_and_may_stop_the_search() {
     let error = design(&scene(), &options).expect_err("stopped");
     assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
     assert!(!error.is_bad_input());
-    let stop_at_once = |_| ControlFlow::Break(());
-    let springs = [Spring::new(Place::Downstream, 1e6)];
-    let error = compare(&scene(), &springs, Progress::new(&stop_at_once)).expect_err("stopped");
-    assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
 }
 
 #[test]

@@ -29,22 +29,21 @@ pub fn cause(html: &mut Html, report: &Report) {
     );
     figure(html, ALONE, [velocity(report)], &caption);
     let passes = friction_of_passes(report);
-    if !passes.is_empty() {
+    let charts = passes
+        .iter()
+        .map(|(pass, friction)| friction_chart(report, *pass, friction));
+    let words = passes
+        .iter()
+        .map(|(pass, friction)| areas(report, *pass, friction));
+    if let Some(words) = words.reduce(|one, other| format!("{one} {other}")) {
         let which = words_if(
             passes.len() > 1,
             ", in the first pass and the last one above that was simulated",
         );
-        let words = passes
-            .iter()
-            .map(|(pass, friction)| areas(report, *pass, friction));
         let caption = format!(
-            "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x{which}. {}",
-            words.collect::<Vec<_>>().join(" ")
+            "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x{which}. {words}"
         );
         let height = if passes.len() > 1 { STACKED } else { ALONE };
-        let charts = passes
-            .iter()
-            .map(|(pass, friction)| friction_chart(report, *pass, friction));
         figure(html, height, charts, &caption);
     }
     html.raw("</div>");
@@ -147,13 +146,8 @@ fn friction_chart(report: &Report, pass: u64, friction: &FrictionProfile) -> Cha
     let limit = weight.of_si(report.scene.friction_limit());
     let half = reach(&report.scene, length);
     let from_vehicle = |x: &f64| length.of_si(x - friction.vehicle_position_m);
-    let places = friction.positions_m.iter().map(from_vehicle);
-    let points = places.zip(
-        friction
-            .friction_n_per_m
-            .iter()
-            .map(|friction| weight.of_si(*friction)),
-    );
+    let values = friction.friction_n_per_m.iter().map(|value| weight.of_si(*value));
+    let points = friction.positions_m.iter().map(from_vehicle).zip(values);
     Chart::new(
         format!("Friction on the cable, pass {}", count(pass)),
         either_side(report, "place from the vehicle"),

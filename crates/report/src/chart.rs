@@ -69,10 +69,7 @@ pub fn lines<Points: IntoIterator<Item = (f64, f64)>>(
 
 /// The axis of force or movement.
 pub fn axis(report: &Report, quantity: Limited) -> Axis {
-    let name = match quantity {
-        Limited::Force => "force",
-        Limited::Movement => "movement",
-    };
+    let name = quantity.of(["force", "movement"]);
     Axis::linear(report.reader.head(name, quantity))
 }
 

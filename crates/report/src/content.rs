@@ -1,7 +1,6 @@
 //! What a report contains: everything that is computed for it.
 
 use super::agreement::Agreement;
-use super::measures::Comparison;
 use super::source::Source;
 use crate::words::{Answer, Reader, SceneWords, round_below};
 use creepage_fit::{held_end, readings::Readings};
@@ -10,25 +9,21 @@ use creepage_run::{
     profile::profile_over,
 };
 use creepage_scene::{Scene, Unit};
-use creepage_study::design::Spring;
+use creepage_study::measures::Comparison;
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
 const POSITIONS: i32 = 301;
 const REACH_DEPTHS: f64 = 10.0;
 /// Passes after which the cable is shown, at most.
 const STAGES: u32 = 4;
-/// Share of the work that the scene's own run is taken to be; the rest are ways to hold the cable.
-const RUN_SHARE: f64 = 0.3;
 
 /// What a report contains besides the scene's answer.
 #[derive(Default)]
 pub struct ReportOptions<'a> {
     /// Readings of the load cell, drawn over the computed force.
     pub readings: Option<&'a Readings>,
-    /// Ways to hold the cable; without any, fixed end, springs and clamps that suit the scene.
-    pub measures: Option<&'a [Spring]>,
-    /// Measures in every combination of what is not known; then they take the place of the ways to hold the cable.
-    pub compared: Option<&'a creepage_study::measures::Comparison>,
+    /// Measures in every combination of what is not known.
+    pub compared: Option<&'a Comparison>,
     /// Limits that are judged at the top of the page.
     pub limits: Limits,
     /// Units in which the page is.
@@ -43,7 +38,7 @@ pub struct ReportOptions<'a> {
     pub date: Option<&'a str>,
     /// Warnings in addition to those of the run.
     pub warnings: &'a [String],
-    /// Called after each pass of the scene's run, then after each way to hold the cable; it may stop the report.
+    /// Called after each pass of the scene's run; it may stop the report.
     pub progress: Progress<'a>,
 }
 
@@ -56,9 +51,7 @@ pub struct Report {
     pub(super) plan: PlanReport,
     pub(super) motion: Profile,
     pub(super) agreement: Option<Agreement>,
-    pub(super) compared: Option<creepage_study::measures::Comparison>,
-    /// None if the run begins from a state, or measures are compared.
-    pub(super) measures: Option<Comparison>,
+    pub(super) compared: Option<Comparison>,
     /// What the runs before have left.
     pub(super) history: Vec<PastPass>,
     pub(super) verdicts: Vec<Verdict>,
@@ -75,8 +68,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// [`Error`] when the scene's own run fails or gives a number that is not finite, and when readings are given and no end of the cable is
-    /// held. Ways to hold the cable that fail are stated on the page.
+    /// [`Error`] when the run fails, and when readings are given and no end of the cable is held.
     pub fn new(scene: &Scene, options: &ReportOptions<'_>) -> Result<Self, Error> {
         scene.validate()?;
         if options.readings.is_some() {
@@ -87,34 +79,22 @@ impl Report {
         let stages = stages(scene.traffic.passes);
         let options_of_run = RunOptions {
             start: options.start,
-            progress: options.progress.part(0.0, RUN_SHARE),
+            progress: options.progress,
             stages: &stages,
             ..RunOptions::default()
         };
         let run = creepage_run::run_plan(&plan, &options_of_run)?;
-        let agreement = options
-            .readings
-            .map(|readings| Agreement::new(scene, &run, readings));
+        let agreement = options.readings;
+        let agreement = agreement.map(|readings| Agreement::new(scene, &run, readings));
         let agreement = agreement.transpose()?;
         let mistakes = agreement
             .as_ref()
             .map_or(&[][..], |agreement| &agreement.mistakes);
-        let ways = options.progress.part(RUN_SHARE, 1.0);
         Ok(Self {
             reader: Reader::new(options.units, scene),
             plan: plan.report(),
             motion: profile_over(scene, &plan.ground, &positions(scene, options.units.length))?,
             compared: options.compared.cloned(),
-            measures: match options.start {
-                None if options.compared.is_none() => Some(Comparison::new(
-                    scene,
-                    &plan.ground,
-                    &run,
-                    options.measures,
-                    ways,
-                )?),
-                _ => None,
-            },
             history: options.start.map_or(Vec::new(), |start| start.history().to_vec()),
             verdicts: options.limits.verdicts(&run),
             sources: match options.sources {
@@ -133,30 +113,25 @@ impl Report {
 
     /// The run in words.
     pub(super) fn answer(&self) -> Answer<'_> {
-        let Self {
-            scene, run, reader, ..
-        } = self;
         Answer {
-            scene,
-            run,
-            reader: *reader,
+            scene: &self.scene,
+            run: &self.run,
+            reader: self.reader,
         }
     }
 
     /// The scene in words.
     pub(super) fn scene_words(&self) -> SceneWords<'_> {
-        let Self { scene, reader, .. } = self;
         SceneWords {
-            scene,
-            reader: *reader,
+            scene: &self.scene,
+            reader: self.reader,
         }
     }
 
     /// What looks mistaken in the readings.
     pub fn mistakes(&self) -> &[String] {
-        self.agreement
-            .as_ref()
-            .map_or(&[], |agreement| &agreement.mistakes)
+        let agreement = self.agreement.as_ref();
+        agreement.map_or(&[], |agreement| &agreement.mistakes)
     }
 
     /// What the scene's answer makes of the limits.

@@ -33,12 +33,8 @@ pub fn force(html: &mut Html, report: &Report) {
         (format!("{pass}{}", count(stage.pass)), &stage.force_profile)
     });
     if !report.run.stages.is_empty() {
-        figure(
-            html,
-            ALONE,
-            [along_cable(report, "Force along the cable", stages)],
-            caption,
-        );
+        let along = along_cable(report, "Force along the cable", stages);
+        figure(html, ALONE, [along], caption);
     }
     let caption =
         format!("Displacement of the cable’s ends{when}, positive toward growing x, downstream.{earlier}");
@@ -56,11 +52,8 @@ pub fn force(html: &mut Html, report: &Report) {
 
 /// The passes that a line can follow: of a heated cable those of the first day.
 fn drawn(report: &Report) -> &[PassRecord] {
-    let first_day = report
-        .run
-        .heat
-        .as_ref()
-        .map_or(u64::MAX, |heat| heat.passes_per_day);
+    let heat = report.run.heat.as_ref();
+    let first_day = heat.map_or(u64::MAX, |heat| heat.passes_per_day);
     let passes = &report.run.passes;
     &passes[..passes.partition_point(|record| record.pass <= first_day)]
 }
@@ -85,10 +78,8 @@ fn force_after_passes(report: &Report) -> Chart {
     let in_unit = |newtons| report.reader.units.force.of_si(newtons);
     let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
     let passes = drawn(report);
-    let computed = passes.iter().map(|record| record.pass);
-    let last = computed
-        .chain(readings.iter().map(|reading| reading.passes))
-        .max();
+    let read = readings.iter().map(|reading| reading.passes);
+    let last = passes.iter().map(|record| record.pass).chain(read).max();
     let along = PassAxis::new(report, last.unwrap_or(1));
     let ends = held(&report.scene);
     let title = along.title("Force");
@@ -119,9 +110,8 @@ fn force_after_passes(report: &Report) -> Chart {
 /// Movement of the ends, until the cable leaves the duct.
 fn movement_after_passes(report: &Report) -> Chart {
     let is_in = |record: &PassRecord| {
-        CableEnd::ALL
-            .into_iter()
-            .all(|end| record.movement(end) <= report.reader.most)
+        let mut ends = CableEnd::ALL.into_iter();
+        ends.all(|end| record.movement(end) <= report.reader.most)
     };
     let passes = drawn(report);
     let inside = passes.partition_point(is_in);

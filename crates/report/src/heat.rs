@@ -31,17 +31,12 @@ pub fn heat(html: &mut Html, report: &Report) {
     );
     figure(html, WITH_LEGENDS, day(report, record), &caption);
     let profiles = [
-        ("hottest", &record.hot_profile),
-        ("coldest", &record.cold_profile),
+        ("hottest".to_owned(), &record.hot_profile),
+        ("coldest".to_owned(), &record.cold_profile),
     ];
-    let profiles = profiles.map(|(name, profile)| (name.to_owned(), profile));
     let along = along_cable(report, "Hot and cold force along the cable", profiles);
-    figure(
-        html,
-        ALONE,
-        [along],
-        "Force along the cable when that day is hottest and coldest.",
-    );
+    let caption = "Force along the cable when that day is hottest and coldest.";
+    figure(html, ALONE, [along], caption);
     let caption = "Largest and least force and farthest places of the ends on each day.";
     figure(html, WITH_LEGENDS, over_days(report, record), caption);
     html.raw("<div class=\"ranges\">");
@@ -61,15 +56,10 @@ pub fn heat(html: &mut Html, report: &Report) {
 fn course(heat: &Heat) -> String {
     let warming = if let Some(points) = &heat.profile {
         let kelvin = || points.iter().map(|(_, kelvin)| *kelvin);
-        let (least, most) = (
-            kelvin().fold(f64::INFINITY, f64::min),
-            kelvin().fold(f64::NEG_INFINITY, f64::max),
-        );
-        let [least, most] = [least, most].map(significant);
-        format!(
-            "follows a profile of {} points, from {least} to {most} K",
-            points.len()
-        )
+        let least = significant(kelvin().fold(f64::INFINITY, f64::min));
+        let most = significant(kelvin().fold(f64::NEG_INFINITY, f64::max));
+        let count = points.len();
+        format!("follows a profile of {count} points, from {least} to {most} K")
     } else {
         let swing = significant(heat.daily_swing.unwrap_or(0.0));
         format!("warms by {swing} K from midnight to noon and cools again, a cosine")
@@ -82,10 +72,10 @@ fn course(heat: &Heat) -> String {
 
 /// Force or displacement of an end at a time of the day.
 fn at(point: &DayPoint, end: CableEnd, quantity: Limited) -> f64 {
-    end.of(match quantity {
-        Limited::Force => [point.upstream_force_n, point.downstream_force_n],
-        Limited::Movement => [point.upstream_displacement_m, point.downstream_displacement_m],
-    })
+    end.of(quantity.of([
+        [point.upstream_force_n, point.downstream_force_n],
+        [point.upstream_displacement_m, point.downstream_displacement_m],
+    ]))
 }
 
 /// Temperature, forces and movements over the day.
@@ -122,10 +112,8 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
     let chart = |title, ends: &[CableEnd], quantity| {
         let unit = report.reader.unit(quantity);
         let line = |end, which: usize| {
-            let values = days
-                .iter()
-                .map(move |day| (day, over_day(day, end, quantity)[which]));
-            values.map(|(day, value)| (place(day), unit.of_si(value)))
+            let value = move |day| unit.of_si(over_day(day, end, quantity)[which]);
+            days.iter().map(move |day| (place(day), value(day)))
         };
         let chart = over(report, title, along.axis(), quantity);
         let chart = lines(chart, ends, Some(", most and least"), |end| line(end, 1));
@@ -141,8 +129,6 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
             .with(line("compression in the cable", |day| day.max_compression_n))
             .with(line("tension in the cable", |day| -day.max_tension_n));
     }
-    [
-        forces,
-        chart("Movement day by day", &CableEnd::ALL, Limited::Movement),
-    ]
+    let movements = chart("Movement day by day", &CableEnd::ALL, Limited::Movement);
+    [forces, movements]
 }

@@ -5,7 +5,6 @@ use super::certainty::certainty;
 use super::content::Report;
 use super::force::force;
 use super::heat::heat;
-use super::holding::holding;
 use super::html::{Html, escaped};
 use super::route::route;
 use super::section::section;
@@ -31,14 +30,13 @@ impl Report {
             dark = dark_style(),
         ));
         self.answer_and_verdicts(&mut html);
-        let sections: [(bool, &str, Section); 10] = [
+        let sections: [(bool, &str, Section); 9] = [
             (!self.warnings.is_empty(), "Warnings", warnings),
             (true, "Scene", scene),
             (true, "Force and movement", force),
             (self.run.heat.is_some(), "Heat, day by day", heat),
             (true, "Why the cable creeps", cause),
-            (self.compared.is_some(), "What to fit", certainty),
-            (self.measures.is_some(), "Ways to hold the cable", holding),
+            (self.history.is_empty(), "What to fit", certainty),
             (true, "How it was computed", computed),
             (true, "What is left out", left_out),
             (true, "Where this page comes from", record),
@@ -68,21 +66,19 @@ impl Report {
         if !self.verdicts.is_empty() {
             html.raw("<ul class=\"verdicts\">");
         }
+        let mut point = |is_kept: bool, verdict: &str| {
+            let class = if is_kept { "kept" } else { "exceeded" };
+            html.element(&format!("li class=\"{class}\""), verdict);
+        };
         for verdict in &self.verdicts {
             let is_kept = !verdict.is_exceeded() && verdict.levels_off_above.is_none();
-            let class = if is_kept { "kept" } else { "exceeded" };
-            html.element(&format!("li class=\"{class}\""), &answer.verdict(verdict));
+            point(is_kept, &answer.verdict(verdict));
         }
         if let Some(compared) = &self.compared {
             let as_it_is = &compared.measures[0];
-            let class = if as_it_is.within_limits {
-                "kept"
-            } else {
-                "exceeded"
-            };
             let how = holds_for(as_it_is, compared.combinations);
             let verdict = format!("with what is not known, the cable as it is holds for {how}");
-            html.element(&format!("li class=\"{class}\""), &verdict);
+            point(as_it_is.within_limits, &verdict);
         }
         if !self.verdicts.is_empty() {
             html.raw("</ul>");
@@ -108,12 +104,10 @@ impl Report {
 
     /// When, by which program and from which file the page was made.
     fn made(&self) -> String {
-        let date = self
-            .date
-            .as_ref()
-            .map_or(String::new(), |date| format!(" on {date}"));
+        let date = self.date.as_ref().map(|date| format!(" on {date}"));
         let file = self.sources.first().filter(|_| self.is_from_file);
-        let from = file.map_or(String::new(), |source| format!(" from {}", source.name));
+        let from = file.map(|source| format!(" from {}", source.name));
+        let [date, from] = [date, from].map(Option::unwrap_or_default);
         format!("computed{date} by creepage {}{from}", env!("CARGO_PKG_VERSION"))
     }
 }
@@ -159,12 +153,9 @@ fn computed(html: &mut Html, report: &Report) {
 }
 
 fn left_out(html: &mut Html, report: &Report) {
-    let heat = match report.run.heat {
-        Some(_) => "A swing of temperature over the seasons",
-        None => {
-            "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does; the scene has no [heat])"
-        }
-    };
+    let no_heat = "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does; the scene has no [heat])";
+    let heat = report.run.heat.as_ref();
+    let heat = heat.map_or(no_heat, |_| "A swing of temperature over the seasons");
     html.paragraph(&format!(
         "{heat}, vehicles near the speed of the ground’s waves, and any change of the ground with time."
     ));
@@ -176,15 +167,12 @@ fn left_out(html: &mut Html, report: &Report) {
 
 /// The record by which the page can be checked later.
 fn record(html: &mut Html, report: &Report) {
-    html.paragraph(&format!("This page was {}.", report.made()));
     if !report.overrides.is_empty() {
         html.paragraph("Set on top of the scene’s file:");
         html.list(&report.overrides);
     }
-    let rows = report
-        .sources
-        .iter()
-        .map(|source| vec![source.name.clone(), source.sha256.clone()]);
+    let sources = report.sources.iter();
+    let rows = sources.map(|source| vec![source.name.clone(), source.sha256.clone()]);
     html.raw("<div class=\"digests\">");
     html.table(&Table {
         head: ["read", "SHA-256"].map(str::to_owned).into(),

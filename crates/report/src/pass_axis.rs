@@ -138,8 +138,5 @@ impl<'r> PassAxis<'r> {
 
 /// What a run before has left of an end.
 pub fn left(past: &PastPass, end: CableEnd, quantity: Limited) -> f64 {
-    end.of(match quantity {
-        Limited::Force => past.force_n,
-        Limited::Movement => past.displacement_m,
-    })
+    end.of(quantity.of([past.force_n, past.displacement_m]))
 }

@@ -3,7 +3,8 @@
 use super::chart::{WIDTH, ticks};
 use super::content::Report;
 use crate::words::{held_by, significant};
-use creepage_scene::End;
+use creepage_plan::shown::words_if;
+use creepage_scene::{CableEnd, End};
 use plain_figure::{Anchor, Drawing, Ink};
 
 /// Where the duct begins and ends \[px\].
@@ -34,20 +35,13 @@ pub fn route(report: &Report) -> (String, String) {
         drawing.line(&level(wall), Ink::Grey, 1.0);
     }
     drawing.line(&level(DEEP), Ink::Series(0), 3.0);
-    let (upstream, downstream) = (scene.ends.upstream, scene.ends.downstream);
-    for (name, held, x, out, edge, anchor) in [
-        ("upstream end", upstream, LEFT, -1.0, 12.0, Anchor::Start),
-        (
-            "downstream end",
-            downstream,
-            RIGHT,
-            1.0,
-            WIDTH - 12.0,
-            Anchor::End,
-        ),
+    for (cable_end, x, out, edge, anchor) in [
+        (CableEnd::Upstream, LEFT, -1.0, 12.0, Anchor::Start),
+        (CableEnd::Downstream, RIGHT, 1.0, WIDTH - 12.0, Anchor::End),
     ] {
+        let held = cable_end.held_in(scene);
         end(&mut drawing, held, (x, DEEP), out);
-        drawing.text(name, (edge, words), anchor);
+        drawing.text(&format!("{} end", cable_end.name()), (edge, words), anchor);
         drawing.text(&held_by(held, reader), (edge, words + Drawing::LINE), anchor);
     }
     clamps(&mut drawing, report);
@@ -60,10 +54,13 @@ pub fn route(report: &Report) -> (String, String) {
         drawing.text(&label, (x, AXIS + 15.0), Anchor::Middle);
     }
     drawing.text(unit.symbol(), (RIGHT + 32.0, AXIS + 15.0), Anchor::Middle);
+    let sections = words_if(
+        !scene.route.is_empty(),
+        " Below the road the sections of the route: how they slope, and the radii R of their bends.",
+    );
     let caption = format!(
-        "The cable in its duct from the side, {} deep. The length is to scale, the depth is not. {}",
-        reader.length(scene.duct.depth),
-        report.scene_words().lies()
+        "The cable in its duct from the side, {} deep. The length is to scale; depth and slope are not.{sections}",
+        reader.length(scene.duct.depth)
     );
     (drawing.to_svg(), caption)
 }
@@ -78,9 +75,9 @@ fn end(drawing: &mut Drawing, end: End, (x, y): (f64, f64), out: f64) {
     let wall = match end {
         End::Fixed => x,
         End::Spring(_) => {
-            let coil = [0.0, -6.0, 6.0, -6.0, 6.0, -6.0, 0.0];
-            let coil = coil.into_iter().zip([0.0, 4.0, 8.0, 12.0, 16.0, 20.0, 24.0]);
-            let spring: Vec<(f64, f64)> = coil.map(|(side, along)| (x + out * along, y + side)).collect();
+            let coil = (0..).zip([0.0, -6.0, 6.0, -6.0, 6.0, -6.0, 0.0]);
+            let turn = |(k, side)| (x + out * 4.0 * f64::from(k), y + side);
+            let spring: Vec<(f64, f64)> = coil.map(turn).collect();
             drawing.line(&spring, Ink::Series(1), 1.6);
             x + out * 24.0
         }
@@ -88,11 +85,8 @@ fn end(drawing: &mut Drawing, end: End, (x, y): (f64, f64), out: f64) {
     };
     drawing.line(&[(wall, y - 14.0), (wall, y + 14.0)], Ink::Dark, 2.0);
     for low in [-12.0, -6.0, 0.0, 6.0, 12.0] {
-        drawing.line(
-            &[(wall, y + low), (wall + out * 6.0, y + low + 6.0)],
-            Ink::Dark,
-            0.8,
-        );
+        let stroke = [(wall, y + low), (wall + out * 6.0, y + low + 6.0)];
+        drawing.line(&stroke, Ink::Dark, 0.8);
     }
 }
 
@@ -105,19 +99,14 @@ fn sections(drawing: &mut Drawing, report: &Report) {
         if begin > 0.0 {
             drawing.line(&[(from, ROAD), (from, AXIS - 6.0)], Ink::Grey, 0.8);
         }
-        let mut words = Vec::new();
-        if section.slope != 0.0 {
-            words.push(format!("{} %", significant(100.0 * section.slope)));
-        }
-        if let Some(radius) = section.bend_radius {
-            words.push(format!("R {}", report.reader.length(radius)));
-        }
+        let slope = (section.slope != 0.0).then(|| format!("{} %", significant(100.0 * section.slope)));
+        let bend = section
+            .bend_radius
+            .map(|radius| format!("R {}", report.reader.length(radius)));
+        let words: Vec<String> = slope.into_iter().chain(bend).collect();
         if to - from > 40.0 {
-            drawing.text(
-                &words.join(", "),
-                (0.5 * (from + to), DEEP + 20.0),
-                Anchor::Middle,
-            );
+            let below = (0.5 * (from + to), DEEP + 20.0);
+            drawing.text(&words.join(", "), below, Anchor::Middle);
         }
         begin = end;
     }

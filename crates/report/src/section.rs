@@ -40,24 +40,18 @@ pub fn section(report: &Report) -> (String, String) {
     for vehicle in &scene.vehicles {
         across.vehicle(&mut drawing, vehicle, &mut signs);
     }
-    let (x, y) = (
-        across.place(scene.duct.lateral_offset),
-        SURFACE + across.scale * scene.duct.depth,
-    );
+    let x = across.place(scene.duct.lateral_offset);
+    let y = SURFACE + across.scale * scene.duct.depth;
     let inner = 0.5 * across.scale * scene.duct.inner_diameter.unwrap_or(0.0);
     let radius = inner.max(SMALLEST);
     drawing.area(&circle((x, y), radius), Ink::Series(0), 1.0);
     let label = format!("duct, {} deep", reader.depth(scene.duct.depth));
-    let (beside, has_room) = (
-        radius + 6.0,
-        x + radius + 6.0 + Drawing::text_width(&label) < RIGHT,
-    );
-    let (x, anchor) = if has_room {
-        (x + beside, Anchor::Start)
+    let beside = radius + 6.0;
+    if x + beside + Drawing::text_width(&label) < RIGHT {
+        drawing.text(&label, (x + beside, y), Anchor::Start);
     } else {
-        (x - beside, Anchor::End)
-    };
-    drawing.text(&label, (x, y), anchor);
+        drawing.text(&label, (x - beside, y), Anchor::End);
+    }
     let enlarged = words_if(inner < SMALLEST, " The duct is drawn larger than it is.");
     let darker = words_if(
         scene.ground.thickness() > 0.0,
@@ -110,21 +104,16 @@ impl Across {
         let x = self.place(middle(vehicle));
         for (place, half) in wheels(vehicle) {
             let (side, half) = (self.place(place), (self.scale * half).max(SMALLEST));
+            let tyre = rectangle((side - half, SURFACE - WHEEL), (side + half, SURFACE));
             drawing.line(&[(x, axle), (side, axle)], Ink::Dark, 2.0);
-            drawing.area(
-                &rectangle((side - half, SURFACE - WHEEL), (side + half, SURFACE)),
-                Ink::Dark,
-                1.0,
-            );
+            drawing.area(&tyre, Ink::Dark, 1.0);
         }
         let (sign, row) = match vehicle.direction {
             Direction::Forward => ("⊗", 1),
             Direction::Reverse => ("⊙", 0),
         };
-        if signs[row]
-            .iter()
-            .all(|other| (other - x).abs() > Drawing::text_width(sign) + 8.0)
-        {
+        let apart = Drawing::text_width(sign) + 8.0;
+        if signs[row].iter().all(|other| (other - x).abs() > apart) {
             signs[row].push(x);
             let y = SURFACE - WHEEL - Drawing::LINE * (0.7 + row as f64);
             drawing.text(sign, (x, y), Anchor::Middle);
@@ -153,11 +142,8 @@ fn ground(drawing: &mut Drawing, scene: &Scene, scale: f64, high: f64) {
     let soft = moduli().fold(f64::INFINITY, f64::min);
     let range = moduli().fold(f64::NEG_INFINITY, f64::max) - soft;
     let shares = layers.iter().map(|(thickness, modulus)| {
-        let share = if range > 0.0 {
-            (modulus - soft) / range
-        } else {
-            0.3
-        };
+        let share = (modulus - soft) / range;
+        let share = if range > 0.0 { share } else { 0.3 };
         (*thickness, OPACITY[0] + share * OPACITY[1])
     });
     let mut top = SURFACE;

@@ -6,4 +6,6 @@ pub mod design;
 pub mod measures;
 #[doc(hidden)]
 pub mod output;
+mod shared_mesh;
+mod springs;
 pub mod sweep;

@@ -41,7 +41,7 @@ class Run(dict):
         return [*super().__dir__(), *self]
 
     def report(self) -> str:
-        """The report as a page of HTML, as ``creepage report`` writes it. It runs the scene again, with ways to hold the cable."""
+        """The report as a page of HTML, as ``creepage report`` writes it. It runs the scene again."""
         return _creepage.report(self.scene, (None, None))
 
     def _repr_html_(self) -> str:

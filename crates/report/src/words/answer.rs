@@ -58,13 +58,11 @@ impl Load {
     }
 }
 
-/// The held end that is pressed harder after the `last` pass; `None` where both are free.
-pub fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<CableEnd> {
-    let force = |end: &CableEnd| last.force_after(*end).abs();
-    let held = CableEnd::ALL
-        .into_iter()
-        .filter(|end| end.held_in(scene) != End::Free);
-    held.max_by(|a, b| force(a).total_cmp(&force(b)))
+/// The held end on which such a force is larger in size; `None` where both are free.
+fn pressed_end(scene: &Scene, force: impl Fn(CableEnd) -> f64) -> Option<CableEnd> {
+    let all = CableEnd::ALL.into_iter();
+    let held = all.filter(|end| end.held_in(scene) != End::Free);
+    held.max_by(|a, b| force(*a).abs().total_cmp(&force(*b).abs()))
 }
 
 impl Answer<'_> {
@@ -75,12 +73,11 @@ impl Answer<'_> {
         };
         let reader = &self.reader;
         let mut facts = Vec::from(self.forces(last));
-        let moved = CableEnd::ALL.map(|end| (self.movement(last, end), end));
-        let [(upstream, _), (downstream, _)] = moved;
-        let (moved, end) = moved[usize::from(downstream.abs() >= upstream.abs())];
+        let moved = CableEnd::ALL.map(|end| self.movement(last, end));
+        let end = CableEnd::ALL[usize::from(moved[1].abs() >= moved[0].abs())];
         let when = if self.run.heat.is_some() { "in" } else { "after" };
         let note = format!("{} end, {when} {}", end.name(), passes(last.pass));
-        facts.push(fact("Movement of an end", reader.movement(moved), note));
+        facts.push(fact("Movement of an end", reader.movement(end.of(moved)), note));
         let motion = &self.run.duct_motion;
         let [along, down] =
             [motion.peak_longitudinal_m, motion.peak_vertical_m].map(|peak| significant(1e6 * peak) + " µm");
@@ -139,11 +136,8 @@ impl Answer<'_> {
         let clamps = self.run.restraints.iter().map(|clamp| clamp.position_m);
         let hardest = clamps.max_by(|a, b| force(*a).total_cmp(&force(*b)))?;
         let note = format!("at {}, {}", self.reader.length(hardest), self.when_on_clamps());
-        Some(fact(
-            "Largest force on a clamp",
-            self.reader.force(force(hardest)),
-            note,
-        ))
+        let force = self.reader.force(force(hardest));
+        Some(fact("Largest force on a clamp", force, note))
     }
 
     /// When clamps bear their largest forces.
@@ -192,18 +186,11 @@ impl Answer<'_> {
             let (least, most) = (self.reader.number(Limited::Force, least), self.reader.force(most));
             format!("that on the {} end between {least} and {most}", end.name())
         });
-        let each: Vec<String> = each.collect();
-        if each.is_empty() {
-            return String::new();
-        }
-        let how = match self.run.random {
-            Some(_) => ", in nine passes of ten",
-            None => "",
-        };
-        format!(
-            " In the end the force varies from vehicle to vehicle, {}{how}.",
-            each.join(" and ")
-        )
+        let how = words_if(self.run.random.is_some(), ", in nine passes of ten");
+        let each = each.reduce(|one, other| format!("{one} and {other}"));
+        each.map_or_else(String::new, |each| {
+            format!(" In the end the force varies from vehicle to vehicle, {each}{how}.")
+        })
     }
 
     /// How far both ends have moved.
@@ -219,14 +206,14 @@ impl Answer<'_> {
             let moved = moved.replace("> ", "more than ");
             (held != End::Fixed).then(|| format!("the {free}{} end {moves} {moved}", end.name()))
         };
-        let moved: Vec<String> = CableEnd::ALL.into_iter().filter_map(of).collect();
-        if moved.is_empty() {
+        let moved = CableEnd::ALL.into_iter().filter_map(of);
+        let Some(moved) = moved.reduce(|one, other| format!("{one} and {other}")) else {
             return "Both ends are fixed.".to_owned();
-        }
+        };
         let is_out = |end| self.movement(last, end).abs() > self.reader.most;
         let is_out = CableEnd::ALL.into_iter().any(is_out);
         let leaves = words_if(is_out, "; the cable leaves the duct");
-        format!("{when} {}{leaves}.", moved.join(" and "))
+        format!("{when} {moved}{leaves}.")
     }
 
     /// Displacement after the last pass; of a heated cable the farthest of all days \[m\].
@@ -242,18 +229,12 @@ impl Answer<'_> {
         let on_ends = Limits::both(Some(f64::INFINITY), None).verdicts(self.run);
         let hardest = on_ends.into_iter().max_by(|a, b| a.largest.total_cmp(&b.largest));
         if let Some(hardest) = hardest.filter(|hardest| hardest.largest > 0.0) {
+            let sign = if hardest.pulled { -1.0 } else { 1.0 };
+            let moving = hardest.during_a_pass.then_some("during a pass");
             return Load {
-                newtons: if hardest.pulled {
-                    -hardest.largest
-                } else {
-                    hardest.largest
-                },
+                newtons: sign * hardest.largest,
                 end: hardest.end.end(),
-                when: if hardest.during_a_pass {
-                    "during a pass"
-                } else {
-                    at_rest
-                },
+                when: moving.unwrap_or(at_rest),
             };
         }
         let days = self.run.heat.iter().map(|heat| heat.all_days.max_compression_n);
@@ -267,7 +248,7 @@ impl Answer<'_> {
 
     /// The force that matters most after the `last` pass, and why it does not level off.
     fn now(&self, last: &PassRecord) -> Load {
-        let end = pressed_end(self.scene, last);
+        let end = pressed_end(self.scene, |end| last.force_after(end));
         Load {
             newtons: end.map_or(last.max_compression_n, |end| last.force_after(end)),
             end,
@@ -282,18 +263,12 @@ impl Answer<'_> {
     /// The force that levels off, if one does.
     fn level(&self) -> Option<Load> {
         let level = self.run.saturation?;
-        let force = |end: &CableEnd| end.of([level.upstream_force_n, level.downstream_force_n]).abs();
-        let held = CableEnd::ALL
-            .into_iter()
-            .filter(|end| end.held_in(self.scene) != End::Free);
+        let force = |end: CableEnd| end.of([level.upstream_force_n, level.downstream_force_n]);
         Some(Load {
             newtons: level.force_n,
-            end: held.max_by(|a, b| force(a).total_cmp(&force(b))),
-            when: if level.is_beyond(&self.run.passes) {
-                "after a pass beyond those computed"
-            } else {
-                "after a pass"
-            },
+            end: pressed_end(self.scene, force),
+            when: ["after a pass", "after a pass beyond those computed"]
+                [usize::from(level.is_beyond(&self.run.passes))],
         })
     }
 

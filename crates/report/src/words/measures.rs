@@ -2,11 +2,12 @@
 
 use super::number::{passes, quantity, significant};
 use super::reader::Reader;
+use super::scene::held_by;
 use super::table::Table;
 use creepage_plan::shown::{percent, words_if};
-use creepage_run::{Reached, answer::after};
-use creepage_scene::{Cost, End, Restraint, Uncertain, si_unit};
-use creepage_study::measures::{Combination, Comparison, FRICTION_KEY, MeasureAnswer, Outcome};
+use creepage_run::answer::after;
+use creepage_scene::{Cost, End, Uncertain, si_unit};
+use creepage_study::measures::{Combination, Comparison, FRICTION_KEY, MeasureAnswer, Nearest};
 
 /// Keys that have a shorter name.
 const NAMES: [(&str, &str); 5] = [
@@ -16,22 +17,8 @@ const NAMES: [(&str, &str); 5] = [
     ("friction.shape_factor", "shape factor"),
     ("cable.axial_stiffness", "EA"),
 ];
-const HEAD: [&str; 10] = [
-    "measure",
-    "fitted",
-    "holds for",
-    "nearest limit, or exceeded most",
-    "worst of limit",
-    "where",
-    "in the middle",
-    "on clamps",
-    "moved",
-    "exceeded after",
-];
-const NONE: &str = "–";
-
 /// What an uncertain key is called.
-pub fn key_name(key: &str) -> &str {
+fn key_name(key: &str) -> &str {
     let known = NAMES.iter().find(|(known, _)| *known == key);
     known.map_or(key, |(_, name)| name)
 }
@@ -48,61 +35,44 @@ pub fn interval(unknown: &Uncertain) -> String {
 
 /// A combination: "friction 0.5, deflection 600 µm".
 fn combination(at: &Combination) -> String {
-    let each = at
-        .iter()
-        .map(|(key, value)| format!("{} {}", key_name(key), key_value(key, *value)));
-    each.collect::<Vec<_>>().join(", ")
+    let each = |(key, value): (&String, &f64)| format!("{} {}", key_name(key), key_value(key, *value));
+    at.iter().map(each).collect::<Vec<_>>().join(", ")
 }
 
 /// What is not known, and from where.
 pub fn uncertain(comparison: &Comparison) -> String {
-    let all = comparison
-        .uncertain
-        .iter()
-        .map(interval)
-        .collect::<Vec<_>>()
-        .join(", ");
+    let all: Vec<String> = comparison.uncertain.iter().map(interval).collect();
     let assumed = words_if(comparison.assumed, " (assumed: the scene has no [uncertain])");
     let (combinations, runs) = (comparison.combinations, comparison.runs);
-    format!("{all}{assumed}; {combinations} combinations, {runs} runs")
+    format!(
+        "{}{assumed}; {combinations} combinations, {runs} runs",
+        all.join(", ")
+    )
 }
 
-/// What a measure changes of the scene as it is.
-fn fitted(measure: &MeasureAnswer, scene: &MeasureAnswer, reader: &Reader) -> String {
-    let held = |held: End| match held {
-        End::Free => "free".to_owned(),
-        End::Fixed => "fixed".to_owned(),
-        End::Spring(stiffness) => reader.stiffness(stiffness),
-    };
-    let clamp = |clamp: &Restraint| {
-        let place = reader.length(clamp.position);
-        format!("{} at {place}", reader.stiffness(clamp.stiffness))
-    };
-    let (own, before) = (measure.ends, scene.ends);
-    let mut words = Vec::new();
-    if own.upstream == own.downstream
-        && own.upstream != before.upstream
-        && own.downstream != before.downstream
-    {
-        words.push(format!("both {}", held(own.upstream)));
-    } else {
-        let ends = [
-            ("upstream", own.upstream, before.upstream),
-            ("downstream", own.downstream, before.downstream),
-        ];
-        let changed = ends.into_iter().filter(|(_, own, before)| own != before);
-        words.extend(changed.map(|(name, own, _)| format!("{name} {}", held(own))));
-    }
-    let [added, removed] = [(measure, scene), (scene, measure)].map(|(one, other)| {
-        let only = one
-            .restraints
+/// What a measure changes of the scene as it is, if anything.
+fn fitted(measure: &MeasureAnswer, scene: &MeasureAnswer, reader: &Reader) -> Option<String> {
+    let held = |held: End| held_by(held, reader).replace("spring of ", "");
+    let ends = [
+        ("upstream", measure.ends.upstream, scene.ends.upstream),
+        ("downstream", measure.ends.downstream, scene.ends.downstream),
+    ];
+    let changed = ends.into_iter().filter(|(_, own, before)| own != before);
+    let mut words = match changed.collect::<Vec<_>>()[..] {
+        [(_, one, _), (_, other, _)] if one == other => vec![format!("both {}", held(one))],
+        ref changed => changed
             .iter()
-            .filter(|clamp| !other.restraints.contains(clamp));
-        only.map(clamp).collect::<Vec<_>>()
-    });
-    words.extend(added);
-    words.extend(removed.iter().map(|removed| format!("without {removed}")));
-    words.join(", ")
+            .map(|(name, own, _)| format!("{name} {}", held(*own)))
+            .collect(),
+    };
+    let (own, before) = (&measure.restraints, &scene.restraints);
+    for (clamps, others, without) in [(own, before, ""), (before, own, "without ")] {
+        for clamp in clamps.iter().filter(|clamp| !others.contains(clamp)) {
+            let (stiffness, place) = (reader.stiffness(clamp.stiffness), reader.length(clamp.position));
+            words.push(format!("{without}{stiffness} at {place}"));
+        }
+    }
+    (!words.is_empty()).then(|| words.join(", "))
 }
 
 /// In which combinations it holds.
@@ -115,72 +85,86 @@ pub fn holds_for(measure: &MeasureAnswer, combinations: usize) -> String {
     }
 }
 
-/// Every measure with its worst combination.
+/// The row of a measure: the names of its columns, and what stands in them; nothing where it is not known.
+fn row(
+    measure: &MeasureAnswer,
+    comparison: &Comparison,
+    reader: &Reader,
+) -> [(&'static str, Option<String>); 11] {
+    let amount = |nearest: &Nearest| reader.amount(nearest.quantity, nearest.value);
+    let given = |worst: &Nearest| worst.quantity.given_in(&reader.units, worst.limit);
+    let worst = measure.worst.as_ref();
+    let outcome = worst.map(|worst| &worst.outcome);
+    let exceeded = outcome.iter().flat_map(|outcome| &outcome.verdicts);
+    let first = exceeded
+        .filter_map(|verdict| verdict.reached_after)
+        .min_by_key(|first| first.pass);
+    let cost = measure.cost.as_ref().map(|cost| match cost {
+        Cost::Number(cost) => significant(*cost),
+        Cost::Text(text) => text.clone(),
+    });
+    [
+        // With a soft hyphen.
+        ("measure", Some(measure.name.replace("stream", "\u{ad}stream"))),
+        ("fitted", fitted(measure, &comparison.measures[0], reader)),
+        ("holds for", Some(holds_for(measure, comparison.combinations))),
+        (
+            "nearest limit, or exceeded most",
+            worst.map(|worst| worst.quantity.at(worst.end)),
+        ),
+        (
+            "worst of limit",
+            worst.map(|worst| format!("{} of {}", amount(worst), given(worst))),
+        ),
+        ("where", outcome.map(|outcome| combination(&outcome.at))),
+        ("in the middle", measure.nominal.as_ref().map(amount)),
+        (
+            "on clamps",
+            outcome.and_then(|outcome| Some(reader.force(outcome.clamp_force_n?))),
+        ),
+        (
+            "moved",
+            outcome.map(|outcome| reader.movement(outcome.movement_m)),
+        ),
+        (
+            "exceeded after",
+            first.map(|first| first.years.map_or_else(|| passes(first.pass), after)),
+        ),
+        ("cost", cost),
+    ]
+}
+
+/// Every measure with its worst combination; costs where any is known.
 pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
     let is_priced = comparison.measures.iter().any(|measure| measure.cost.is_some());
-    let row = |measure: &MeasureAnswer| {
-        let amount = |outcome: &Outcome| {
-            let tightest = outcome.verdicts.first()?;
-            Some(reader.amount(tightest.quantity, tightest.largest))
-        };
-        let mut row = vec![
-            // With a soft hyphen.
-            measure.name.replace("stream", "\u{ad}stream"),
-            fitted(measure, &comparison.measures[0], reader),
-            holds_for(measure, comparison.combinations),
-        ];
-        let worst = measure
-            .worst
-            .as_ref()
-            .and_then(|worst| Some((worst, worst.verdicts.first()?)));
-        row.extend(worst.into_iter().flat_map(|(worst, tightest)| {
-            let limit = tightest.quantity.given_in(&reader.units, tightest.limit);
-            let exceeded = worst.verdicts.iter().filter_map(|verdict| verdict.reached_after);
-            let exceeded = exceeded.min_by_key(|reached| reached.pass);
-            let time = |reached: Reached| reached.years.map_or_else(|| passes(reached.pass), after);
-            [
-                tightest.quantity.at(tightest.end),
-                format!(
-                    "{} of {limit}",
-                    reader.amount(tightest.quantity, tightest.largest)
-                ),
-                combination(&worst.at),
-                measure.nominal.as_ref().and_then(amount).unwrap_or_default(),
-                worst
-                    .clamp_force_n
-                    .map(|force| reader.force(force))
-                    .unwrap_or_default(),
-                reader.movement(worst.movement_m),
-                exceeded.map(time).unwrap_or_default(),
-            ]
-        }));
-        row.resize(HEAD.len(), String::new());
-        row.extend(is_priced.then(|| match &measure.cost {
-            None => String::new(),
-            Some(Cost::Number(cost)) => significant(*cost),
-            Some(Cost::Text(text)) => text.clone(),
-        }));
-        let shown = |cell: String| if cell.is_empty() { NONE.to_owned() } else { cell };
-        row.into_iter().map(shown).collect()
+    let cells = |measure| {
+        let row = row(measure, comparison, reader).into_iter();
+        row.filter(|(name, _)| is_priced || *name != "cost")
     };
-    let head = HEAD.into_iter().chain(is_priced.then_some("cost"));
+    let names = cells(&comparison.measures[0]).map(|(name, _)| name.to_owned());
+    let shown = |(_, cell): (_, Option<String>)| cell.unwrap_or_else(|| "–".to_owned());
+    let rows = comparison
+        .measures
+        .iter()
+        .map(|measure| cells(measure).map(shown).collect());
     Table {
-        head: head.map(str::to_owned).collect(),
-        rows: comparison.measures.iter().map(row).collect(),
+        head: names.collect(),
+        rows: rows.collect(),
         words: 6,
     }
 }
 
 /// Runs that failed, each with its reason.
 pub fn failures(comparison: &Comparison) -> Vec<String> {
-    let of = |measure: &'_ MeasureAnswer| {
-        let failed = measure.failures.iter();
-        let words = |(at, reason): &(Combination, String)| {
-            format!("failed: {} with {}: {reason}", measure.name, combination(at))
-        };
-        failed.map(words).collect::<Vec<_>>()
-    };
-    comparison.measures.iter().flat_map(of).collect()
+    let measures = comparison.measures.iter();
+    let all = measures.flat_map(|measure| {
+        measure
+            .failures
+            .iter()
+            .map(move |failure| (&measure.name, failure))
+    });
+    all.map(|(name, (at, reason))| format!("failed: {name} with {}: {reason}", combination(at)))
+        .collect()
 }
 
 /// What to take, or what comes nearest and what decides.
@@ -189,11 +173,7 @@ pub fn recommendation(comparison: &Comparison, reader: &Reader) -> String {
         return "No measure could be computed.".to_owned();
     };
     let fitted = fitted(best, &comparison.measures[0], reader);
-    let fitted = if fitted.is_empty() {
-        fitted
-    } else {
-        format!(" ({fitted})")
-    };
+    let fitted = fitted.map_or_else(String::new, |fitted| format!(" ({fitted})"));
     let (name, share) = (&best.name, percent(best.share()));
     if comparison.recommended.is_some() {
         let why = match best.cost {
@@ -205,13 +185,15 @@ pub fn recommendation(comparison: &Comparison, reader: &Reader) -> String {
             "Recommended: {name}{fitted}: {why}; it holds in every combination, with at most {share} of a limit."
         );
     }
-    let decides = comparison.decides.as_ref().map_or_else(String::new, |key| {
+    let decides = comparison.decides.as_ref();
+    let decides = decides.map(|key| {
         format!(
             " What decides most is {}: measure it, or limit it.",
             key_name(key)
         )
     });
     format!(
-        "No measure holds in every combination. {name}{fitted} comes nearest, with {share} of a limit in the worst.{decides}"
+        "No measure holds in every combination. {name}{fitted} comes nearest, with {share} of a limit in the worst.{}",
+        decides.unwrap_or_default()
     )
 }

@@ -8,8 +8,8 @@ mod reader;
 mod scene;
 mod table;
 
-pub use answer::{Answer, Fact, pressed_end};
+pub use answer::{Answer, Fact};
 pub use number::{count, round_below, significant};
 pub use reader::Reader;
 pub use scene::{SceneWords, held_by, middle};
-pub use table::{Table, after_pass, candidates, error_parts, narrow_name, over_day, solved};
+pub use table::{Table, after_pass, candidates, error_parts, over_day, solved};

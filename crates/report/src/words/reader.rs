@@ -33,35 +33,25 @@ impl Reader {
 
     /// A force \[N\] or movement \[m\] with its unit: "551.2 N", "0.0520 mm".
     pub fn amount(&self, quantity: Limited, value: f64) -> String {
-        format!(
-            "{} {}",
-            self.number(quantity, value),
-            self.unit(quantity).symbol()
-        )
+        let unit = self.unit(quantity).symbol();
+        format!("{} {unit}", self.number(quantity, value))
     }
 
     /// The same without its unit; of a movement with which the cable leaves the duct, only that it does: "> 2500".
     pub fn number(&self, quantity: Limited, value: f64) -> String {
-        match quantity {
-            Limited::Force => four_digits(value, self.units.force, FORCE_DIGIT),
-            Limited::Movement => {
-                let within = value.clamp(-self.most, self.most);
-                let beyond = match value {
-                    _ if within == value => "",
-                    value if value > 0.0 => "> ",
-                    _ => "< ",
-                };
-                beyond.to_owned() + &four_digits(within, self.units.movement, MOVEMENT_DIGIT)
-            }
-        }
+        let most = quantity.of([f64::INFINITY, self.most]);
+        let beyond = match value {
+            _ if value > most => "> ",
+            _ if value < -most => "< ",
+            _ => "",
+        };
+        let digit = quantity.of([FORCE_DIGIT, MOVEMENT_DIGIT]);
+        beyond.to_owned() + &four_digits(value.clamp(-most, most), self.unit(quantity), digit)
     }
 
     /// The unit of a force or a movement.
     pub fn unit(&self, quantity: Limited) -> Unit {
-        match quantity {
-            Limited::Force => self.units.force,
-            Limited::Movement => self.units.movement,
-        }
+        quantity.of([self.units.force, self.units.movement])
     }
 
     /// What a column or an axis holds: "force, N".

@@ -67,16 +67,14 @@ impl SceneWords<'_> {
             points.push(self.section(section, begin, end, largest));
             begin = end;
         }
-        points.extend((1..).zip(&scene.restraints).map(|(number, clamp)| {
+        for (number, clamp) in (1..).zip(&scene.restraints) {
             let (stiffness, place) = (reader.stiffness(clamp.stiffness), reader.length(clamp.position));
             let slips = clamp
                 .holds
                 .map(|holds| format!(", slips above {}", reader.force(holds)));
-            format!(
-                "Clamp {number}: {stiffness} at {place}{}.",
-                slips.unwrap_or_default()
-            )
-        }));
+            let slips = slips.unwrap_or_default();
+            points.push(format!("Clamp {number}: {stiffness} at {place}{slips}."));
+        }
         points.push(self.traffic());
         points
     }
@@ -116,25 +114,18 @@ impl SceneWords<'_> {
 
     fn cable(&self) -> String {
         let Self { scene, reader } = self;
-        let (cable, upper) = (&scene.cable, Arrangement::TrefoilUpper);
-        let under = if cable.arrangement == upper {
-            "the two lower cables"
-        } else {
-            "the duct"
+        let cable = &scene.cable;
+        let (under, place) = match cable.arrangement {
+            Arrangement::TrefoilUpper => ("the two lower cables", "the upper one of three cables in trefoil"),
+            Arrangement::TrefoilLower => ("the duct", "a lower one of three cables in trefoil"),
+            Arrangement::CradledOuter => ("the duct", "an outer one of three cables side by side"),
+            Arrangement::CradledMiddle => ("the duct", "the middle one of three cables side by side"),
+            Arrangement::Single => ("the duct", ""),
         };
-        let pressed = match scene.normal_load_factor() {
-            1.0 => "it lies on the duct with its own weight".to_owned(),
-            factor => format!(
-                "it presses on {under} with {} times its weight",
-                significant(factor)
-            ),
-        };
-        let place = match cable.arrangement {
-            Arrangement::TrefoilUpper => "the upper one of three cables in trefoil",
-            Arrangement::TrefoilLower => "a lower one of three cables in trefoil",
-            Arrangement::CradledOuter => "an outer one of three cables side by side",
-            Arrangement::CradledMiddle => "the middle one of three cables side by side",
-            Arrangement::Single => "",
+        let factor = scene.normal_load_factor();
+        let pressed = match significant(factor) {
+            _ if factor == 1.0 => "it lies on the duct with its own weight".to_owned(),
+            times => format!("it presses on {under} with {times} times its weight"),
         };
         let diameters = [scene.duct.inner_diameter, cable.diameter];
         let [inner, own] = diameters.map(|diameter| reader.length(diameter.unwrap_or_default()));
@@ -146,14 +137,13 @@ impl SceneWords<'_> {
 
     fn friction(&self) -> String {
         let Self { scene, reader } = self;
+        let shape = |b: f64| format!("shape factor {} 1/m", power_of_ten(b));
         let law = match scene.friction.law() {
             FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
-            FrictionLaw::ElasticPlastic { shape_factor: b } => {
-                format!("elastic-plastic law, shape factor {} 1/m", power_of_ten(b))
+            FrictionLaw::ElasticPlastic { shape_factor } => {
+                format!("elastic-plastic law, {}", shape(shape_factor))
             }
-            FrictionLaw::Sigmoid { shape_factor: b } => {
-                format!("sigmoid law, shape factor {} 1/m", power_of_ten(b))
-            }
+            FrictionLaw::Sigmoid { shape_factor } => format!("sigmoid law, {}", shape(shape_factor)),
             _ => "a law of its own".to_owned(),
         };
         // What computing several cables together would change.
@@ -174,11 +164,9 @@ impl SceneWords<'_> {
 
     fn traffic(&self) -> String {
         let (traffic, vehicles) = (&self.scene.traffic, self.scene.vehicles.len());
-        let years = traffic.years_after(traffic.passes);
-        let rate = traffic
-            .per_day
-            .zip(years)
-            .map(|(per_day, years)| format!(" in {}, {} a day,", after(years), significant(per_day)));
+        let rate = traffic.per_day.zip(traffic.years_after(traffic.passes));
+        let rate =
+            rate.map(|(per_day, years)| format!(" in {}, {} a day,", after(years), significant(per_day)));
         let passes = passes(traffic.passes) + &rate.unwrap_or_default();
         let order = match self.scene.order() {
             _ if vehicles == 1 => return format!("Traffic: {passes} of one vehicle."),
@@ -199,26 +187,19 @@ impl SceneWords<'_> {
         let mut rows = Vec::new();
         let mut top = 0.0;
         for layer in profile.layers() {
-            let bottom = top + layer.thickness();
-            rows.push(row(
-                reader.depths(top, bottom),
-                layer.modulus(),
-                layer.poisson_ratio(),
-            ));
-            top = bottom;
+            let depths = reader.depths(top, top + layer.thickness());
+            rows.push(row(depths, layer.modulus(), layer.poisson_ratio()));
+            top += layer.thickness();
         }
-        let below = format!("below {}", reader.depth(top));
-        let below = if top == 0.0 {
-            "everywhere".to_owned()
-        } else {
-            below
+        let below = match reader.depth(top) {
+            _ if top == 0.0 => "everywhere".to_owned(),
+            depth => format!("below {depth}"),
         };
         rows.push(match profile.base() {
-            Base::HalfSpace(soil) => row(
-                below,
-                Modulus::Uniform(soil.young_modulus()),
-                soil.poisson_ratio(),
-            ),
+            Base::HalfSpace(soil) => {
+                let modulus = Modulus::Uniform(soil.young_modulus());
+                row(below, modulus, soil.poisson_ratio())
+            }
             Base::Rigid => vec![below, "rock that does not move".into(), "–".into()],
         });
         let head = ["ground at depth", "Young’s modulus", "Poisson’s ratio"].map(str::to_owned);
@@ -277,10 +258,8 @@ impl SceneWords<'_> {
         let weights = || self.scene.vehicles.iter().map(TrafficVehicle::weight);
         let shared = weights().zip(self.scene.shares());
         let mean: f64 = shared.map(|(weight, share)| share * weight).sum();
-        let (least, most) = (
-            weights().fold(f64::INFINITY, f64::min),
-            weights().fold(0.0, f64::max),
-        );
+        let least = weights().fold(f64::INFINITY, f64::min);
+        let most = weights().fold(0.0, f64::max);
         let [least, most, mean] = [least, most, mean].map(|load| self.reader.load(load));
         format!("{least} to {most}, in the mean {mean}")
     }
@@ -293,21 +272,6 @@ impl SceneWords<'_> {
         }
         let side = if left > 0.0 { "left" } else { "right" };
         format!("{} {side} of the duct", self.reader.length(left.abs()))
-    }
-
-    /// How the duct lies, for the caption of its drawing.
-    pub fn lies(&self) -> String {
-        if !self.scene.route.is_empty() {
-            return "Below the road the sections of the route: how they slope, and the radii R of their bends."
-                .to_owned();
-        }
-        match self.scene.duct.slope {
-            0.0 => "The duct is level.".to_owned(),
-            slope => format!(
-                "The duct {} toward growing x, which is not drawn.",
-                sloping(slope, "")
-            ),
-        }
     }
 }
 

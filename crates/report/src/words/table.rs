@@ -39,25 +39,18 @@ fn columns(reader: &Reader, moved: &str, is_zero: impl Fn(CableEnd, Limited) -> 
 }
 
 /// The name of an end with a soft hyphen.
-pub fn narrow_name(end: CableEnd) -> String {
+fn narrow_name(end: CableEnd) -> String {
     end.name().replace("stream", "\u{ad}stream")
 }
 
 /// Force \[N\] or displacement \[m\] of an end after a pass.
 pub fn after_pass(record: &PassRecord, end: CableEnd, quantity: Limited) -> f64 {
-    match quantity {
-        Limited::Force => record.force_after(end),
-        Limited::Movement => record.displacement(end),
-    }
+    quantity.of([record.force_after(end), record.displacement(end)])
 }
 
 /// The least and the largest of them on a day.
 pub fn over_day(day: &DayExtremes, end: CableEnd, quantity: Limited) -> [f64; 2] {
-    let [force, movement] = day.of(end);
-    match quantity {
-        Limited::Force => force,
-        Limited::Movement => movement,
-    }
+    quantity.of(day.of(end))
 }
 
 impl Answer<'_> {

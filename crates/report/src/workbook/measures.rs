@@ -9,7 +9,7 @@ use super::{table, text};
 use crate::words::{Reader, measures};
 use creepage_scene::{SceneFile, si_unit};
 use creepage_study::book::{Book, scene};
-use creepage_study::measures::{Comparison, Outcome};
+use creepage_study::measures::{Combination, Comparison};
 
 /// The file of a workbook.
 ///
@@ -31,28 +31,26 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
     }
     book.row([text(measures::recommendation(comparison, reader))], false)?;
     let records = comparison.measures.iter().flat_map(|measure| {
-        let outcomes = measure.outcomes.iter();
-        outcomes.map(|outcome| record(&measure.name, outcome))
+        let outcomes = measure.outcomes.iter().map(|outcome| {
+            let of_measure = json!({ "force_n": outcome.force_n, "movement_m": outcome.movement_m,
+                "clamp_force_n": outcome.clamp_force_n, "share_of_a_limit": outcome.share() });
+            record(&measure.name, &outcome.at, of_measure)
+        });
+        let failures = measure.failures.iter();
+        let failures = failures.map(|(at, reason)| record(&measure.name, at, json!({ "failure": reason })));
+        outcomes.chain(failures).collect::<Vec<_>>()
     });
     table(&mut book, "combinations", &records.collect(), &reader.units)?;
     scene(&mut book, file)?;
     book.finish()
 }
 
-/// A row for one combination; values of keys are in SI.
-fn record(measure: &str, outcome: &Outcome) -> Value {
+/// A row for one combination and what it comes to; values of keys are in SI.
+fn record(measure: &str, at: &Combination, answer: Value) -> Value {
     let named = |key: &String| si_unit(key).map_or(key.clone(), |unit| format!("{key}, {unit}"));
-    let keys = outcome.at.iter().map(|(key, value)| (named(key), json!(value)));
+    let keys = at.iter().map(|(key, value)| (named(key), json!(value)));
     let mut record = Map::from_iter([("measure".to_owned(), json!(measure))]);
     record.extend(keys);
-    for (field, value) in [
-        ("force_n", json!(outcome.force_n)),
-        ("movement_m", json!(outcome.movement_m)),
-        ("clamp_force_n", json!(outcome.clamp_force_n)),
-        ("share_of_a_limit", json!(outcome.share())),
-        ("failure", json!(outcome.failure)),
-    ] {
-        record.insert(field.to_owned(), value);
-    }
+    record.extend(answer.as_object().cloned().unwrap_or_default());
     Value::Object(record)
 }

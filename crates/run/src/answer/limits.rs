@@ -86,10 +86,7 @@ impl Limited {
 
     /// Its unit for a reader, and the last digit that is shown of it \[N or m\].
     fn unit_in(self, units: &Units) -> (Unit, f64) {
-        match self {
-            Self::Force => (units.force, FORCE_DIGIT),
-            Self::Movement => (units.movement, MOVEMENT_DIGIT),
-        }
+        self.of([(units.force, FORCE_DIGIT), (units.movement, MOVEMENT_DIGIT)])
     }
 
     /// The symbol of that unit.

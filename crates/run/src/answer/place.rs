@@ -46,6 +46,16 @@ pub enum Limited {
     Movement,
 }
 
+impl Limited {
+    /// Of a force and a movement that which is meant.
+    pub fn of<T>(self, [force, movement]: [T; 2]) -> T {
+        match self {
+            Self::Force => force,
+            Self::Movement => movement,
+        }
+    }
+}
+
 impl Place {
     /// Whether it is the clamp at `position` \[m\].
     pub fn is_clamp_at(self, position: f64) -> bool {
@@ -161,11 +171,8 @@ impl Run {
             }
             (Limited::Movement, _) => ends[0].max(ends[1]),
         };
-        let share = match quantity {
-            Limited::Force => self.error_estimate.relative,
-            Limited::Movement => self.error_estimate.parts.movement,
-        };
-        share * of.max(self.largest(place, quantity))
+        let error = &self.error_estimate;
+        quantity.of([error.relative, error.parts.movement]) * of.max(self.largest(place, quantity))
     }
 
     /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size

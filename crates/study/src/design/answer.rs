@@ -22,7 +22,7 @@ pub struct Design {
     pub passes: u64,
     /// The limits.
     pub limits: Limits,
-    /// Of one spring, the stiffnesses within all limits \[N/m\], from and to; no upper one where a
+    /// The stiffnesses within all limits \[N/m\], from and to; no upper one where a
     /// fixed end is within them too. `None` where only a fixed end or no stiffness is.
     pub range_n_per_m: Option<(f64, Option<f64>)>,
     /// What to take: within the limits, with margins to them. `None` where nothing stays within
@@ -30,8 +30,8 @@ pub struct Design {
     pub answer: Option<TradeOff>,
     /// Where nothing stays within the limits, what comes nearest to them.
     pub nearest: Option<TradeOff>,
-    /// The limits that bind: of one spring those at the ends of its range, else those that the
-    /// answer, or the nearest, is nearest to or exceeds most.
+    /// The limits that bind: those at the ends of the range, else those that the nearest is nearest to
+    /// or exceeds most.
     pub binding: Vec<Binding>,
     /// Limits that no stiffness at these places comes near, each with the least that one comes to: then
     /// the search ends there.
@@ -70,7 +70,7 @@ impl Design {
 /// to its limits.
 pub fn best(designs: &[Design]) -> Option<&Design> {
     let mut kept = designs.iter().filter(|design| design.answer.is_some());
-    let are_clamps = kept.all(|design| matches!(design.places[..], [Place::Clamp(_)]));
+    let are_clamps = kept.all(|design| design.places.iter().all(|place| place.end().is_none()));
     let rank = |design: &Design| match &design.answer {
         Some(answer) if are_clamps => (false, answer.stiffness()),
         answer => (answer.is_none(), design.excess()),

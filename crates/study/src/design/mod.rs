@@ -11,33 +11,24 @@
 //! days: the force of the hottest, the movement of the coldest. Where nothing keeps the limits, the
 //! nearest is that whose worst limit is exceeded by the smallest factor.
 //!
-//! Two springs at once are looked for on a map of both stiffnesses (module `pair_map`). Of all
-//! pairs within the limits that with the largest margin is taken: its largest share of a limit is
-//! the smallest. Where no movement is limited, it is that with which the ends move least.
+//! Two springs at once have the same stiffness, as a product has.
 //!
 //! All runs that are answers are made on one mesh, that which the stiffest end needs; the error
 //! that it leaves is stated at every point.
 //!
 //! # Limits
 //!
-//! One spring whose limits are kept in several ranges of stiffness is an error, since there is no
+//! Limits that are kept in several ranges of stiffness are an error, since there is no
 //! single one then.
 
 mod answer;
-pub mod compare;
-mod error;
 mod options;
-mod pair_map;
 mod runs;
 mod search;
 mod trade_off;
 
 pub use answer::{Design, best};
-pub use compare::compare;
 pub use creepage_run::{ClampLimits, Limits, Place};
-pub use error::DesignError;
-pub use options::DesignOptions;
-pub(crate) use pair_map::between;
-pub(crate) use runs::rough;
+pub use options::{DesignError, DesignOptions};
 pub use search::design;
-pub use trade_off::{Binding, ClampPeak, Side, Spring, TradeOff};
+pub use trade_off::{Binding, ClampPeak, Side, Spring, TradeOff, held};

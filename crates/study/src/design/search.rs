@@ -3,17 +3,14 @@
 use std::sync::Arc;
 
 use super::answer::{ACCURACY, Design};
-use super::error::DesignError;
-use super::options::DesignOptions;
-use super::pair_map;
-use super::runs::{ROUGH, Runs, rough, springs};
-use super::trade_off::{Binding, Limit, Side, Spring, TradeOff, out_of_reach, with_duct};
+use super::options::{DesignError, DesignOptions};
+use super::runs::{Runs, stiffnesses};
+use super::trade_off::{Binding, Limit, Side, TradeOff, out_of_reach, with_duct};
+use crate::shared_mesh::{ROUGH, rough};
 use creepage_plan::ground::{Ground, road};
 use creepage_run::{Error, Limits, Place};
 use creepage_scene::Scene;
 
-/// The curve of one spring has points in half decades.
-const POINTS_PER_DECADE: i32 = 2;
 /// Share of the progress of the rough runs, which come first if the scene's tolerance is below theirs; and by what factor of its limits a
 /// rough run leaves open whether they are kept.
 const ROUGH_SHARE: f64 = 0.2;
@@ -44,10 +41,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     scene.validate().map_err(Error::from)?;
     let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
     let limits = &options.limits;
-    let (runs, rough, chosen) = match options.places[..] {
-        [one, other] => pair_map::search(scene, &ground, [one, other], options)?,
-        _ => one_spring(scene, &ground, options)?,
-    };
+    let (runs, rough, chosen) = search(scene, &ground, options)?;
     let curve = runs.points();
     // Between two stiffnesses that keep a limit every other does; the run has the last word.
     let answer = chosen.filter(|answer| answer.within_limits);
@@ -55,7 +49,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let by_excess = |a: &&TradeOff, b: &&TradeOff| a.excess(limits).total_cmp(&b.excess(limits));
     let nearest = curve.iter().filter(|_| answer.is_none()).min_by(by_excess);
     let nearest = nearest.map(|nearest| runs.judged(nearest.clone())).transpose()?;
-    let kept = kept(&curve).filter(|_| options.places.len() == 1);
+    let kept = kept(&curve);
     let binding = match (&answer, &nearest, kept) {
         (Some(answer), _, Some(kept)) => binding(answer, &curve, kept, &with_duct(limits, scene)),
         (Some(found), ..) | (None, Some(found), _) => found.tightest(limits),
@@ -72,7 +66,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         passes: scene.traffic.passes,
         limits: limits.clone(),
         range_n_per_m: kept
-            .map(|kept| stiffnesses(&curve, kept))
+            .map(|kept| range(&curve, kept))
             .filter(|(from, _)| from.is_finite())
             .map(|(from, to)| (from, to.is_finite().then_some(to))),
         answer,
@@ -85,35 +79,26 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     })
 }
 
-/// The runs of the scene with one spring, the rough ones, and what to take of those within
-/// all limits. Where the curve shows none, the stiffness is halved in on at which the worst limit of
-/// softer springs is as far exceeded as that of stiffer ones.
-fn one_spring<'a>(
+/// The runs of the scene, the rough ones, and what to take of those within all limits. Where the
+/// curve shows none, the stiffness is halved in on at which the worst limit of softer springs is as
+/// far exceeded as that of stiffer ones.
+fn search<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
     options: &'a DesignOptions<'a>,
 ) -> Result<(Runs<'a>, Vec<TradeOff>, Option<TradeOff>), DesignError> {
-    let (place, limits) = (options.places[0], &options.limits);
-    let mut springs = springs(scene, place, limits, POINTS_PER_DECADE);
+    let limits = &options.limits;
+    let mut tried = stiffnesses(scene, options);
     let mut seen = Vec::new();
     let mut progress = options.progress;
     if scene.solver.tolerance < ROUGH {
         let part = progress.part(0.0, ROUGH_SHARE);
-        let runs = Runs::new(
-            &rough(scene),
-            ground,
-            &options.places,
-            limits,
-            part,
-            springs.len(),
-        )?;
-        seen = runs.run_all(springs.iter().map(|spring| vec![*spring]).collect())?;
-        springs = decisive(&seen, limits);
+        seen = Runs::new(&rough(scene), ground, options, part, tried.len())?.run_all(&tried)?;
+        tried = decisive(&seen, limits);
         progress = progress.part(ROUGH_SHARE, 1.0);
     }
-    let expected = springs.len() + HALVINGS;
-    let runs = Runs::new(scene, ground, &options.places, limits, progress, expected)?;
-    let curve = runs.run_all(springs.into_iter().map(|spring| vec![spring]).collect())?;
+    let runs = Runs::new(scene, ground, options, progress, tried.len() + HALVINGS)?;
+    let curve = runs.run_all(&tried)?;
     if !out_of_reach(&seen, limits).is_empty() {
         return Ok((runs, seen, None));
     }
@@ -130,15 +115,16 @@ fn one_spring<'a>(
         }
     }
     let points = runs.points();
-    let chosen = kept(&points).map(|kept| choice(place, stiffnesses(&points, kept)));
-    let chosen = chosen.map(|chosen| runs.run(&[Spring::new(place, chosen)]));
-    let chosen = chosen.transpose()?;
+    // No clamp is fixed.
+    let stiffest = points.last().map_or(f64::INFINITY, TradeOff::stiffness);
+    let chosen = kept(&points).map(|kept| choice(&options.places, range(&points, kept)));
+    let chosen = chosen.map(|chosen| runs.run(chosen.min(stiffest))).transpose()?;
     Ok((runs, seen, chosen))
 }
 
-/// Springs that a curve of rough runs leaves open: those near a limit, or beside one on its other side, the best and those
+/// Stiffnesses that a curve of rough runs leaves open: those near a limit, or beside one on its other side, the best and those
 /// beside it, and both ends of the curve; the best one alone where a limit is out of reach.
-fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<Spring> {
+fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<f64> {
     let excess = |at: usize| curve[at].excess(limits);
     let best = (0..curve.len()).min_by(|a, b| excess(*a).total_cmp(&excess(*b)));
     let best = best.unwrap_or_default();
@@ -153,7 +139,7 @@ fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<Spring> {
         around.len() < 3 || turns || is_near || at.abs_diff(best) <= 2
     };
     let open = (0..curve.len()).filter(|at| if is_hopeless { *at == best } else { is_open(at) });
-    open.map(|at| curve[at].springs[0]).collect()
+    open.map(|at| curve[at].stiffness()).collect()
 }
 
 /// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
@@ -180,11 +166,10 @@ fn halve(
     ends: [&TradeOff; 2],
     is_upper: impl Fn(&TradeOff) -> bool,
 ) -> Result<(), DesignError> {
-    let place = ends[0].springs[0].place;
     let [mut softer, mut stiffer] = ends.map(TradeOff::stiffness);
     while softer > 0.0 && stiffer.is_finite() && stiffer > (1.0 + ACCURACY) * softer {
         let middle = (softer * stiffer).sqrt();
-        if is_upper(&runs.run(&[Spring::new(place, middle)])?) {
+        if is_upper(&runs.run(middle)?) {
             stiffer = middle;
         } else {
             softer = middle;
@@ -201,7 +186,7 @@ fn kept(curve: &[TradeOff]) -> Option<[usize; 2]> {
 
 /// The stiffnesses from the first to the last point that is kept \[N/m\]; to infinity where the
 /// stiffest is.
-fn stiffnesses(curve: &[TradeOff], [first, last]: [usize; 2]) -> (f64, f64) {
+fn range(curve: &[TradeOff], [first, last]: [usize; 2]) -> (f64, f64) {
     let beyond = curve.get(last + 1);
     let to = beyond.map_or(f64::INFINITY, |_| curve[last].stiffness());
     (curve[first].stiffness(), to)
@@ -219,12 +204,12 @@ fn binding(answer: &TradeOff, curve: &[TradeOff], kept: [usize; 2], limits: &[Li
     binding
 }
 
-/// What to take of the stiffnesses that keep the limits. An end that may be fixed is fixed, and a
-/// clamp that is not needed is left out; an end is held as stiffly as the force allows, or in the
-/// middle of the range where movement is limited too; a clamp is as soft as may be.
-fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
-    match place {
-        Place::Clamp(_) => from,
+/// What to take of the stiffnesses that keep the limits. Ends that may be fixed are fixed, and a
+/// clamp that is not needed is left out; ends are held as stiffly as the force allows, or in the
+/// middle of the range where movement is limited too; clamps alone are as soft as may be.
+fn choice(places: &[Place], (from, to): (f64, f64)) -> f64 {
+    match to {
+        _ if places.iter().all(|place| place.end().is_none()) => from,
         _ if to.is_infinite() || from == 0.0 => to,
         _ => (from * to).sqrt(),
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error::DesignError;
+use super::options::DesignOptions;
 use creepage_run::{Error, Limited, Limits, Place, Run, answer::largest_movement_in_duct};
 use creepage_scene::{CableEnd, End, Restraint, Scene};
 
@@ -12,7 +12,7 @@ pub type Limit = (Place, Limited, f64);
 /// Limits bind whose share is this near to the largest.
 const BINDS: f64 = 0.95;
 
-/// A spring at one place.
+/// A spring at one of the places.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
     /// Where it is.
@@ -37,13 +37,13 @@ pub struct ClampPeak {
     pub slipped_m: Option<f64>,
 }
 
-/// A scene's answer with one stiffness, or with two.
+/// A scene's answer with springs of one stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TradeOff {
-    /// Stiffness of the first spring \[N/m\]; `None` where the end is fixed.
+    /// Stiffness of the springs \[N/m\]; `None` where the end is fixed.
     pub stiffness_n_per_m: Option<f64>,
-    /// All springs that were varied.
+    /// Where they are.
     pub springs: Vec<Spring>,
     /// Largest force on either end \[N\].
     pub force_n: f64,
@@ -89,7 +89,7 @@ pub struct Binding {
     pub limit: f64,
     /// What the answer, or the nearest, comes to \[N or m\].
     pub value: f64,
-    /// Of one spring within the limits: which others exceed it.
+    /// Where springs are within the limits: which others exceed it.
     pub exceeded_by: Option<Side>,
 }
 
@@ -124,71 +124,45 @@ pub(super) fn out_of_reach(points: &[TradeOff], limits: &Limits) -> Vec<Binding>
     limits.all().filter_map(nearest).collect()
 }
 
-impl Spring {
-    /// A spring of this stiffness \[N/m\] at `place`: 0 is a free end or no clamp, infinity a fixed
-    /// end.
-    pub fn new(place: Place, stiffness: f64) -> Self {
-        Self {
-            place,
-            stiffness_n_per_m: (stiffness != f64::INFINITY).then_some(stiffness),
+/// The valid scene with springs of this stiffness \[N/m\] at `places`: 0 is a free end or no clamp,
+/// infinity a fixed end.
+///
+/// # Errors
+///
+/// [`Error`] where that has no meaning there.
+pub fn held(scene: &Scene, places: &[Place], stiffness: f64) -> Result<Scene, Error> {
+    let mut scene = scene.clone();
+    let held = match stiffness {
+        0.0 => End::Free,
+        f64::INFINITY => End::Fixed,
+        _ => End::Spring(stiffness),
+    };
+    for place in places {
+        match *place {
+            Place::Upstream => scene.ends.upstream = held,
+            Place::Downstream => scene.ends.downstream = held,
+            Place::Clamp(_) if held == End::Free => {}
+            Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
         }
     }
-
-    /// Its stiffness \[N/m\], infinite where the end is fixed.
-    pub fn stiffness(&self) -> f64 {
-        self.stiffness_n_per_m.unwrap_or(f64::INFINITY)
-    }
-
-    /// Refuses a place outside the duct, and a stiffness that has no meaning there.
-    pub(super) fn check(&self, scene: &Scene) -> Result<(), DesignError> {
-        let stiffness = self.stiffness();
-        let (name, found, allowed) = match self.place {
-            Place::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
-                let allowed = "a position in the duct, from 0 m to its length";
-                ("position of the clamp", position, allowed)
-            }
-            place if stiffness >= 0.0 && (place.end().is_some() || stiffness.is_finite()) => return Ok(()),
-            _ => ("stiffness", stiffness, "at least 0, and finite for a clamp"),
-        };
-        Err(DesignError::Invalid { name, found, allowed })
-    }
-
-    /// The valid scene with these springs.
-    ///
-    /// # Errors
-    ///
-    /// [`DesignError`] where one has no meaning there.
-    pub fn hold(springs: &[Self], scene: &Scene) -> Result<Scene, DesignError> {
-        let mut scene = scene.clone();
-        for spring in springs {
-            spring.check(&scene)?;
-            let stiffness = spring.stiffness();
-            let held = match stiffness {
-                0.0 => End::Free,
-                f64::INFINITY => End::Fixed,
-                _ => End::Spring(stiffness),
-            };
-            match spring.place {
-                Place::Upstream => scene.ends.upstream = held,
-                Place::Downstream => scene.ends.downstream = held,
-                Place::Clamp(_) if held == End::Free => {}
-                Place::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
-            }
-        }
-        scene.validate().map_err(Error::from)?;
-        Ok(scene)
-    }
+    scene.validate()?;
+    Ok(scene)
 }
 
 impl TradeOff {
-    /// What `run` gives for `scene` with `springs`.
-    pub fn of(scene: &Scene, run: &Run, springs: &[Spring], limits: &Limits) -> Self {
+    /// What `run` gives for `scene` with springs of this stiffness \[N/m\].
+    pub(super) fn of(scene: &Scene, run: &Run, stiffness: f64, options: &DesignOptions<'_>) -> Self {
+        let stiffness_n_per_m = (stiffness != f64::INFINITY).then_some(stiffness);
+        let springs = options.places.iter().map(|&place| Spring {
+            place,
+            stiffness_n_per_m,
+        });
         let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
         let [upstream_force_n, downstream_force_n] = of_ends(Limited::Force);
         let [upstream_movement_m, downstream_movement_m] = of_ends(Limited::Movement);
         let movement_m = upstream_movement_m.max(downstream_movement_m);
-        let mut clamped = springs.iter().filter(|spring| spring.stiffness() > 0.0);
-        let is_clamped = clamped.any(|spring| spring.place.end().is_none());
+        let mut clamped = options.places.iter().filter(|_| stiffness > 0.0);
+        let is_clamped = clamped.any(|place| place.end().is_none());
         let clamp = run.restraints.last().filter(|_| is_clamped);
         let clamps = run.restraints.iter().map(|clamp| {
             let place = Place::Clamp(clamp.position_m);
@@ -200,8 +174,8 @@ impl TradeOff {
             }
         });
         let mut point = Self {
-            stiffness_n_per_m: springs.first().and_then(|spring| spring.stiffness_n_per_m),
-            springs: springs.to_vec(),
+            stiffness_n_per_m,
+            springs: springs.collect(),
             force_n: upstream_force_n.max(downstream_force_n),
             movement_m,
             upstream_force_n,
@@ -216,7 +190,7 @@ impl TradeOff {
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
-        for verdict in limits.verdicts(run) {
+        for verdict in options.limits.verdicts(run) {
             let limit = (verdict.end, verdict.quantity, verdict.limit);
             let later = verdict.levels_off_above;
             let later = later.map(|value| Binding {
@@ -225,11 +199,11 @@ impl TradeOff {
             });
             point.exceeded_later.extend(later);
         }
-        point.within_limits = point.excess(limits) <= 1.0;
+        point.within_limits = point.excess(&options.limits) <= 1.0;
         point
     }
 
-    /// Stiffness of the first spring \[N/m\], infinite where the end is fixed.
+    /// The same stiffness, infinite where the end is fixed.
     pub(super) fn stiffness(&self) -> f64 {
         self.stiffness_n_per_m.unwrap_or(f64::INFINITY)
     }
@@ -254,10 +228,7 @@ impl TradeOff {
             Place::Downstream => (self.downstream_force_n, self.downstream_movement_m),
             Place::Clamp(_) => clamp.map_or((0.0, 0.0), |clamp| (clamp.force_n, clamp.movement_m)),
         };
-        match quantity {
-            Limited::Force => force,
-            Limited::Movement => movement,
-        }
+        quantity.of([force, movement])
     }
 
     /// What of it is beside a limit, at most 1 within the limit.

@@ -1,20 +1,20 @@
 //! What a comparison of measures answers. The names of the fields are those of the JSON document.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::unknown::{Combination, middle};
-use creepage_run::{Limited, Place, Verdict};
-use creepage_scene::{Cost, Ends, Restraint, Uncertain};
+use creepage_run::{Limited, Limits, Place, Run, Verdict};
+use creepage_scene::{CableEnd, Cost, Ends, Restraint, Uncertain};
 
 /// One measure with one combination of what is not known.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Outcome {
     /// The values of all unknowns.
     pub at: Combination,
     /// Whether it was computed on the coarse mesh that all share; else with the scene's own tolerance.
     #[serde(skip)]
     pub rough: bool,
-    /// What it makes of each limit, and of the duct's end, first the limit that is nearest or exceeded most; none where the run failed.
+    /// What it makes of each limit, and of the duct's end.
     pub verdicts: Vec<Verdict>,
     /// Largest force on an end \[N\].
     pub force_n: f64,
@@ -22,64 +22,77 @@ pub struct Outcome {
     pub movement_m: f64,
     /// Largest force on a clamp \[N\]; none without clamps.
     pub clamp_force_n: Option<f64>,
-    /// Why the run failed.
-    #[serde(skip)]
-    pub failure: Option<String>,
+}
+
+/// An outcome, its verdicts from the limit that is nearest or exceeded most, and that limit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Nearest {
+    /// The end or clamp.
+    pub end: Place,
+    /// What is limited there.
+    pub quantity: Limited,
+    /// What it comes to \[N or m\].
+    pub value: f64,
+    /// The limit \[N or m\].
+    pub limit: f64,
+    /// All of it.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// A combination that could not be computed, and why.
+pub type Failure = (Combination, String);
+
+/// What a verdict's value is of its limit.
+pub(super) fn share(verdict: &Verdict) -> f64 {
+    verdict.largest / verdict.limit
 }
 
 impl Outcome {
-    /// What the largest is of its limit: at most 1 within all limits. Nothing is known of a run that failed.
+    /// What `run` comes to with the combination `at`.
+    pub(super) fn of(run: &Run, at: &Combination, rough: bool, limits: &Limits) -> Self {
+        let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
+        let [forces, movements] = [Limited::Force, Limited::Movement].map(of_ends);
+        let clamps = run.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
+        let clamps = clamps.map(|clamp| run.largest(clamp, Limited::Force));
+        Self {
+            at: at.clone(),
+            rough,
+            verdicts: limits.verdicts(run),
+            force_n: forces[0].max(forces[1]),
+            movement_m: movements[0].max(movements[1]),
+            clamp_force_n: clamps.reduce(f64::max),
+        }
+    }
+
+    /// What the largest is of its limit: at most 1 within all limits.
     pub fn share(&self) -> f64 {
         self.verdicts.iter().map(share).fold(0.0, f64::max)
     }
 
-    /// Whether it was computed and keeps all limits, with the scene's tolerance by more than the estimated error.
+    /// Whether it keeps all limits, with the scene's tolerance by more than the estimated error.
     pub fn holds(&self) -> bool {
         let is_kept = |verdict: &Verdict| share(verdict) <= 1.0 && (self.rough || !verdict.doubtful);
-        self.failure.is_none() && self.verdicts.iter().all(is_kept)
+        self.verdicts.iter().all(is_kept)
     }
 
-    /// The same with the verdict first that is nearest to its limit.
-    pub(super) fn sorted(&self) -> Self {
-        let mut sorted = self.clone();
-        sorted.verdicts.sort_by(|a, b| share(b).total_cmp(&share(a)));
-        sorted
-    }
-
-    /// Whether its combination is `at` but for this key.
-    pub fn differs_only_in(&self, key: &str, at: &Combination) -> bool {
-        self.at.iter().all(|(own, value)| own == key || at[own] == *value)
-    }
-}
-
-/// The outcome with its nearest limit beside it.
-#[expect(clippy::ref_option, reason = "serde hands fields by reference")]
-fn with_nearest<S: Serializer>(outcome: &Option<Outcome>, serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Nearest<'o> {
-        end: Place,
-        quantity: Limited,
-        value: f64,
-        limit: f64,
-        #[serde(flatten)]
-        outcome: &'o Outcome,
-    }
-    let nearest = outcome.as_ref().and_then(|outcome| {
-        let verdict = outcome.verdicts.first()?;
-        Some(Nearest {
+    /// The same beside its nearest limit.
+    pub(super) fn nearest(&self) -> Option<Nearest> {
+        let mut outcome = self.clone();
+        outcome.verdicts.sort_by(|a, b| share(b).total_cmp(&share(a)));
+        outcome.verdicts.first().copied().map(|verdict| Nearest {
             end: verdict.end,
             quantity: verdict.quantity,
             value: verdict.largest,
             limit: verdict.limit,
             outcome,
         })
-    });
-    nearest.serialize(serializer)
-}
+    }
 
-/// What a verdict's value is of its limit.
-pub(super) fn share(verdict: &Verdict) -> f64 {
-    verdict.largest / verdict.limit
+    /// Whether its combination is `at` but for this key.
+    pub fn differs_only_in(&self, key: &str, at: &Combination) -> bool {
+        self.at.iter().all(|(own, value)| own == key || at[own] == *value)
+    }
 }
 
 /// A measure in all combinations.
@@ -100,17 +113,24 @@ pub struct MeasureAnswer {
     /// In how many of the combinations it keeps them.
     pub kept: usize,
     /// The worst combination; null where every run failed.
-    #[serde(serialize_with = "with_nearest")]
-    pub worst: Option<Outcome>,
+    pub worst: Option<Nearest>,
     /// The middle of all intervals, on the coarse mesh unless it is near a limit.
-    #[serde(serialize_with = "with_nearest")]
-    pub nominal: Option<Outcome>,
-    /// Runs that failed: combination and reason.
+    pub nominal: Option<Nearest>,
+    /// Runs that failed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub failures: Vec<(Combination, String)>,
+    pub failures: Vec<Failure>,
     /// All that was computed.
     #[serde(skip)]
     pub outcomes: Vec<Outcome>,
+}
+
+impl MeasureAnswer {
+    /// What the worst is of its limit.
+    pub fn share(&self) -> f64 {
+        self.worst
+            .as_ref()
+            .map_or(f64::INFINITY, |worst| worst.value / worst.limit)
+    }
 }
 
 /// Measures side by side.
@@ -152,15 +172,8 @@ impl Comparison {
     }
 }
 
-impl MeasureAnswer {
-    /// What the worst is of its limit.
-    pub fn share(&self) -> f64 {
-        worst(&self.outcomes).map_or(f64::INFINITY, Outcome::share)
-    }
-}
-
 /// The combination that comes nearest to a limit, or exceeds one most.
-pub fn worst<'o>(outcomes: impl IntoIterator<Item = &'o Outcome>) -> Option<&'o Outcome> {
-    let computed = outcomes.into_iter().filter(|outcome| outcome.failure.is_none());
-    computed.max_by(|a, b| a.share().total_cmp(&b.share()))
+pub(super) fn worst<'o>(outcomes: impl IntoIterator<Item = &'o Outcome>) -> Option<&'o Outcome> {
+    let all = outcomes.into_iter();
+    all.max_by(|a, b| a.share().total_cmp(&b.share()))
 }

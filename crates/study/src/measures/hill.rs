@@ -15,13 +15,9 @@ const APART: f64 = 0.04;
 
 /// The combination at which the worst may be worse than at all `outcomes`.
 pub fn top(outcomes: &[Outcome]) -> Option<Combination> {
-    let computed: Vec<&Outcome> = outcomes
-        .iter()
-        .filter(|outcome| outcome.failure.is_none())
-        .collect();
-    let highest = computed.iter().map(|outcome| outcome.share()).fold(0.0, f64::max);
-    let tops = computed.iter().flat_map(|point| {
-        let along = |key: &String| top_along(&computed, point, key);
+    let highest = outcomes.iter().map(Outcome::share).fold(0.0, f64::max);
+    let tops = outcomes.iter().flat_map(|point| {
+        let along = |key: &String| top_along(outcomes, point, key);
         point.at.keys().filter_map(along)
     });
     let higher = tops.filter(|(_, share)| *share > (1.0 + GAIN) * highest);
@@ -30,7 +26,7 @@ pub fn top(outcomes: &[Outcome]) -> Option<Combination> {
 }
 
 /// The top of the hill along one unknown, if `point` is the highest of its line: where it is, and how high.
-fn top_along(all: &[&Outcome], point: &Outcome, key: &str) -> Option<(Combination, f64)> {
+fn top_along(all: &[Outcome], point: &Outcome, key: &str) -> Option<(Combination, f64)> {
     let line = all.iter().filter(|other| other.differs_only_in(key, &point.at));
     let mut line: Vec<(f64, f64)> = line.map(|other| (other.at[key], other.share())).collect();
     line.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -65,8 +61,11 @@ mod tests {
         let at = at.iter().map(|(key, value)| ((*key).to_owned(), *value));
         Outcome {
             at: at.collect(),
+            rough: true,
             verdicts: vec![verdict],
-            ..Outcome::default()
+            force_n: 0.0,
+            movement_m: 0.0,
+            clamp_force_n: None,
         }
     }
 

@@ -14,6 +14,6 @@ mod study;
 mod unknown;
 mod ways;
 
-pub use answer::{Comparison, MeasureAnswer, Outcome};
+pub use answer::{Comparison, Failure, MeasureAnswer, Nearest, Outcome};
 pub use study::Study;
 pub use unknown::{Combination, FRICTION_KEY};

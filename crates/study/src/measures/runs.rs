@@ -5,14 +5,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::answer::Outcome;
+use super::answer::{Failure, Outcome};
 use super::unknown::{Combination, MOST_COMBINATIONS};
-use crate::design;
+use crate::shared_mesh::{SharedMesh, rough};
 use creepage_plan::ground::KnownGrounds;
-use creepage_plan::plan_over;
+use creepage_plan::{plan_over, with_causes};
 use creepage_run::answer::largest_movement_in_duct;
 use creepage_run::run::run_over;
-use creepage_run::{Error, FixedMesh, Limited, Limits, Place, Progress, Run, RunOptions};
+use creepage_run::{Error, Limits, Progress, Run, RunOptions};
 use creepage_scene::{CableEnd, End, Measure, Scene, SceneFile};
 
 /// What a run with the scene's own tolerance costs, in rough runs: 3 to 60. Both kinds are mixed, so that the progress hardly depends on it.
@@ -26,9 +26,8 @@ pub struct Runs<'a> {
     file: &'a SceneFile,
     limits: LimitsOf<'a>,
     progress: Progress<'a>,
-    /// Node spacing and vehicle step of rough runs \[m\], and what one of them has shown.
-    mesh: (f64, f64),
-    shown: Option<FixedMesh>,
+    /// The mesh of rough runs.
+    mesh: Option<SharedMesh>,
     grounds: KnownGrounds,
     /// How many there were, what they cost and what all will [rough runs].
     made: AtomicUsize,
@@ -36,9 +35,28 @@ pub struct Runs<'a> {
     expected: usize,
 }
 
+/// A measure, and what it comes to in some combinations.
+pub struct Tried {
+    pub measure: Measure,
+    pub outcomes: Vec<Outcome>,
+    pub failures: Vec<Failure>,
+}
+
+impl Tried {
+    /// The largest share of a limit; a run that failed is worse than any.
+    pub fn largest(&self) -> f64 {
+        let failed = self.failures.iter().map(|_| f64::INFINITY);
+        self.outcomes
+            .iter()
+            .map(Outcome::share)
+            .chain(failed)
+            .fold(0.0, f64::max)
+    }
+}
+
 impl<'a> Runs<'a> {
-    /// Runs of which so many are expected, rough and with the scene's own tolerance. Rough ones take the jumps of a run in the `middle` of
-    /// what is not known, with fixed ends.
+    /// Runs of which so many are expected, rough and with the scene's own tolerance. Rough ones are on the mesh with which a rough run
+    /// begins, six nodes per depth as a rule, and take the jumps of one in the `middle` of what is not known, with fixed ends.
     pub fn new(
         file: &'a SceneFile,
         middle: &Combination,
@@ -50,38 +68,26 @@ impl<'a> Runs<'a> {
             file,
             limits,
             progress,
-            mesh: (0.0, 0.0),
-            shown: None,
+            mesh: None,
             grounds: KnownGrounds::new(MOST_COMBINATIONS),
             made: AtomicUsize::new(0),
             cost: AtomicUsize::new(0),
             expected: expected[0] + OWN_COST * expected[1],
         };
-        let mut scene = runs.scene(middle)?;
+        let scene = runs.scene(middle)?;
         let ground = runs.grounds.of(&scene)?;
-        scene = design::rough(&scene);
+        let mut scene = rough(&scene);
         let levels = plan_over(&scene, Arc::clone(&ground))?.levels;
-        runs.mesh = levels.spacing(levels.first);
+        let (spacing, step) = levels.spacing(levels.first);
+        scene.solver.node_spacing.get_or_insert(spacing);
+        scene.solver.vehicle_step.get_or_insert(step);
         scene.ends.upstream = End::Fixed;
         scene.ends.downstream = End::Fixed;
-        // It may be stopped, but its share of the work is not counted.
-        let options = RunOptions {
-            progress: progress.part(0.0, 0.0),
-            ..RunOptions::default()
-        };
-        runs.shown = match run_over(&runs.rough(&scene), ground, &options) {
+        runs.mesh = match SharedMesh::of(&scene, &ground, progress) {
             Err(Error::Stopped) => return Err(Error::Stopped),
-            run => run.ok().and_then(|run| run.shown),
+            mesh => mesh.ok(),
         };
         Ok(runs)
-    }
-
-    /// The scene on the mesh that is shared: the one with which a rough run begins, six nodes per depth as a rule.
-    fn rough(&self, scene: &Scene) -> Scene {
-        let mut scene = design::rough(scene);
-        scene.solver.node_spacing.get_or_insert(self.mesh.0);
-        scene.solver.vehicle_step.get_or_insert(self.mesh.1);
-        scene
     }
 
     /// The scene with this combination.
@@ -90,64 +96,54 @@ impl<'a> Runs<'a> {
         Ok(self.file.with(&overrides)?.scene()?)
     }
 
-    /// What the scene comes to with `measure` in each of these combinations. A run that fails is an outcome with its error.
+    /// Rough runs of the scene with `measure` in each of these combinations.
     ///
     /// # Errors
     ///
-    /// [`Error::Stopped`] where the progress stops it.
-    pub fn rough_runs(&self, measure: &Measure, all: &[Combination]) -> Result<Vec<Outcome>, Error> {
-        all.par_iter().map(|at| self.run(measure, at, true)).collect()
+    /// [`Error::Stopped`] where the progress stops it. A run that fails is stated.
+    pub fn tried(&self, measure: &Measure, all: &[Combination]) -> Result<Tried, Error> {
+        let run = |at| self.run(measure, at, true);
+        let runs: Vec<_> = all.par_iter().map(run).collect::<Result<_, _>>()?;
+        let (outcomes, failures): (Vec<_>, Vec<_>) = runs.into_iter().partition(Result::is_ok);
+        Ok(Tried {
+            measure: measure.clone(),
+            outcomes: outcomes.into_iter().flatten().collect(),
+            failures: failures.into_iter().filter_map(Result::err).collect(),
+        })
     }
 
     /// The same in one of them, rough or not.
-    pub fn run(&self, measure: &Measure, at: &Combination, rough: bool) -> Result<Outcome, Error> {
-        let mut outcome = Outcome {
-            at: at.clone(),
-            rough,
-            ..Outcome::default()
-        };
-        match self.computed(measure, at, rough) {
+    pub fn run(
+        &self,
+        measure: &Measure,
+        at: &Combination,
+        rough: bool,
+    ) -> Result<Result<Outcome, Failure>, Error> {
+        let run = match self.computed(measure, at, rough) {
             Err(Error::Stopped) => return Err(Error::Stopped),
-            Err(error) => outcome.failure = Some(creepage_plan::with_causes(&error)),
-            Ok((scene, run)) => {
-                let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
-                let [forces, movements] = [Limited::Force, Limited::Movement].map(of_ends);
-                let clamps = run.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
-                let clamps = clamps.map(|clamp| run.largest(clamp, Limited::Force));
-                outcome.verdicts = self.limits_in_duct(&scene).verdicts(&run);
-                outcome.force_n = forces[0].max(forces[1]);
-                outcome.movement_m = movements[0].max(movements[1]);
-                outcome.clamp_force_n = clamps.reduce(f64::max);
-            }
-        }
+            Err(error) => Err((at.clone(), with_causes(&error))),
+            Ok((scene, run)) => Ok(Outcome::of(&run, at, rough, &self.limits_in_duct(&scene))),
+        };
         self.made.fetch_add(1, Ordering::Relaxed);
         let own = if rough { 1 } else { OWN_COST };
         let cost = own + self.cost.fetch_add(own, Ordering::Relaxed);
         self.progress
             .report((cost as f64 / self.expected as f64).min(1.0))?;
-        Ok(outcome)
+        Ok(run)
     }
 
-    fn computed(&self, measure: &Measure, at: &Combination, rough: bool) -> Result<(Scene, Run), Error> {
+    fn computed(&self, measure: &Measure, at: &Combination, is_rough: bool) -> Result<(Scene, Run), Error> {
         let mut scene = self.scene(at)?;
         let ground = self.grounds.of(&scene)?;
         scene = measure.applied(&scene);
         scene.validate()?;
-        let run = |scene: &Scene, mesh| {
-            let options = RunOptions {
-                mesh,
-                ..RunOptions::default()
-            };
-            run_over(scene, Arc::clone(&ground), &options)
+        let run = |scene: &Scene| run_over(scene, Arc::clone(&ground), &RunOptions::default());
+        let run = match &self.mesh {
+            _ if !is_rough => run(&scene)?,
+            // Where that mesh is too coarse, a run finds its own.
+            Some(mesh) => (mesh.run(&rough(&scene), &ground)).or_else(|_| run(&rough(&scene)))?,
+            None => run(&rough(&scene))?,
         };
-        if !rough {
-            return Ok((scene.clone(), run(&scene, None)?));
-        }
-        if let Ok(run) = run(&self.rough(&scene), self.shown) {
-            return Ok((scene, run));
-        }
-        // Where that mesh is too coarse, a run finds its own.
-        let run = run(&design::rough(&scene), None)?;
         Ok((scene, run))
     }
 

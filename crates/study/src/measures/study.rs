@@ -4,11 +4,12 @@ use rayon::prelude::*;
 
 use super::answer::{Comparison, MeasureAnswer, Outcome, share, worst};
 use super::hill::top;
-use super::runs::{LimitsOf, Runs};
+use super::runs::{LimitsOf, Runs, Tried};
 use super::unknown::{Combination, combinations, middle, unknowns};
 use super::ways::{Way, stiffness, ways, with_stiffness};
-use crate::design::{DesignError, between};
-use creepage_run::{Error, Limited, Place, Progress};
+use crate::design::DesignError;
+use crate::springs::read;
+use creepage_run::{Error, Place, Progress};
 use creepage_scene::{Cost, Measure, Scene, SceneFile, Uncertain};
 
 /// Runs closer around the worst of one measure, at most.
@@ -30,12 +31,7 @@ pub struct Study {
     unknowns: Vec<Uncertain>,
     assumed: bool,
     combinations: Vec<Combination>,
-}
-
-/// A measure that was computed.
-struct Tried {
-    measure: Measure,
-    outcomes: Vec<Outcome>,
+    ways: Vec<Way>,
 }
 
 impl Study {
@@ -48,8 +44,9 @@ impl Study {
         let scene = file.scene().map_err(Error::from)?;
         let (unknowns, assumed) = unknowns(&scene)?;
         Ok(Self {
-            combinations: combinations(&unknowns)?,
             file: file.clone(),
+            combinations: combinations(&unknowns)?,
+            ways: ways(&scene),
             unknowns,
             assumed,
             scene,
@@ -58,7 +55,7 @@ impl Study {
 
     /// The clamps of all measures that are compared.
     pub fn clamps(&self) -> Vec<Place> {
-        let all = ways(&self.scene).into_iter().flatten();
+        let all = self.ways.iter().flatten();
         let clamps = all.flat_map(|measure| measure.applied(&self.scene).restraints);
         clamps.map(|clamp| Place::Clamp(clamp.position)).collect()
     }
@@ -66,12 +63,12 @@ impl Study {
     /// How many combinations, measures and, at most, runs there are: each rough and with the scene's tolerance, and twice where a stiffness
     /// or a place is looked for, that in two and then in three combinations.
     pub fn size(&self) -> [usize; 3] {
-        let (ways, count) = (ways(&self.scene), self.combinations.len());
+        let count = self.combinations.len();
         let runs = |way: &Way| match way.len() {
             1 => 2 * (count + CLOSER),
             candidates => 3 * (count + CLOSER) + (2 + 3) * candidates,
         };
-        [count, ways.len(), ways.iter().map(runs).sum()]
+        [count, self.ways.len(), self.ways.iter().map(runs).sum()]
     }
 
     /// Compares the measures by these limits.
@@ -80,114 +77,88 @@ impl Study {
     ///
     /// [`Error`] where the middle of all intervals is no valid scene, or `progress` stops it. Every other run that fails is stated.
     pub fn compare(&self, limits: LimitsOf<'_>, progress: Progress<'_>) -> Result<Comparison, Error> {
-        let ways = ways(&self.scene);
-        let usual = |way: &Way| self.combinations.len() + if way.len() > 1 { 2 * way.len() + 1 } else { 1 };
-        let expected = [ways.iter().map(usual).sum(), ways.len()];
+        let is_sought = |way: &Way| way.len() > 1;
+        let usual = |way: &Way| self.combinations.len() + if is_sought(way) { 2 * way.len() + 1 } else { 1 };
+        let expected = [self.ways.iter().map(usual).sum(), self.ways.len()];
         let runs = Runs::new(&self.file, &middle(&self.unknowns), limits, progress, expected)?;
         // Stiffnesses and places are chosen for the worst combinations of what comes first.
-        let is_sought = |way: &Way| way.len() > 1;
-        let (first, others) = ways.split_at(ways.iter().position(is_sought).unwrap_or(ways.len()));
+        let (first, others) = self
+            .ways
+            .split_at(self.ways.partition_point(|way| !is_sought(way)));
         let of_all = |ways: &[Way], critical: &[Combination]| {
             let decided = |way: &Way| self.decided(&runs, self.sought(&runs, way, critical)?);
             ways.par_iter().map(decided).collect::<Result<Vec<_>, Error>>()
         };
         let mut measures = of_all(first, &[])?;
-        let asked = |measure: &MeasureAnswer| {
-            let asked = measure.outcomes.iter().filter(|outcome| self.asks(outcome));
-            worst(asked).map(|outcome| outcome.at.clone())
-        };
+        let asked = |measure: &MeasureAnswer| Some(worst(self.asked(&measure.outcomes))?.at.clone());
         let mut critical: Vec<Combination> = measures.iter().filter_map(asked).collect();
         critical.dedup();
         measures.extend(of_all(others, &critical)?);
         Ok(self.answer(runs.made(), measures))
     }
 
-    fn asks(&self, outcome: &Outcome) -> bool {
-        self.combinations.contains(&outcome.at)
+    /// Those of the combinations, without what lies between them.
+    fn asked<'o>(&self, outcomes: &'o [Outcome]) -> impl Iterator<Item = &'o Outcome> {
+        let all = outcomes.iter();
+        all.filter(|outcome| self.combinations.contains(&outcome.at))
     }
 
     /// The best of a way in the `critical` combinations, and in those that prove worse with it (cutting planes: J. E. Kelley, J. SIAM 8
     /// (1960) 703).
     fn sought(&self, runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Tried, Error> {
-        let first = self.tried(runs, best(runs, way, critical)?)?;
-        let (most, worst) = (largest(&first.outcomes), worst(&first.outcomes));
+        let first = self.tried(runs, &best(runs, way, critical)?)?;
+        let most = first.largest();
         let is_as_bad =
             |outcome: &Outcome| critical.contains(&outcome.at) && outcome.share() >= AS_BAD * most;
-        let Some(worst) =
-            worst.filter(|_| way.len() > 1 && most > 1.0 && !first.outcomes.iter().any(is_as_bad))
-        else {
+        let is_good = way.len() == 1 || most <= 1.0 || first.outcomes.iter().any(is_as_bad);
+        let Some(worst) = worst(&first.outcomes).filter(|_| !is_good) else {
             return Ok(first);
         };
         let critical = [critical, std::slice::from_ref(&worst.at)].concat();
-        let second = self.tried(runs, best(runs, way, &critical)?)?;
-        Ok(if largest(&second.outcomes) < most {
-            second
-        } else {
-            first
-        })
+        let second = self.tried(runs, &best(runs, way, &critical)?)?;
+        Ok(if second.largest() < most { second } else { first })
     }
 
     /// The measure in all combinations, and closer around the worst.
-    fn tried(&self, runs: &Runs<'_>, measure: Measure) -> Result<Tried, Error> {
-        let mut outcomes = runs.rough_runs(&measure, &self.combinations)?;
+    fn tried(&self, runs: &Runs<'_>, measure: &Measure) -> Result<Tried, Error> {
+        let mut tried = runs.tried(measure, &self.combinations)?;
         for _ in 0..CLOSER {
-            let Some(at) = top(&outcomes) else { break };
-            outcomes.push(runs.run(&measure, &at, true)?);
-        }
-        Ok(Tried { measure, outcomes })
-    }
-
-    /// Runs the worst with the scene's tolerance; and all that is near a limit, until the measure is known to exceed one or to hold.
-    fn decide(runs: &Runs<'_>, measure: &Measure, all: &mut Vec<Outcome>) -> Result<(), Error> {
-        while let Some(next) = worst(all.iter().filter(|outcome| outcome.rough)).cloned() {
-            let decided = all.iter().filter(|outcome| !outcome.rough);
-            let count = decided.clone().count();
-            let known = decided.map(Outcome::share).fold(0.0, f64::max);
-            let is_near = (next.share() - 1.0).abs() < DOUBT && known <= 1.0;
-            if !is_near && (count == DECISIVE || next.share() <= known) {
-                break;
+            let Some(at) = top(&tried.outcomes) else { break };
+            match runs.run(measure, &at, true)? {
+                Ok(outcome) => tried.outcomes.push(outcome),
+                Err(failure) => tried.failures.push(failure),
             }
-            let own = runs.run(measure, &next.at, false)?;
-            // What the scene's tolerance changes there scales the others for what follows (space mapping: J. W. Bandler et al., IEEE
-            // Trans. Microwave Theory Tech. 42 (1994) 2536).
-            for outcome in all.iter_mut().filter(|outcome| outcome.rough) {
-                let known = next.verdicts.iter().zip(&own.verdicts);
-                for (verdict, (old, new)) in outcome.verdicts.iter_mut().zip(known) {
-                    let scale = new.largest / old.largest;
-                    verdict.largest *= if scale.is_finite() { scale } else { 1.0 };
-                }
-            }
-            all.retain(|outcome| outcome.at != next.at);
-            all.push(own);
         }
-        Ok(())
+        Ok(tried)
     }
 
     /// What is said of a measure.
-    fn decided(&self, runs: &Runs<'_>, tried: Tried) -> Result<MeasureAnswer, Error> {
+    fn decided(&self, runs: &Runs<'_>, mut tried: Tried) -> Result<MeasureAnswer, Error> {
+        let middle = middle(&self.unknowns);
+        let nominal = |outcomes: &[Outcome], rough: bool| {
+            let mut all = outcomes.iter();
+            all.find(|outcome| outcome.at == middle && outcome.rough == rough)?
+                .nearest()
+        };
+        let rough_nominal = nominal(&tried.outcomes, true);
+        decide(runs, &mut tried)?;
         let Tried {
             measure,
-            mut outcomes,
+            outcomes,
+            failures,
         } = tried;
-        let middle = middle(&self.unknowns);
-        let rough_nominal = outcomes.iter().find(|outcome| outcome.at == middle).cloned();
-        Self::decide(runs, &measure, &mut outcomes)?;
-        let is_nominal = |outcome: &&Outcome| outcome.at == middle && !outcome.rough;
-        let nominal = outcomes.iter().find(is_nominal).cloned().or(rough_nominal);
         let held = measure.applied(&self.scene);
-        let asked = outcomes.iter().filter(|outcome| self.asks(outcome));
-        let failure = |outcome: &Outcome| Some((outcome.at.clone(), outcome.failure.clone()?));
         Ok(MeasureAnswer {
             name: measure.name.clone(),
             ends: held.ends,
             restraints: held.restraints,
             cost: measure.cost.clone(),
             parts: measure.parts(),
-            within_limits: outcomes.iter().all(Outcome::holds),
-            kept: asked.filter(|outcome| outcome.holds()).count(),
-            worst: worst(&outcomes).map(Outcome::sorted),
-            nominal: nominal.as_ref().map(Outcome::sorted),
-            failures: outcomes.iter().filter_map(failure).collect(),
+            within_limits: failures.is_empty() && outcomes.iter().all(Outcome::holds),
+            kept: self.asked(&outcomes).filter(|outcome| outcome.holds()).count(),
+            worst: worst(&outcomes).and_then(Outcome::nearest),
+            nominal: nominal(&outcomes, false).or(rough_nominal),
+            failures,
             outcomes,
         })
     }
@@ -212,14 +183,11 @@ impl Study {
 
     /// The unknown whose best value helps most in the worst of the combinations.
     fn decides(&self, outcomes: &[Outcome]) -> Option<String> {
-        let asked = || {
-            outcomes
-                .iter()
-                .filter(|outcome| self.asks(outcome) && outcome.failure.is_none())
-        };
-        let worst = worst(asked())?;
+        let worst = worst(self.asked(outcomes))?;
         let least = |key: &str| {
-            let line = asked().filter(|outcome| outcome.differs_only_in(key, &worst.at));
+            let line = self
+                .asked(outcomes)
+                .filter(|outcome| outcome.differs_only_in(key, &worst.at));
             line.map(Outcome::share).fold(f64::INFINITY, f64::min)
         };
         let keys = worst.at.keys();
@@ -227,15 +195,41 @@ impl Study {
     }
 }
 
-/// The largest share of a limit; a run that failed is worse than any.
-fn largest(outcomes: &[Outcome]) -> f64 {
-    let share = |outcome: &Outcome| {
-        outcome
-            .failure
-            .as_ref()
-            .map_or(outcome.share(), |_| f64::INFINITY)
-    };
-    outcomes.iter().map(share).fold(0.0, f64::max)
+/// Runs the worst with the scene's tolerance; and all that is near a limit, until the measure is known to exceed one or to hold.
+fn decide(
+    runs: &Runs<'_>,
+    Tried {
+        measure,
+        outcomes,
+        failures,
+    }: &mut Tried,
+) -> Result<(), Error> {
+    let (mut count, mut known) = (0, 0.0);
+    while let Some(next) = worst(outcomes.iter().filter(|outcome| outcome.rough)).cloned() {
+        let is_near = (next.share() - 1.0).abs() < DOUBT && known <= 1.0;
+        if !is_near && (count == DECISIVE || next.share() <= known) {
+            break;
+        }
+        count += 1;
+        outcomes.retain(|outcome| outcome.at != next.at);
+        match runs.run(measure, &next.at, false)? {
+            Err(failure) => failures.push(failure),
+            Ok(own) => {
+                // What the scene's tolerance changes there scales the others for what follows (space mapping: J. W. Bandler et al., IEEE
+                // Trans. Microwave Theory Tech. 42 (1994) 2536).
+                for outcome in outcomes.iter_mut().filter(|outcome| outcome.rough) {
+                    let known = next.verdicts.iter().zip(&own.verdicts);
+                    for (verdict, (old, new)) in outcome.verdicts.iter_mut().zip(known) {
+                        let scale = new.largest / old.largest;
+                        verdict.largest *= if scale.is_finite() { scale } else { 1.0 };
+                    }
+                }
+                known = own.share().max(known);
+                outcomes.push(own);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The candidate with the smallest largest share of a limit in the `critical` combinations; of springs that with any stiffness, as a
@@ -244,33 +238,34 @@ fn best(runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Measure,
     if way.len() == 1 {
         return Ok(way[0].clone());
     }
-    let rows = way.par_iter().map(|measure| runs.rough_runs(measure, critical));
-    let rows: Vec<Vec<Outcome>> = rows.collect::<Result<_, _>>()?;
+    let rows = way.par_iter().map(|measure| runs.tried(measure, critical));
+    let rows: Vec<Tried> = rows.collect::<Result<_, _>>()?;
     let levels: Vec<f64> = way.iter().filter_map(stiffness).collect();
-    if levels.len() < way.len() || rows.iter().any(|row| largest(row).is_infinite()) {
-        let by_largest = |a: &usize, b: &usize| largest(&rows[*a]).total_cmp(&largest(&rows[*b]));
-        return Ok(way[(0..way.len()).min_by(by_largest).unwrap_or(0)].clone());
+    if levels.len() < way.len() || rows.iter().any(|row| !row.failures.is_empty()) {
+        let best = rows.iter().min_by(|a, b| a.largest().total_cmp(&b.largest()));
+        return Ok(best.map_or(&way[0], |best| &best.measure).clone());
     }
-    let at = |stiffness: f64| {
-        let limits = rows[0].iter().enumerate().flat_map(|(case, outcome)| {
+    let largest_with = |stiffness: f64| {
+        let cases = rows[0].outcomes.iter().enumerate();
+        let shares = cases.flat_map(|(case, outcome)| {
             let limits = outcome.verdicts.iter().enumerate();
             limits.map(move |(limit, verdict)| (case, limit, verdict.quantity))
         });
-        let read = |(case, limit, quantity): (usize, usize, Limited)| {
-            let there = between(&levels, stiffness, quantity)
-                .into_iter()
-                .filter(|(_, weight)| *weight > 0.0);
-            let inverse = there.map(|(row, weight)| weight / share(&rows[row][case].verdicts[limit]));
-            1.0 / inverse.sum::<f64>()
+        let read = |(case, limit, quantity): (usize, usize, _)| {
+            read(&levels, stiffness, quantity, |row| {
+                share(&rows[row].outcomes[case].verdicts[limit])
+            })
         };
-        limits.map(read).fold(0.0, f64::max)
+        shares.map(read).fold(0.0, f64::max)
     };
     let (first, last) = (levels[0], levels[levels.len() - 1]);
     let steps = ((last / first).log10() * PER_DECADE).ceil();
     let trials = (0..=steps as usize).map(|step| first * (last / first).powf(step as f64 / steps));
     // A product has a round stiffness.
     let round = |stiffness: f64| format!("{stiffness:.1e}").parse().unwrap_or(stiffness);
-    let best = trials.map(round).min_by(|a, b| at(*a).total_cmp(&at(*b)));
+    let best = trials
+        .map(round)
+        .min_by(|a, b| largest_with(*a).total_cmp(&largest_with(*b)));
     Ok(with_stiffness(&way[0], best.unwrap_or(first)))
 }
 
