@@ -69,7 +69,8 @@ fn days(criterion: &mut Criterion) {
             highest: SWING,
         };
         let day = Day::new(PER_DAY, 1, heat, knots)?;
-        let jumps = Jumps::new(5e-3, 1.2, (0.01 * LIMIT, 1e-6))?.with_start(3, 0.5)?;
+        let mut jumps = Jumps::new(5e-3, 1.2, (0.01 * LIMIT, 1e-6))?;
+        (jumps.first_periods, jumps.first_jump) = (4, 0.5);
         let request = DaysRequest {
             passes: days * PER_DAY,
             wanted: &[1],

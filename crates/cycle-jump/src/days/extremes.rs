@@ -2,6 +2,7 @@
 
 use cable_dem::PassOutcome;
 
+use crate::Record;
 use crate::period::{difference, largest};
 
 /// A least and a largest value.
@@ -26,8 +27,8 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Over these outcomes; of none all largest values are −∞ and all least ones ∞.
-    pub(super) fn of<'o>(outcomes: impl Iterator<Item = &'o PassOutcome>) -> Self {
+    /// Over these records; of none all largest values are −∞ and all least ones ∞.
+    pub(super) fn of(records: &[Record]) -> Self {
         let mut extremes = Self {
             force: [NONE; 2],
             displacement: [NONE; 2],
@@ -35,7 +36,7 @@ impl Extremes {
             tension: NONE[1],
             restraints: Vec::new(),
         };
-        outcomes.for_each(|outcome| extremes.see(outcome));
+        records.iter().for_each(|record| extremes.see(&record.outcome));
         extremes
     }
 

@@ -24,12 +24,12 @@
 //! each other's error.
 
 mod cable;
+mod calendar;
 mod day;
 mod evolve;
 mod extremes;
 mod heat;
 mod law;
-mod part;
 mod step;
 
 pub use day::Day;

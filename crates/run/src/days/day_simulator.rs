@@ -14,8 +14,8 @@ use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UN
 use creepage_plan::{Error, Plan, cable::traffic};
 use creepage_scene::{Heat, Scene};
 
-/// Days simulated after the first one, before any is jumped over.
-const FIRST_DAYS: u64 = 3;
+/// Days simulated before any is jumped over.
+const FIRST_DAYS: u64 = 4;
 /// Days simulated after which no more are jumped over, and after which the run gives up.
 const MOST_DAYS: (u64, u64) = (150, 1000);
 
@@ -103,9 +103,10 @@ impl DaySimulator<'_> {
         let tolerance = (SHARE * self.plan.scene.solver.tolerance).min(MOST);
         let (finer, first_jump) = if self.finer { (0.25, 0.25) } else { (1.0, 0.5) };
         let least = (scale.force, scale.movement);
-        let jumps =
-            Jumps::new(finer * tolerance, levels.length_scale, least)?.with_start(FIRST_DAYS, first_jump)?;
-        Ok(jumps.with_most_passes(MOST_DAYS.0, MOST_DAYS.1))
+        let mut jumps = Jumps::new(finer * tolerance, levels.length_scale, least)?;
+        (jumps.first_periods, jumps.first_jump) = (FIRST_DAYS, first_jump);
+        jumps.most_passes = MOST_DAYS;
+        Ok(jumps)
     }
 
     /// Largest difference on any listed day.

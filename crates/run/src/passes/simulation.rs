@@ -159,9 +159,10 @@ impl Task<'_> {
         let patience = length * (passes / length).clamp(fewest, most);
         let length_scale = length_scale(self.motions, self.scene.duct.depth);
         let size = jumping.size;
-        let jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?
-            .with_start(size.first_periods, size.first_jump)?;
-        Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
+        let mut jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?;
+        (jumps.first_periods, jumps.first_jump) = (size.first_periods, size.first_jump);
+        jumps.most_passes = (patience, jumping.most_passes.max(patience));
+        Ok(jumps)
     }
 
     /// Simulates few passes, with jumps between them; the passes `listed` and the stages are
