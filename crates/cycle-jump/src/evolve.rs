@@ -87,7 +87,7 @@ impl<E: From<JumpError>> Walk<'_, E> {
         let (mut half, mut last) = (None, None);
         while self.done < first.min(all) {
             let period = self.next_period()?;
-            if self.repeat(&period, all) {
+            if first < all && self.repeat(&period, all) {
                 return Ok(None);
             }
             if self.done == before + (first - before) / 2 {
@@ -143,7 +143,9 @@ impl<E: From<JumpError>> Walk<'_, E> {
         let records = if left > 0 && self.is_settled(&known, left) {
             let record = |&pass: &u64| Record {
                 pass,
-                outcome: known.period.outcome(phase_of(pass, known.period.len())).clone(),
+                outcome: known.period.phases[phase_of(pass, known.period.phases.len())]
+                    .outcome
+                    .clone(),
                 interpolated: true,
             };
             self.request.beyond.iter().map(record).collect()

@@ -13,7 +13,7 @@ pub struct Period {
     /// u_a \[m\].
     start: Vec<f64>,
     /// What each pass did, in their order.
-    phases: Vec<Phase>,
+    pub phases: Vec<Phase>,
 }
 
 /// One pass of a period.
@@ -71,26 +71,11 @@ impl Period {
         self.middle = halfway.collect();
     }
 
-    /// Number of its passes so far.
-    pub fn len(&self) -> usize {
-        self.phases.len()
-    }
-
-    /// The pass at `place`, from 0.
-    pub fn phase(&self, place: usize) -> &Phase {
-        &self.phases[place]
-    }
-
     /// By how much u after the pass at `place` exceeds the straight line from u_a to u_b at `node`
     /// \[m\].
     pub fn shape(&self, place: usize, node: usize) -> f64 {
-        let done = (place + 1) as f64 / self.len() as f64;
+        let done = (place + 1) as f64 / self.phases.len() as f64;
         self.phases[place].moved[node] - done * self.rate[node]
-    }
-
-    /// What the pass at `place` did.
-    pub fn outcome(&self, place: usize) -> &PassOutcome {
-        &self.phases[place].outcome
     }
 
     /// What each of its passes did.

@@ -76,8 +76,9 @@ pub struct Request<'a> {
     pub guide: Guide<'a>,
     /// The cable before the first pass, if not as laid.
     pub start: Option<&'a CableState>,
-    /// Where periods are days: those to be recorded.
-    pub(crate) days: Option<&'a [u64]>,
+    /// Where periods are days ([`evolve_days`](crate::days::evolve_days)): those to be recorded, from
+    /// 1.
+    pub days: Option<&'a [u64]>,
 }
 
 impl<'a> Request<'a> {

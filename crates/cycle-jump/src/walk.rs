@@ -114,7 +114,7 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
         while left > 0 {
             let before = self.state.displacement().to_vec();
             let number = |place: usize| after.map(|after| after + 1 + place as u64);
-            let outcome = self.simulate(period.len(), number(period.len()))?;
+            let outcome = self.simulate(period.phases.len(), number(period.phases.len()))?;
             period.push(&self.state, outcome);
             left -= 1;
             let mut change = difference(self.state.displacement(), &before);
@@ -125,14 +125,14 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
             let is_settled = last.is_some_and(|last| change.to_come(last, skipped).worse() <= allowed);
             last = Some(change);
             let are_settled = std::mem::replace(&mut was_settled, is_settled) && is_settled;
-            let places = period.len()..period.len() + skipped;
+            let places = period.phases.len()..period.phases.len() + skipped;
             if !are_settled || skipped == 0 || !self.may_skip(after, &places) {
                 continue;
             }
             for place in places {
                 period.repeat(whole);
                 if let Some(pass) = number(place).filter(|pass| self.wanted.contains(pass)) {
-                    self.record(pass, period.outcome(place).clone(), true);
+                    self.record(pass, period.phases[place].outcome.clone(), true);
                 }
             }
             if whole != 0.0 {
@@ -194,7 +194,7 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
         }
         for pass in self.recorded(done, all, &largest_places(period)) {
             let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
-            let outcome = period.outcome(phase_of(pass, period.len())).clone();
+            let outcome = period.phases[phase_of(pass, period.phases.len())].outcome.clone();
             self.record(pass, outcome.moved(moved), true);
         }
         self.offset += whole * left as f64;

@@ -33,7 +33,7 @@ mod law;
 mod step;
 
 pub use day::Day;
-pub use evolve::{Days, DaysRequest, Row, evolve_days};
+pub use evolve::{Days, Row, evolve_days};
 pub use extremes::Extremes;
 pub use heat::DailyHeat;
 pub use law::LockedLaw;
