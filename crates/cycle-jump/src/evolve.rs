@@ -49,10 +49,6 @@ pub fn evolve<E: From<JumpError>>(
     walk.period(left, Some(all * length))?;
     let mut evolution = Evolution {
         records: walk.take_records(),
-        period: known
-            .iter()
-            .flat_map(|known| known.period.outcomes().cloned())
-            .collect(),
         state: std::mem::replace(&mut walk.state, whole),
         repeats: walk.repeats,
         simulated: 0,

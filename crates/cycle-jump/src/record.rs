@@ -20,8 +20,6 @@ pub struct Evolution {
     /// other simulated ones, and within jumps some of the vehicles that make the largest forces and
     /// movements: candidates for [`peaks`](crate::peaks).
     pub records: Vec<Record>,
-    /// What each pass of the last whole period did; empty where nothing was jumped.
-    pub period: Vec<PassOutcome>,
     /// The cable after the last pass, without the movement as a whole of one that nothing holds.
     pub state: CableState,
     /// Periods after which each repeats the one before but for a movement as a whole \[m\], if that

@@ -31,7 +31,7 @@ impl Scale {
     }
 
     /// What is still to come of changes of which this one follows the `last`, if so many are `left`.
-    pub fn to_come(&self, last: Self, left: usize) -> Self {
+    pub fn remaining(self, last: Self, left: usize) -> Self {
         let to_come = |now: f64, last: f64| {
             let ratio = if last > 0.0 { now / last } else { 0.0 };
             now * (left as f64).min(TAIL / (1.0 - ratio).max(f64::MIN_POSITIVE))

@@ -122,7 +122,7 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
             let change = self.shares(&change);
             let skipped = left.saturating_sub(1);
             let allowed = NEGLIGIBLE * self.tolerance;
-            let is_settled = last.is_some_and(|last| change.to_come(last, skipped).worse() <= allowed);
+            let is_settled = last.is_some_and(|last| change.remaining(last, skipped).worse() <= allowed);
             last = Some(change);
             let are_settled = std::mem::replace(&mut was_settled, is_settled) && is_settled;
             let places = period.phases.len()..period.phases.len() + skipped;

@@ -96,7 +96,7 @@ impl<'a, E: From<JumpError>> DailyCable<'a, E> {
         if is_first || force < self.cold.thermal_force() {
             self.cold.clone_from(state);
         }
-        if next.phase == self.calendar.last() {
+        if next.phase == self.calendar.last {
             self.last.clone_from(state);
         }
         Ok(outcome)

@@ -1,5 +1,7 @@
 //! A day of traffic and heat as a list of events.
 
+use std::collections::BTreeSet;
+
 use super::heat::DailyHeat;
 use crate::JumpError;
 use crate::error::check;
@@ -97,14 +99,10 @@ impl Day {
         }
     }
 
-    /// Θ when `passes` of the day are done, which need not be whole \[N\].
-    fn thermal_force(&self, passes: f64) -> f64 {
-        self.heat.at(passes / self.passes as f64)
-    }
-
     /// Θ at the last pass before `periods` are done \[N\].
     pub(super) fn heat_before(&self, periods: f64) -> f64 {
-        self.thermal_force((periods * self.period as f64 - 0.5).max(0.0))
+        let passes = periods * self.period as f64;
+        self.heat.at((passes - 0.5).max(0.0) / self.passes as f64)
     }
 
     /// The cable is brought to the temperature of `time` before the pass `next` of the day, from 0,
@@ -120,29 +118,29 @@ impl Day {
     /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and
     /// after its corners, the last one, and that of the pass number `last`.
     fn simulated(&self, last: u64) -> Vec<u64> {
-        let all = self.periods();
         if self.is_simulated() {
-            return (0..all).collect();
+            return (0..self.periods()).collect();
         }
-        let evenly = |k: u64| (k as f64 * all as f64 / self.knots as f64).round() as u64;
-        let mut knots: Vec<u64> = (0..self.knots).map(evenly).collect();
-        knots.extend([last, self.passes].map(|pass| self.period_of(pass - 1)));
+        let distance = self.periods() as f64 / self.knots as f64;
+        let evenly = (0..self.knots).map(|k| (k as f64 * distance).round() as u64);
         // A turn comes before the first pass after it.
         let next = |time: f64| (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
-        knots.extend(AFTER_A_CORNER);
-        for time in self.heat.turns() {
-            let turn = self.period_of(next(time));
-            let after = if self.heat.has_corners() {
-                &AFTER_A_CORNER[..]
-            } else {
-                &[0]
-            };
-            knots.extend(after.iter().map(|after| turn + after));
-        }
-        knots.retain(|knot| *knot < all);
-        knots.sort_unstable();
-        knots.dedup();
-        knots
+        let turns = self
+            .heat
+            .turns()
+            .into_iter()
+            .map(|time| self.period_of(next(time)));
+        let shown = if self.heat.has_corners() {
+            AFTER_A_CORNER.len()
+        } else {
+            1
+        };
+        let after_turns =
+            turns.flat_map(|turn| AFTER_A_CORNER[..shown].iter().map(move |after| turn + after));
+        let last = [last, self.passes].map(|pass| self.period_of(pass - 1));
+        let all = evenly.chain(after_turns).chain(AFTER_A_CORNER).chain(last);
+        let knots: BTreeSet<u64> = all.filter(|knot| *knot < self.periods()).collect();
+        knots.into_iter().collect()
     }
 
     /// What happens in a day from midnight to midnight, its pass number `last` being simulated.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome};
 
 use super::cable::DailyCable;
-use super::calendar::{Calendar, Part};
+use super::calendar::Calendar;
 use super::day::{Act, Day};
 use super::extremes::Extremes;
 use super::law::LockedLaw;
@@ -67,12 +67,12 @@ pub fn evolve_days<E: From<JumpError>>(
     let is_of_day = request.period() == day.period();
     check("vehicles of a period", is_of_day, "those of the day's")?;
     let calendar = Calendar::new(day, request.passes);
-    let last_day = calendar.numbers(calendar.days());
+    let last_day = calendar.numbers(calendar.days);
     let parts = request.wanted.iter().filter_map(|pass| calendar.parts(*pass));
-    let numbers = parts.flatten().map(|part| part.number);
+    let numbers = parts.flatten().map(|(number, _)| number);
     let wanted: Vec<u64> = numbers.chain(last_day).collect();
     let order: Vec<usize> = (0..calendar.events.len()).collect();
-    let mut events = Request::new(calendar.count(), &order)?;
+    let mut events = Request::new(calendar.count, &order)?;
     (events.wanted, events.guide, events.start) = (&wanted, request.guide, request.start);
     events.days = request.days.or(Some(&[]));
     let (jumping, most) = jumps.most_passes;
@@ -90,7 +90,7 @@ pub fn evolve_days<E: From<JumpError>>(
     let extremes = |day: &u64| (*day, Extremes::of(happened.on(*day)));
     Ok(Days {
         days: request.days.unwrap_or(&[]).iter().map(extremes).collect(),
-        last_day: happened.rows(calendar.days()),
+        last_day: happened.rows(calendar.days),
         extremes: Extremes::of(&evolution.records),
         hot: daily.hot,
         cold: daily.cold,
@@ -154,28 +154,25 @@ impl Happened<'_> {
 
     /// What `pass` did, if that is known.
     fn pass(&self, pass: u64) -> Option<Record> {
-        let known = |part: &Part| {
-            let place = self
-                .records
-                .binary_search_by_key(&part.number, |record| record.pass);
-            Some(&self.records[place.ok()?])
+        let known = |(number, weight): &(u64, f64)| {
+            let place = self.records.binary_search_by_key(number, |record| record.pass);
+            Some((*weight, self.records[place.ok()?].clone()))
         };
         let parts = self.calendar.parts(pass)?;
-        if let [itself] = &parts[..] {
-            let record = known(itself)?.clone();
-            return Some(Record { pass, ..record });
+        let mut parts: Vec<(f64, Record)> = parts.iter().map(known).collect::<Option<_>>()?;
+        let (_, like) = parts.pop()?;
+        if parts.is_empty() {
+            return Some(Record { pass, ..like });
         }
-        let outcome = |part: &Part| {
-            let mut outcome = known(part)?.outcome.clone();
-            if part.at_rest {
-                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
-                outcome.restraint_ranges = outcome.restraints.iter().map(|force| [*force; 2]).collect();
-            }
-            Some(outcome)
-        };
-        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
-        let weights = parts.iter().map(|part| part.weight);
-        let summands: Vec<_> = weights.zip(&outcomes).collect();
+        for (_, Record { outcome, .. }) in &mut parts {
+            (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
+            outcome.restraint_ranges = outcome.restraints.iter().map(|force| [*force; 2]).collect();
+        }
+        let mut summands: Vec<_> = parts
+            .iter()
+            .map(|(weight, part)| (*weight, &part.outcome))
+            .collect();
+        summands.push((1.0, &like.outcome));
         Some(Record {
             pass,
             outcome: PassOutcome::combined(&summands),
