@@ -7,10 +7,6 @@ use crate::JumpError;
 use crate::error::check;
 use crate::tuning::AFTER_A_CORNER;
 
-/// With knots beyond this share of all periods a step would be no longer than a period: every one
-/// is simulated.
-const NEARLY_ALL: f64 = 0.5;
-
 /// A day of traffic and heat: passes evenly over the day, the first after half an interval.
 #[derive(Debug, Clone)]
 pub struct Day {
@@ -80,9 +76,9 @@ impl Day {
         self.passes / self.period
     }
 
-    /// Whether every period of a day is simulated.
+    /// Whether every period of a day is simulated: if steps would be no longer than a period.
     pub fn is_simulated(&self) -> bool {
-        self.knots as f64 >= NEARLY_ALL * self.periods() as f64
+        self.knots >= self.periods().div_ceil(2)
     }
 
     /// The period of `pass`, which counts from 0: the last one is longer.

@@ -2,7 +2,7 @@
 
 use cable_dem::{CableState, EndForces};
 use cycle_jump::days::{DailyHeat, Day, Extremes, evolve_days};
-use cycle_jump::{Guide, Jumps, Next, Record, Request, peaks};
+use cycle_jump::{Guide, Jumps, Next, Request};
 
 use super::locked_law::locked_law;
 use crate::Progress;
@@ -170,13 +170,10 @@ impl OnMeshes for DaySimulator<'_> {
         simulation.statistics += of_law;
         simulation.statistics.sweeps += days.sweeps as usize;
         simulation.statistics.node_updates += days.sweeps as usize * mesh.nodes();
-        let known = &days.evolution;
+        let known = days.evolution.clone();
         let listed = wanted.iter().filter_map(|&pass| record_of(&known.records, pass));
-        let records: Vec<Record> = listed.cloned().collect();
-        let passes = simulation.passes(records, known.state.clone(), known.simulated);
+        let passes = simulation.evolved(listed.cloned().collect(), known);
         Ok(Passes {
-            peaks: peaks(&passes.records, known.records.clone()),
-            schedule: known.schedule.clone(),
             days: Some(days),
             ..passes
         })

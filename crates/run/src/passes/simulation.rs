@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use cable_dem::{CableState, DuctedCable, PassOutcome, Statistics};
 use cycle_jump::days::Days;
-use cycle_jump::{Beyond, Jumps, Next, Record, Request, evolve, peaks};
+use cycle_jump::{Beyond, Evolution, Jumps, Next, Record, Request, evolve, peaks};
 
 use super::listing::{Listing, listed_passes};
 use super::options::Jumping;
@@ -122,6 +122,16 @@ impl<'a> Simulation<'a> {
             days: None,
         }
     }
+
+    /// The passes of an `evolution`, of which these `records` are listed.
+    pub fn evolved(self, records: Vec<Record>, evolution: Evolution) -> Passes {
+        Passes {
+            peaks: peaks(&records, evolution.records),
+            schedule: evolution.schedule,
+            beyond: evolution.beyond,
+            ..self.passes(records, evolution.state, evolution.simulated)
+        }
+    }
 }
 
 impl Task<'_> {
@@ -193,11 +203,6 @@ impl Task<'_> {
         };
         let evolution = evolve(&cable, &self.mesh, &jumps, &request, pass)?;
         let records = listing.records(&evolution.records);
-        Ok(Passes {
-            peaks: peaks(&records, evolution.records),
-            schedule: evolution.schedule,
-            beyond: evolution.beyond,
-            ..simulation.passes(records, evolution.state, evolution.simulated)
-        })
+        Ok(simulation.evolved(records, evolution))
     }
 }
