@@ -17,25 +17,15 @@ pub enum JumpError {
         /// What it may be.
         allowed: &'static str,
     },
-    /// No day repeats the one before.
-    #[error(
-        "after {days} days of heat and traffic they still differ from day to day; later days cannot be predicted"
-    )]
-    NeverPeriodic {
-        /// Days done.
-        days: u64,
-    },
     /// Jumps make no progress.
     #[error(
-        "jumps make no progress: {simulated} passes simulated for {periods} of {wanted} periods of traffic"
+        "{periods} of {wanted} periods of traffic still differ from one to the next; jumps make no progress"
     )]
     Stuck {
         /// Periods done.
         periods: u64,
         /// Periods wanted.
         wanted: u64,
-        /// Passes simulated.
-        simulated: u64,
     },
 }
 

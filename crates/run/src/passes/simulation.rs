@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use cable_dem::{CableState, DuctedCable, PassOutcome, SlipLengths, Statistics};
 use cycle_jump::days::Days;
-use cycle_jump::{Beyond, Jumps, Next, Record, Request, evolve, peaks};
+use cycle_jump::{Beyond, Evolution, Jumps, Next, Record, Request, evolve, peaks};
 
 use super::listing::Listing;
 use super::options::Jumping;
@@ -124,6 +124,16 @@ impl<'a> Simulation<'a> {
             days: None,
         }
     }
+
+    /// The passes of an `evolution`, of which these `records` are listed.
+    pub fn evolved(self, records: Vec<Record>, evolution: Evolution) -> Passes {
+        Passes {
+            peaks: peaks(&records, evolution.records),
+            schedule: evolution.schedule,
+            beyond: evolution.beyond,
+            ..self.passes(records, evolution.state, evolution.simulated)
+        }
+    }
 }
 
 impl Task<'_> {
@@ -153,9 +163,10 @@ impl Task<'_> {
         let patience = length * (passes / length).clamp(fewest, most);
         let length_scale = length_scale(self.motions, self.scene.duct.depth);
         let size = jumping.size;
-        let jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?
-            .with_start(size.first_periods, size.first_jump)?;
-        Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
+        let mut jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?;
+        (jumps.first_periods, jumps.first_jump) = (size.first_periods, size.first_jump);
+        jumps.most_passes = (patience, jumping.most_passes.max(patience));
+        Ok(jumps)
     }
 
     /// Simulates few passes, with jumps between them; the passes `listed` and the stages are
@@ -186,11 +197,6 @@ impl Task<'_> {
         };
         let evolution = evolve(&cable, &self.mesh, &jumps, &request, pass)?;
         let records = listing.records(&evolution.records);
-        Ok(Passes {
-            peaks: peaks(&records, evolution.records),
-            schedule: evolution.schedule,
-            beyond: evolution.beyond,
-            ..simulation.passes(records, evolution.state, evolution.simulated)
-        })
+        Ok(simulation.evolved(records, evolution))
     }
 }
