@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-
 /// A calibrated scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Calibrated {

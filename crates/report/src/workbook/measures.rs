@@ -34,10 +34,10 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
         let outcomes = measure.outcomes.iter().map(|outcome| {
             let of_measure = json!({ "force_n": outcome.force_n, "movement_m": outcome.movement_m,
                 "clamp_force_n": outcome.clamp_force_n, "share_of_a_limit": outcome.share() });
-            record(&measure.name, &outcome.at, of_measure)
+            record(&measure.name, &outcome.at, &of_measure)
         });
         let failures = measure.failures.iter();
-        let failures = failures.map(|(at, reason)| record(&measure.name, at, json!({ "failure": reason })));
+        let failures = failures.map(|(at, reason)| record(&measure.name, at, &json!({ "failure": reason })));
         outcomes.chain(failures).collect::<Vec<_>>()
     });
     table(&mut book, "combinations", &records.collect(), &reader.units)?;
@@ -46,7 +46,7 @@ fn write(comparison: &Comparison, reader: &Reader, file: &SceneFile) -> Result<V
 }
 
 /// A row for one combination and what it comes to; values of keys are in SI.
-fn record(measure: &str, at: &Combination, answer: Value) -> Value {
+fn record(measure: &str, at: &Combination, answer: &Value) -> Value {
     let named = |key: &String| si_unit(key).map_or(key.clone(), |unit| format!("{key}, {unit}"));
     let keys = at.iter().map(|(key, value)| (named(key), json!(value)));
     let mut record = Map::from_iter([("measure".to_owned(), json!(measure))]);
