@@ -110,7 +110,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
                 date: Some(&date),
                 compared: compared.as_ref(),
                 progress: of_page,
-                ..ReportOptions::default()
             },
         )
     });
