@@ -14,17 +14,27 @@ use crate::error::Error;
 ///
 /// [`Error::NotFinite`] with the first such number and its field.
 pub fn check(answer: &impl Debug) -> Result<(), Error> {
-    let mut field = "";
     // The long form of `Debug` has one field or element a line, and texts in quotes.
-    for line in format!("{answer:#?}").lines() {
-        let (name, value) = line.trim().split_once(": ").unwrap_or((field, line.trim()));
-        field = name;
-        if let word @ ("NaN" | "inf" | "-inf") = value.trim_end_matches(',') {
-            let (field, value) = (field.to_owned(), word.parse().unwrap_or(f64::NAN));
-            return Err(Error::NotFinite { field, value });
-        }
-    }
-    Ok(())
+    let text = format!("{answer:#?}");
+    let word = |line: &str| {
+        let ends = line.ends_with("NaN,") || line.ends_with("inf,");
+        let value = ends.then(|| line.rsplit(' ').next().unwrap_or_default().trim_end_matches(','))?;
+        matches!(value, "NaN" | "inf" | "-inf").then(|| value.parse().unwrap_or(f64::NAN))
+    };
+    let Some((line, value)) = text
+        .lines()
+        .enumerate()
+        .find_map(|(line, text)| Some((line, word(text)?)))
+    else {
+        return Ok(());
+    };
+    // An element of a list stands below its field.
+    let named = text
+        .lines()
+        .take(line + 1)
+        .filter_map(|line| line.split_once(": "));
+    let field = named.last().map_or("", |(field, _)| field.trim()).to_owned();
+    Err(Error::NotFinite { field, value })
 }
 
 #[cfg(test)]

@@ -30,8 +30,7 @@ pub mod meshes {
     /// Length of cable solved per vehicle step, averaged over repeated solves \[length scales\];
     /// right within a factor of three.
     pub const MOVED: f64 = 8.0;
-    /// Most nodes eliminated in all passes on one mesh: about twenty seconds. Twice as many if there is
-    /// no answer otherwise.
+    /// Most nodes eliminated in all passes on one mesh: about twenty seconds.
     pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 }
 

@@ -188,14 +188,8 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
     fn may_refine(&self, level: usize, meshes: &[Passes], error: &ErrorParts) -> bool {
         let tolerance = self.plan.scene.solver.tolerance;
         // A run whose error is above 10 % is refused: spend more before that.
-        let share = if error_estimate::is_doubtful(error.total().force, tolerance) {
-            2.0
-        } else if tolerance < USUAL {
-            1.0
-        } else {
-            0.5
-        };
-        let most = (share * MAX_NODE_UPDATES as f64) as usize;
+        let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
+        let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 2 };
         let last = meshes.last().map_or(0, |passes| passes.statistics.node_updates);
         self.known_error.is_none()
             && REFINEMENT_COST.saturating_mul(last) <= most
