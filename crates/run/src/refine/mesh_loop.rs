@@ -19,7 +19,7 @@ use creepage_scene::Scene;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 
-/// Below this tolerance a finer mesh may cost twice as much.
+/// Below this tolerance a finer mesh may cost three times as much.
 const USUAL: f64 = 0.01;
 
 /// What is simulated on one mesh after the other: every pass, passes with jumps, or days.
@@ -189,7 +189,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let tolerance = self.plan.scene.solver.tolerance;
         // A run whose error is above 10 % is refused: spend more before that.
         let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
-        let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 2 };
+        let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 3 };
         let last = meshes.last().map_or(0, |passes| passes.statistics.node_updates);
         self.known_error.is_none()
             && REFINEMENT_COST.saturating_mul(last) <= most
