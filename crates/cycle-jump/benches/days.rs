@@ -3,8 +3,8 @@
 use boussinesq::HalfSpace;
 use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 use criterion::{Criterion, criterion_group, criterion_main};
-use cycle_jump::days::{DailyHeat, Day, Days, LockedLaw, evolve_days};
-use cycle_jump::{JumpError, Jumps, Request};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, LockedLaw, evolve_days};
+use cycle_jump::{Guide, JumpError, Jumps};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 
 const STIFFNESS: f64 = 8.01e6;
@@ -69,11 +69,15 @@ fn days(criterion: &mut Criterion) {
             highest: SWING,
         };
         let day = Day::new(PER_DAY, 1, heat, knots)?;
-        let mut jumps = Jumps::new(5e-3, 1.2, (0.01 * LIMIT, 1e-6))?;
-        (jumps.first_periods, jumps.first_jump) = (4, 0.5);
-        let wanted = [days];
-        let mut request = Request::new(days * PER_DAY, &[0])?;
-        (request.wanted, request.days) = (&[1], Some(&wanted[..]));
+        let jumps = Jumps::new(5e-3, 1.2, (0.01 * LIMIT, 1e-6))?.with_start(3, 0.5)?;
+        let request = DaysRequest {
+            passes: days * PER_DAY,
+            wanted: &[1],
+            wanted_days: &[days],
+            every_day: false,
+            guide: Guide::Free,
+            start: None,
+        };
         evolve_days(
             &cable,
             &mesh,
@@ -93,7 +97,7 @@ fn days(criterion: &mut Criterion) {
         let lived = run(count, knots).expect("days");
         println!(
             "{name}: {} passes simulated on {} days, {} linear solves between them",
-            lived.evolution.simulated, lived.simulated, lived.sweeps
+            lived.simulated, lived.simulated_days, lived.sweeps
         );
         group.bench_function(name, |bencher| {
             bencher.iter(|| run(count, knots).expect("days"));

@@ -17,15 +17,25 @@ pub enum JumpError {
         /// What it may be.
         allowed: &'static str,
     },
+    /// No day repeats the one before.
+    #[error(
+        "after {days} days of heat and traffic they still differ from day to day; later days cannot be predicted"
+    )]
+    NeverPeriodic {
+        /// Days done.
+        days: u64,
+    },
     /// Jumps make no progress.
     #[error(
-        "{periods} of {wanted} periods of traffic still differ from one to the next; jumps make no progress"
+        "jumps make no progress: {simulated} passes simulated for {periods} of {wanted} periods of traffic"
     )]
     Stuck {
         /// Periods done.
         periods: u64,
         /// Periods wanted.
         wanted: u64,
+        /// Passes simulated.
+        simulated: u64,
     },
 }
 

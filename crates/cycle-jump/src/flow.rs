@@ -26,7 +26,13 @@ pub struct Flow {
 impl Flow {
     /// The flow over `periods` with the `slope` g \[m²/N\], where c begins with `rate` \[m per
     /// period\] and grows by `growth` \[m\] every period.
-    pub fn new(cable: &RestingCable, rate: &[f64], growth: Vec<f64>, slope: &[f64], periods: f64) -> Self {
+    pub fn new(
+        cable: &mut RestingCable,
+        rate: &[f64],
+        growth: Vec<f64>,
+        slope: &[f64],
+        periods: f64,
+    ) -> Self {
         let mut flow = Self {
             rate: rate.to_vec(),
             growth,
@@ -46,7 +52,7 @@ impl Flow {
     }
 
     /// y after `periods`, at most its own \[m\].
-    pub fn after(&self, cable: &RestingCable, periods: f64) -> Vec<f64> {
+    pub fn after(&self, cable: &mut RestingCable, periods: f64) -> Vec<f64> {
         let next = self.begins.partition_point(|(time, _)| *time <= periods);
         let (begin, y) = &self.begins[next.max(1) - 1];
         self.substep(cable, y, *begin, periods - begin)
@@ -61,7 +67,7 @@ impl Flow {
             .collect()
     }
 
-    fn substep(&self, cable: &RestingCable, y: &[f64], time: f64, length: f64) -> Vec<f64> {
+    fn substep(&self, cable: &mut RestingCable, y: &[f64], time: f64, length: f64) -> Vec<f64> {
         let slope = |i: usize| GAMMA * length * self.slope[i];
         let mut first = self.derivative(cable, y, time + GAMMA * length);
         cable.diffuse(slope, &mut first);

@@ -8,10 +8,11 @@ mod peaks;
 mod period;
 mod record;
 mod request;
+mod rounds;
 mod scale;
+mod simulation;
 mod slope;
 mod tuning;
-mod walk;
 mod within_jump;
 
 pub use error::JumpError;

@@ -3,7 +3,6 @@
 //! In a long period of the traffic few passes are wanted, and a heavy vehicle that comes seldom is
 //! rarely among them.
 
-use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use cable_dem::PassOutcome;
@@ -52,13 +51,19 @@ pub fn peaks(records: &[Record], mut others: Vec<Record>) -> Vec<Record> {
 
 /// The places of a `period` whose passes show the largest of some force or movement.
 pub fn largest_places(period: &Period) -> BTreeSet<usize> {
-    let all: Vec<Vec<f64>> = period.outcomes().map(values).collect();
-    let largest = |kind: usize| {
-        let order = |a: &usize, b: &usize| all[*a][kind].partial_cmp(&all[*b][kind]);
-        (0..all.len()).max_by(|a, b| order(a, b).unwrap_or(Ordering::Equal))
-    };
-    let kinds = all.first().map_or(0, Vec::len);
-    (0..kinds).filter_map(largest).collect()
+    let mut largest: Vec<(f64, usize)> = Vec::new();
+    for (place, outcome) in period.outcomes().iter().enumerate() {
+        let values = values(outcome);
+        largest.resize(values.len(), (f64::NEG_INFINITY, place));
+        for (largest, value) in largest.iter_mut().zip(values) {
+            *largest = if value >= largest.0 {
+                (value, place)
+            } else {
+                *largest
+            };
+        }
+    }
+    largest.into_iter().map(|(_, place)| place).collect()
 }
 
 /// Raises each of `most` to the one of `values`; what is missing begins with zero.
@@ -73,8 +78,11 @@ fn raise(most: &mut Vec<f64>, values: &[f64]) {
 fn values(outcome: &PassOutcome) -> Vec<f64> {
     let (force, peak, lowest) = (outcome.force, outcome.peak, outcome.lowest);
     let ends = [outcome.upstream_displacement, outcome.downstream_displacement];
-    let at_rest = ends.into_iter().chain([force.upstream, force.downstream]);
-    let at_rest = at_rest.chain(outcome.restraints.iter().copied());
+    let rest = [force.upstream, force.downstream];
+    let signed = ends
+        .into_iter()
+        .chain(rest)
+        .chain(outcome.restraints.iter().copied());
     let during = [
         peak.upstream,
         peak.downstream,
@@ -85,8 +93,11 @@ fn values(outcome: &PassOutcome) -> Vec<f64> {
         .restraint_ranges
         .iter()
         .flat_map(|[least, most]| [-least, *most]);
-    let at_rest = at_rest.flat_map(|value| [value, -value]);
-    let all = at_rest.chain(during).chain(on_clamps);
-    all.chain([outcome.max_compression, outcome.max_tension])
+    let inside = [outcome.max_compression, outcome.max_tension];
+    signed
+        .flat_map(|value| [value, -value])
+        .chain(during)
+        .chain(on_clamps)
+        .chain(inside)
         .collect()
 }

@@ -1,4 +1,4 @@
-//! One period of the traffic, as simulated: how far it moved the cable, and what each pass did.
+//! One simulated period of the traffic: how far it moved the cable, and what each pass did.
 
 use cable_dem::{CableState, PassOutcome, RestingCable};
 
@@ -12,11 +12,14 @@ pub struct Period {
     pub middle: Vec<f64>,
     /// u_a \[m\].
     start: Vec<f64>,
-    /// What each pass did, in their order.
-    pub phases: Vec<Phase>,
+    /// What each simulated pass did, in their order.
+    phases: Vec<Phase>,
+    /// For each pass of the period the simulated one that stands for it, and the movement as a
+    /// whole since then \[m\].
+    places: Vec<(usize, f64)>,
 }
 
-/// One pass of a period.
+/// One simulated pass of a period.
 #[derive(Debug, Clone)]
 pub struct Phase {
     /// u after this pass less u_a \[m\].
@@ -46,6 +49,7 @@ impl Period {
     /// Adds a simulated pass that left the cable in `state`.
     pub fn push(&mut self, state: &CableState, outcome: PassOutcome) {
         let friction = state.friction();
+        self.places.push((self.phases.len(), 0.0));
         self.phases.push(Phase {
             moved: difference(state.displacement(), &self.start),
             friction: [friction[0], friction[friction.len() - 1]],
@@ -54,14 +58,11 @@ impl Period {
         });
     }
 
-    /// Adds a pass that does what the one before it did, but for a movement as a `whole` \[m\].
-    pub fn repeat(&mut self, whole: f64) {
-        let last = self.phases.last().cloned();
-        self.phases.extend(last.map(|last| Phase {
-            moved: last.moved.iter().map(|moved| moved + whole).collect(),
-            outcome: last.outcome.moved(whole),
-            ..last
-        }));
+    /// Adds a pass that does what the one `round` passes before it did, but for a movement as a
+    /// `whole` \[m\].
+    pub fn repeat(&mut self, round: usize, whole: f64) {
+        let (phase, moved) = self.places[self.places.len() - round];
+        self.places.push((phase, moved + whole));
     }
 
     /// Ends it with the displacements `end` \[m\].
@@ -71,16 +72,31 @@ impl Period {
         self.middle = halfway.collect();
     }
 
+    /// Number of its passes so far.
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The simulated pass that stands for the pass at `place`, from 0.
+    pub fn phase(&self, place: usize) -> &Phase {
+        &self.phases[self.places[place].0]
+    }
+
     /// By how much u after the pass at `place` exceeds the straight line from u_a to u_b at `node`
     /// \[m\].
     pub fn shape(&self, place: usize, node: usize) -> f64 {
-        let done = (place + 1) as f64 / self.phases.len() as f64;
-        self.phases[place].moved[node] - done * self.rate[node]
+        let done = (place + 1) as f64 / self.len() as f64;
+        self.phase(place).moved[node] + self.places[place].1 - done * self.rate[node]
+    }
+
+    /// What the pass at `place` did.
+    pub fn outcome(&self, place: usize) -> PassOutcome {
+        self.phase(place).outcome.clone().moved(self.places[place].1)
     }
 
     /// What each of its passes did.
-    pub fn outcomes(&self) -> impl Iterator<Item = &PassOutcome> {
-        self.phases.iter().map(|phase| &phase.outcome)
+    pub fn outcomes(&self) -> Vec<PassOutcome> {
+        (0..self.len()).map(|place| self.outcome(place)).collect()
     }
 }
 

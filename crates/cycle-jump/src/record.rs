@@ -9,7 +9,7 @@ pub struct Record {
     pub pass: u64,
     /// What it did.
     pub outcome: PassOutcome,
-    /// Whether it lies within a jump, or among equal vehicles that were not simulated.
+    /// Whether it lies within a jump, or among rounds of a period that were not simulated.
     pub interpolated: bool,
 }
 
@@ -20,8 +20,12 @@ pub struct Evolution {
     /// other simulated ones, and within jumps some of the vehicles that make the largest forces and
     /// movements: candidates for [`peaks`](crate::peaks).
     pub records: Vec<Record>,
-    /// The cable after the last pass, without the movement as a whole of one that nothing holds.
+    /// What each pass of the last whole period did; empty where nothing was jumped.
+    pub period: Vec<PassOutcome>,
+    /// The cable after the last pass.
     pub state: CableState,
+    /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
+    pub offset: f64,
     /// Periods after which each repeats the one before but for a movement as a whole \[m\], if that
     /// was found. Days alone are judged by it.
     pub repeats: Option<(u64, f64)>,

@@ -13,15 +13,9 @@ pub struct Jumps {
     pub(crate) tolerance: f64,
     pub(crate) length_scale: f64,
     pub(crate) least: Scale,
-    /// Periods simulated at the start, at least two; eight if not set.
-    pub first_periods: u64,
-    /// Length of the first jump as a share of these; a quarter if not set. Two runs that start
-    /// differently, with 0.5 and 0.25, show their error by their difference.
-    pub first_jump: f64,
-    /// The number of simulated passes after which jumps end and every pass is simulated, and the
-    /// number after which the run gives up; in [`evolve_days`](crate::days::evolve_days) numbers of
-    /// simulated days.
-    pub most_passes: (u64, u64),
+    pub(crate) first_periods: u64,
+    pub(crate) first_jump: f64,
+    pub(crate) most_passes: (u64, u64),
 }
 
 impl Jumps {
@@ -31,6 +25,8 @@ impl Jumps {
     /// depth. Forces and movements below `least` \[N, m\] count as nothing; about 1 % of the
     /// friction on a metre of cable, and a tenth of the duct's largest motion.
     ///
+    /// Eight periods are simulated at the start, and the first jump is a quarter as long.
+    ///
     /// # Errors
     ///
     /// [`JumpError::InvalidParameter`] unless all are finite and positive.
@@ -39,21 +35,46 @@ impl Jumps {
         positive("length scale", length_scale)?;
         positive("least force", least.0)?;
         positive("least movement", least.1)?;
-        let (force, movement) = least;
         Ok(Self {
             tolerance,
             length_scale,
-            least: Scale { force, movement },
+            least: Scale {
+                force: least.0,
+                movement: least.1,
+            },
             first_periods: 8,
             first_jump: 0.25,
             most_passes: (1000, 10_000),
         })
     }
 
-    /// Refuses a start that shows nothing.
-    pub(crate) fn check(&self) -> Result<(), JumpError> {
-        check("periods at the start", self.first_periods >= 2, "at least 2")?;
-        positive("first jump", self.first_jump)
+    /// With so many `periods` simulated at the start, at least two, and a first jump whose length
+    /// is the share `jump` of these. Two runs that start differently, with 0.5 and 0.25, show
+    /// their error by their difference.
+    ///
+    /// # Errors
+    ///
+    /// [`JumpError::InvalidParameter`] for fewer periods, or unless the share is finite and
+    /// positive.
+    pub fn with_start(self, periods: u64, jump: f64) -> Result<Self, JumpError> {
+        check("periods at the start", periods >= 2, "at least 2")?;
+        positive("first jump", jump)?;
+        Ok(Self {
+            first_periods: periods,
+            first_jump: jump,
+            ..self
+        })
+    }
+
+    /// With the number of simulated passes after which jumps end and every pass is simulated, and
+    /// the number after which the run gives up; in [`evolve_days`](crate::days::evolve_days)
+    /// numbers of simulated days.
+    #[must_use]
+    pub fn with_most_passes(self, jumping: u64, simulated: u64) -> Self {
+        Self {
+            most_passes: (jumping, simulated),
+            ..self
+        }
     }
 }
 
@@ -76,9 +97,8 @@ pub struct Request<'a> {
     pub guide: Guide<'a>,
     /// The cable before the first pass, if not as laid.
     pub start: Option<&'a CableState>,
-    /// Where periods are days ([`evolve_days`](crate::days::evolve_days)): those to be recorded, from
-    /// 1.
-    pub days: Option<&'a [u64]>,
+    /// Where periods are days: those to be recorded.
+    pub(crate) days: Option<&'a [u64]>,
 }
 
 impl<'a> Request<'a> {

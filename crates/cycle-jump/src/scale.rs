@@ -3,7 +3,6 @@
 use cable_dem::{PassOutcome, RestingCable};
 
 use crate::period::largest;
-use crate::tuning::TAIL;
 
 /// A force \[N\] and a movement \[m\]; or shares of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,18 +26,6 @@ impl Scale {
         Self {
             force: cable.largest_force(change) / self.force,
             movement: largest(change) / self.movement,
-        }
-    }
-
-    /// What is still to come of changes of which this one follows the `last`, if so many are `left`.
-    pub fn remaining(self, last: Self, left: usize) -> Self {
-        let to_come = |now: f64, last: f64| {
-            let ratio = if last > 0.0 { now / last } else { 0.0 };
-            now * (left as f64).min(TAIL / (1.0 - ratio).max(f64::MIN_POSITIVE))
-        };
-        Self {
-            force: to_come(self.force, last.force),
-            movement: to_come(self.movement, last.movement),
         }
     }
 

@@ -44,12 +44,12 @@ impl Slope {
     }
 
     /// Spreads `values` along the cable as so many `periods` do.
-    pub fn spread(&self, cable: &RestingCable, periods: f64, values: &mut [f64]) {
+    pub fn spread(&self, cable: &mut RestingCable, periods: f64, values: &mut [f64]) {
         cable.diffuse(|i| periods * self.values[i], values);
     }
 
     /// By how much the advance of one period differs from that of an earlier one \[m\].
-    pub fn predict(&self, from: &Period, to: &Period, cable: &RestingCable) -> Vec<f64> {
+    pub fn predict(&self, from: &Period, to: &Period, cable: &mut RestingCable) -> Vec<f64> {
         let (_, mut change) = changes(from, to, cable);
         for (f, g) in change.iter_mut().zip(&self.values) {
             *f *= -g;

@@ -27,12 +27,12 @@ pub struct JumpInterval<'a> {
 impl JumpInterval<'_> {
     /// Periods from the beginning to the end of `pass`.
     fn time(&self, pass: u64) -> f64 {
-        pass as f64 / self.before.phases.len() as f64 - self.begin as f64
+        pass as f64 / self.before.len() as f64 - self.begin as f64
     }
 
     /// The cable at rest after `pass`, and its movement as a whole \[m\].
     pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<(CableState, f64), CableError> {
-        let (phase, time) = (phase_of(pass, self.before.phases.len()), self.time(pass));
+        let (phase, time) = (phase_of(pass, self.before.len()), self.time(pass));
         let share = time / self.length as f64;
         let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
         let mut displacement = self.flow.after(cable, time);
@@ -44,7 +44,7 @@ impl JumpInterval<'_> {
             *y += from - self.from.1 + share * share * missed + shape;
         }
         let whole = self.from.1 + remove_mean(cable, &mut displacement);
-        let [before, after] = [self.before, self.after].map(|period| &period.phases[phase]);
+        let [before, after] = [self.before, self.after].map(|period| period.phase(phase));
         // Everywhere else friction follows from the displacements.
         let ends = [0, 1].map(|end| between(before.friction[end], after.friction[end]));
         let mut moved = cable.moved(self.from.0, displacement)?.with_end_friction(ends);
@@ -60,8 +60,8 @@ impl JumpInterval<'_> {
     /// them; those between are interpolated from the two nearest of the same vehicle.
     pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
         let mut outcomes = vec![PassOutcome::default(); passes.len()];
-        for phase in 0..self.before.phases.len() {
-            let is_of_phase = |row: &usize| phase_of(passes[*row], self.before.phases.len()) == phase;
+        for phase in 0..self.before.len() {
+            let is_of_phase = |row: &usize| phase_of(passes[*row], self.before.len()) == phase;
             let rows: Vec<usize> = (0..passes.len()).filter(is_of_phase).collect();
             let mut last = 0;
             for (k, &row) in rows.iter().enumerate() {
@@ -87,9 +87,9 @@ impl JumpInterval<'_> {
     fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
         let (state, whole) = self.state(cable, pass)?;
         let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);
-        let phase = phase_of(pass, self.before.phases.len());
+        let phase = phase_of(pass, self.before.len());
         let share = self.time(pass) / self.length as f64;
-        let [before, after] = [self.before, self.after].map(|period| &period.phases[phase].outcome);
+        let [before, after] = [self.before, self.after].map(|period| &period.phase(phase).outcome);
         let between = |of: fn(&PassOutcome) -> f64| (1.0 - share) * of(before) + share * of(after);
         outcome.peak.upstream += between(|o| o.peak.upstream - o.force.upstream);
         outcome.peak.downstream += between(|o| o.peak.downstream - o.force.downstream);

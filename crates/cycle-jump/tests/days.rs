@@ -4,8 +4,8 @@ use boussinesq::HalfSpace;
 use cable_dem::{
     CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic, Restraint,
 };
-use cycle_jump::days::{DailyHeat, Day, Days, Extremes, LockedLaw, evolve_days};
-use cycle_jump::{JumpError, Jumps, Next, Record, Request};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, Extremes, LockedLaw, evolve_days};
+use cycle_jump::{Guide, JumpError, Jumps, Next};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -120,15 +120,19 @@ impl Scene {
         let day = Day::new(self.per_day, motions.len(), heat, knots)?;
         let all: Vec<u64> = (1..=self.days).collect();
         let wanted: Vec<u64> = (1..=self.per_day).collect();
-        let order: Vec<usize> = (0..motions.len()).collect();
-        let mut request = Request::new(self.per_day * self.days, &order)?;
-        (request.wanted, request.days) = (&wanted, Some(&all[..]));
+        let request = DaysRequest {
+            passes: self.per_day * self.days,
+            wanted: &wanted,
+            wanted_days: &all,
+            every_day,
+            guide: Guide::Free,
+            start: None,
+        };
         let one_pass = |next: Next, state: &mut CableState| {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
         };
-        let mut jumps = Jumps::new(5e-3, 1.2, (0.01 * limit, 1e-6))?;
-        (jumps.first_periods, jumps.first_jump) = (if every_day { u64::MAX } else { 4 }, 0.5);
-        jumps.most_passes = self.most_days;
+        let jumps = Jumps::new(5e-3, 1.2, (0.01 * limit, 1e-6))?.with_start(3, 0.5)?;
+        let jumps = jumps.with_most_passes(self.most_days.0, self.most_days.1);
         Ok(evolve_days(
             &cable,
             &mesh,
@@ -248,7 +252,7 @@ fn scenes() -> Vec<Scene> {
 /// Forces and ends of every day within 1.5 %.
 fn agrees(scene: &Scene) -> Outcome {
     let right = scene.live(scene.per_day, true)?;
-    assert_eq!(right.evolution.simulated, scene.per_day * scene.days);
+    assert_eq!(right.simulated, scene.per_day * scene.days);
     let found = scene.live(scene.knots, false)?;
     let (force, movement) = error(&right.days, &found.days);
     println!(
@@ -256,23 +260,15 @@ fn agrees(scene: &Scene) -> Outcome {
         scene.name,
         100.0 * force,
         100.0 * movement,
-        found.evolution.simulated,
-        right.evolution.simulated
+        found.simulated,
+        right.simulated
     );
     assert!(force < 0.015 && movement < 0.015, "{}", scene.name);
     // Few passes were simulated, all that were asked for are known, the last one exactly as often as the first.
-    assert!(found.evolution.simulated < right.evolution.simulated / 3);
-    let on_first_day = |days: &Days| -> Vec<Record> {
-        let records = days.evolution.records.iter();
-        records
-            .filter(|record| record.pass <= scene.per_day)
-            .cloned()
-            .collect()
-    };
+    assert!(found.simulated < right.simulated / 3);
+    assert_eq!(found.records.len(), right.records.len());
     let largest = right.extremes.largest_force();
-    let [found, right] = [&found, &right].map(on_first_day);
-    assert_eq!(found.len(), right.len());
-    for (right, found) in right.iter().zip(&found) {
+    for (right, found) in right.records.iter().zip(&found.records) {
         assert_eq!(right.pass, found.pass);
         let apart = (right.outcome.max_compression - found.outcome.max_compression).abs() / largest;
         assert!(apart < 0.03, "{}: pass {}: {apart}", scene.name, right.pass);
@@ -306,16 +302,16 @@ fn days_repeat_in_the_end_but_for_a_drift() -> Outcome {
     scene.days = 7305;
     let years = scene.live(scene.knots, false)?;
     let last = &years.days[years.days.len() - 1];
-    let (periodic_from, drift) = years.evolution.repeats.expect("days that repeat");
-    assert!(years.evolution.simulated < 400 && periodic_from < 40);
+    assert!(years.simulated < 400 && years.periodic_from.is_some_and(|day| day < 40));
     assert!(
-        (drift / (places[3] - places[2]) - 1.0).abs() < 5e-3,
-        "{drift} m a day"
+        (years.drift / (places[3] - places[2]) - 1.0).abs() < 5e-3,
+        "{} m a day",
+        years.drift
     );
     // Forces stay those of the fourth day, and the ends are as far as the drift has brought them.
     let (force, _) = right.days[3].1.difference(&last.1, (1.0, 1.0));
     assert!(force < 0.015, "{force}");
-    let expected = places[3] + drift * 7301.0;
+    let expected = places[3] + years.drift * 7301.0;
     assert!((last.1.displacement[0][1] / expected - 1.0).abs() < 1e-3);
     assert!((years.extremes.displacement[0][1] - last.1.displacement[0][1]).abs() < 1e-9);
     Ok(())
@@ -365,9 +361,9 @@ fn days_that_take_too_long_are_given_up() {
         most_days: (0, 5),
         ..Scene::default()
     };
-    let error = scene.live(24, false).map(|days| days.simulated);
+    let error = scene.live(24, false).map(|days| days.simulated_days);
     let error = error.expect_err("300 m do not settle in five days").to_string();
-    assert!(error.contains("still differ from one to the next"), "{error}");
+    assert!(error.contains("still differ from day to day"), "{error}");
 }
 
 #[test]
@@ -375,8 +371,14 @@ fn what_is_no_day_is_refused() -> Outcome {
     let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * WEIGHT)?;
     let mesh = Mesh::new(6.0, 0.3, 0.15)?;
     let cable = DuctedCable::new(6.0, STIFFNESS, friction)?;
-    let mut request = Request::new(20, &[0, 1])?;
-    (request.wanted, request.days) = (&[20], Some(&[1, 2][..]));
+    let request = DaysRequest {
+        passes: 20,
+        wanted: &[20],
+        wanted_days: &[1, 2],
+        every_day: false,
+        guide: Guide::Free,
+        start: None,
+    };
     let jumps = Jumps::new(5e-3, 1.2, (1.0, 1e-6))?;
     let noon = || DailyHeat::Cosine {
         lowest: 0.0,
@@ -393,7 +395,7 @@ fn what_is_no_day_is_refused() -> Outcome {
         assert!(bad.is_err_and(is_refused), "{passes} {period} {knots}");
     }
     let day = Day::new(10, 2, noon(), 2)?;
-    let days = |request: &Request<'_>| {
+    let days = |request: &DaysRequest<'_>| {
         let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], friction.limit());
         // No vehicle moves this cable.
         let pass =
@@ -401,13 +403,14 @@ fn what_is_no_day_is_refused() -> Outcome {
         evolve_days(&cable, &mesh, (&day, law), &jumps, request, pass)
     };
     assert!(days(&request).is_ok());
-    for (passes, order) in [(0, &[0, 1][..]), (20, &[0])] {
-        assert!(days(&Request::new(passes, order)?).is_err_and(is_refused));
-    }
+    let none = DaysRequest { passes: 0, ..request };
+    assert!(days(&none).is_err_and(is_refused));
     // What does not come is not known.
-    request.wanted = &[0, 21, 20];
-    let known = days(&request)?.evolution.records;
-    assert_eq!(known.last().map(|record| record.pass), Some(20));
-    assert!(known.iter().all(|record| record.pass > 0));
+    let other = DaysRequest {
+        wanted: &[0, 21, 20],
+        ..request
+    };
+    let passes: Vec<u64> = days(&other)?.records.iter().map(|record| record.pass).collect();
+    assert_eq!(passes, [20]);
     Ok(())
 }

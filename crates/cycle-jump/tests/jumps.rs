@@ -21,9 +21,8 @@ fn cable(upstream: End, downstream: End, limit: f64) -> Result<(DuctedCable, Mes
 }
 
 fn jumps(tolerance: f64) -> Result<Jumps, JumpError> {
-    let mut jumps = Jumps::new(tolerance, 1.2, (0.01 * LIMIT, 4e-6))?;
-    jumps.most_passes = (1000, 1000);
-    Ok(jumps)
+    let jumps = Jumps::new(tolerance, 1.2, (0.01 * LIMIT, 4e-6))?;
+    Ok(jumps.with_most_passes(1000, 1000))
 }
 
 fn request<'a>(
@@ -51,18 +50,9 @@ fn what_has_no_meaning_is_refused() {
     ] {
         assert!(is_refused(Jumps::new(tolerance, length, least).map(|_| ())));
     }
-    // A start that shows no slope.
-    let (cable, mesh) = cable(End::Free, End::Fixed, LIMIT).expect("a cable");
-    for (first_periods, first_jump) in [(1, 0.25), (8, 0.0), (8, f64::NAN)] {
-        let mut jumps = jumps(0.01).expect("jumps");
-        (jumps.first_periods, jumps.first_jump) = (first_periods, first_jump);
-        let request = Request::new(100, &[0]).expect("a request");
-        let pass =
-            |_: Next, state: &mut CableState| PassOutcome::at_rest(&cable, state).map_err(JumpError::from);
-        assert!(is_refused(
-            evolve(&cable, &mesh, &jumps, &request, pass).map(|_| ())
-        ));
-    }
+    let jumps = jumps(0.01).expect("jumps");
+    assert!(is_refused(jumps.with_start(1, 0.25).map(|_| ())));
+    assert!(is_refused(jumps.with_start(8, 0.0).map(|_| ())));
 }
 
 /// A pass that moves every node by g (0.7 q − f̄), spread as one period spreads it: the exact law of a diffusion.

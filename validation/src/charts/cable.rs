@@ -105,8 +105,7 @@ impl Case {
         let passage = solver.passage(&self.motion, APPROACH)?;
         let motion = self.motion.peak_longitudinal();
         let least = (0.01 * cable.friction().limit(), 0.1 * motion);
-        let mut jumps = Jumps::new(JUMP, depth, least)?;
-        jumps.most_passes = (passes as u64, passes as u64);
+        let jumps = Jumps::new(JUMP, depth, least)?.with_most_passes(passes as u64, passes as u64);
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
         let mut request = Request::new(passes as u64, &[0])?;
         request.wanted = &wanted;

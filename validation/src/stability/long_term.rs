@@ -94,8 +94,7 @@ impl Case {
     fn jumped(&self, number: f64, guide: Guide<'_>) -> Result<Vec<f64>, JumpError> {
         let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
         let motion = number * LIMIT * DEPTH * DEPTH / EA;
-        let mut jumps = Jumps::new(TOLERANCE, DEPTH, (0.01 * LIMIT, 0.1 * motion))?;
-        jumps.most_passes = (1000, 1000);
+        let jumps = Jumps::new(TOLERANCE, DEPTH, (0.01 * LIMIT, 0.1 * motion))?.with_most_passes(1000, 1000);
         let mut request = Request::new(PASSES[PASSES.len() - 1], self.mix)?;
         (request.wanted, request.guide) = (&PASSES, guide);
         let evolution = evolve(

@@ -2,78 +2,85 @@
 
 use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable};
 
-use super::calendar::Calendar;
-use super::day::{Act, Event};
+use super::day::{Act, Day, Event};
 use super::law::LockedLaw;
 use super::step::{LongStep, STAGES};
 use crate::error::wrap;
 use crate::period::difference;
 use crate::tuning::DEFECT_GROWTH;
-use crate::walk::Pass;
 use crate::{JumpError, Next};
 
 /// Does what happens; its pass is the caller's.
-pub struct DailyCable<'a, E> {
-    calendar: &'a Calendar<'a>,
+pub struct DailyCable<'a, P> {
+    day: &'a Day,
     cable: RestingCable,
     pub step: LongStep,
-    pass: Pass<'a, E>,
+    pass: P,
     /// The cable before the last simulated period, if no step has used that period yet.
     before: Option<CableState>,
-    measured: Option<Measured>,
-    /// The cable when it was hottest and coldest on the day under way, and after its last pass.
-    pub hot: CableState,
-    pub cold: CableState,
-    pub last: CableState,
+    /// What the last two simulated periods before steps have shown, the later one first.
+    measured: [Option<Measured>; 2],
+    /// The cable when it was hottest and coldest on the day under way.
+    pub hot: Option<CableState>,
+    pub cold: Option<CableState>,
     /// Passes simulated.
     pub simulated: u64,
 }
 
-/// What the last simulated period before a step has shown.
+/// What a simulated period has shown.
 struct Measured {
-    /// When it ended, and how long after the one before \[periods\].
+    /// When it ended \[periods of the day\].
     time: f64,
-    since: f64,
     /// Advance of every node in it \[m\].
     advance: Vec<f64>,
-    /// Friction that the law missed \[N/m\], and by how much more it will in as many periods again.
+    /// Friction that the law missed \[N/m\].
     defect: Vec<f64>,
-    growth: Vec<f64>,
 }
 
-impl<'a, E: From<JumpError>> DailyCable<'a, E> {
+impl<'a, E, P> DailyCable<'a, P>
+where
+    E: From<JumpError>,
+    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+{
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
-        calendar: &'a Calendar<'a>,
+        day: &'a Day,
         law: LockedLaw,
-        pass: Pass<'a, E>,
+        pass: P,
     ) -> Result<Self, CableError> {
-        let state = CableState::at_rest(mesh);
         Ok(Self {
-            calendar,
+            day,
             cable: RestingCable::new(cable, mesh)?,
             step: LongStep { law, sweeps: 0 },
             pass,
             before: None,
-            measured: None,
-            hot: state.clone(),
-            cold: state.clone(),
-            last: state,
+            measured: [None, None],
+            hot: None,
+            cold: None,
             simulated: 0,
         })
     }
 
-    /// Lets the event `next` happen.
-    pub fn happen(&mut self, next: Next, state: &mut CableState) -> Result<PassOutcome, E> {
-        let event = &self.calendar.events[next.phase];
+    /// Begins another day.
+    pub fn begin_day(&mut self) {
+        self.measured = [None, None];
+        (self.hot, self.cold) = (None, None);
+    }
+
+    /// Lets the `event` happen; a pass has this `number`, if it counts.
+    pub fn happen(
+        &mut self,
+        event: &Event,
+        number: Option<u64>,
+        state: &mut CableState,
+    ) -> Result<PassOutcome, E> {
         if event.begins {
             self.before = Some(state.clone());
         }
         let outcome = match event.act {
             Act::Pass(phase) => {
                 self.simulated += 1;
-                let number = next.number.and_then(|number| self.calendar.pass(number));
                 (self.pass)(Next { phase, number }, state)?
             }
             act => {
@@ -86,18 +93,12 @@ impl<'a, E: From<JumpError>> DailyCable<'a, E> {
                 PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)?
             }
         };
-        let (force, is_first) = (state.thermal_force(), next.phase == 0);
-        if is_first {
-            self.measured = None;
+        let force = state.thermal_force();
+        if self.hot.as_ref().is_none_or(|hot| force > hot.thermal_force()) {
+            self.hot = Some(state.clone());
         }
-        if is_first || force > self.hot.thermal_force() {
-            self.hot.clone_from(state);
-        }
-        if is_first || force < self.cold.thermal_force() {
-            self.cold.clone_from(state);
-        }
-        if next.phase == self.calendar.last {
-            self.last.clone_from(state);
+        if self.cold.as_ref().is_none_or(|cold| force < cold.thermal_force()) {
+            self.cold = Some(state.clone());
         }
         Ok(outcome)
     }
@@ -107,21 +108,27 @@ impl<'a, E: From<JumpError>> DailyCable<'a, E> {
     fn step(&mut self, event: &Event, from: u64, to: u64, state: &mut CableState) -> Result<(), CableError> {
         if let Some(before) = self.before.take() {
             self.cable.release(&before, state);
-            self.measured = Some(self.measure(before.displacement(), from as f64, state));
+            let measured = self.measure(before.displacement(), from as f64, state);
+            self.measured = [Some(measured), self.measured[0].take()];
         }
-        let Some(measured) = &self.measured else {
+        let [Some(last), earlier] = &self.measured else {
             return Ok(());
         };
         let periods = (to - from) as f64;
-        let stages = STAGES.map(|share| {
-            let time = from as f64 + share * periods;
-            let ahead = ((time - measured.time) / measured.since).min(1.0);
-            let defect = measured.defect.iter().zip(&measured.growth);
-            let defect = defect.map(|(defect, growth)| defect + ahead * growth);
-            (self.calendar.day.heat_before(time), defect.collect())
+        let times = STAGES.map(|share| from as f64 + share * periods);
+        let defects = times.map(|time| match earlier {
+            Some(earlier) => {
+                let ahead = ((time - last.time) / (last.time - earlier.time)).min(1.0);
+                let both = last.defect.iter().zip(&earlier.defect);
+                both.map(|(last, earlier)| last + DEFECT_GROWTH * ahead * (last - earlier))
+                    .collect()
+            }
+            None => last.defect.clone(),
         });
+        let [first, second] = times.map(|time| self.day.heat_before(time));
+        let stages = [(first, &defects[0][..]), (second, &defects[1][..])];
         let (cable, u) = (&mut self.cable, state.displacement());
-        let u = self.step.take(cable, u, periods, stages, &measured.advance)?;
+        let u = self.step.take(cable, u, periods, stages, &last.advance)?;
         *state = cable.moved(state, u)?.with_thermal_force(event.thermal_force)?;
         self.cable.settle(state)
     }
@@ -131,22 +138,15 @@ impl<'a, E: From<JumpError>> DailyCable<'a, E> {
     fn measure(&mut self, before: &[f64], time: f64, state: &CableState) -> Measured {
         let advance = difference(state.displacement(), before);
         let mut defect = vec![0.0; advance.len()];
-        self.cable
-            .needed(state.displacement(), state.thermal_force(), &mut defect);
-        let nodes = self.cable.chain().nodes();
-        for ((defect, v), node) in defect.iter_mut().zip(&advance).zip(nodes) {
-            *defect -= self.step.law.friction(*v, node.limit);
+        let (u, thermal_force) = (state.displacement(), state.thermal_force());
+        self.cable.needed(u, thermal_force, &mut defect);
+        for (i, (defect, v)) in defect.iter_mut().zip(&advance).enumerate() {
+            *defect -= self.step.law.friction(*v, self.cable.chain().nodes()[i].limit);
         }
-        let (since, growth) = match &self.measured {
-            Some(last) => (time - last.time, difference(&defect, &last.defect)),
-            None => (1.0, vec![0.0; defect.len()]),
-        };
         Measured {
             time,
-            since,
             advance,
             defect,
-            growth: growth.iter().map(|growth| DEFECT_GROWTH * growth).collect(),
         }
     }
 }

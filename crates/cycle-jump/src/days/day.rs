@@ -1,11 +1,13 @@
 //! A day of traffic and heat as a list of events.
 
-use std::collections::BTreeSet;
-
 use super::heat::DailyHeat;
 use crate::JumpError;
 use crate::error::check;
-use crate::tuning::AFTER_A_CORNER;
+use crate::tuning::{AFTER_A_CORNER, MORNING, MORNING_GROWTH};
+
+/// With knots beyond this share of all periods a step would be no longer than a period: every one
+/// is simulated.
+const NEARLY_ALL: f64 = 0.5;
 
 /// A day of traffic and heat: passes evenly over the day, the first after half an interval.
 #[derive(Debug, Clone)]
@@ -76,17 +78,12 @@ impl Day {
         self.passes / self.period
     }
 
-    /// Whether every period of a day is simulated: if steps would be no longer than a period.
+    /// Whether every period of a day is simulated.
     pub fn is_simulated(&self) -> bool {
-        self.knots >= self.periods().div_ceil(2)
+        self.knots as f64 >= NEARLY_ALL * self.periods() as f64
     }
 
-    /// The period of `pass`, which counts from 0: the last one is longer.
-    fn period_of(&self, pass: u64) -> u64 {
-        (pass / self.period).min(self.periods() - 1)
-    }
-
-    /// Passes done when `periods` of the day are.
+    /// Passes done when `periods` of the day are: the last one is longer.
     fn passes_of(&self, periods: u64) -> u64 {
         if periods == self.periods() {
             self.passes
@@ -95,84 +92,147 @@ impl Day {
         }
     }
 
-    /// Θ at the last pass before `periods` are done \[N\].
-    pub(super) fn heat_before(&self, periods: f64) -> f64 {
-        let passes = periods * self.period as f64;
-        self.heat.at((passes - 0.5).max(0.0) / self.passes as f64)
+    /// Θ when `passes` of the day are done, which need not be whole \[N\].
+    fn thermal_force(&self, passes: f64) -> f64 {
+        self.heat.at(passes / self.passes as f64)
     }
 
-    /// The cable is brought to the temperature of `time` before the pass `next` of the day, from 0,
-    /// and to that of every turn since the pass before.
-    fn warming(&self, next: u64, time: f64) -> impl Iterator<Item = Event> {
+    /// Θ at the last pass before `periods` are done \[N\].
+    pub(super) fn heat_before(&self, periods: f64) -> f64 {
+        self.thermal_force((periods * self.period as f64 - 0.5).max(0.0))
+    }
+
+    /// Θ at the turns of the temperature between the pass `next` of the day and the one before.
+    fn turns_before(&self, next: u64) -> Vec<f64> {
         let all = self.passes as f64;
         let (from, to) = ((next as f64 - 0.5) / all, (next as f64 + 0.5) / all);
-        let between = move |turn: &f64| from < *turn && *turn < to.min(1.0);
-        let times = self.heat.turns().into_iter().filter(between).chain([time]);
-        times.map(move |time| Event::new(Act::Warm, self.heat.at(time), next))
+        let between = |time: &f64| from < *time && *time < to.min(1.0);
+        let turns = self.heat.turns().into_iter().filter(between);
+        turns.map(|time| self.heat.at(time)).collect()
     }
 
     /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and
-    /// after its corners, the last one, and that of the pass number `last`.
-    fn simulated(&self, last: u64) -> Vec<u64> {
+    /// after its corners, and the last; on the `first` day many of the morning, when the cable is
+    /// as laid.
+    fn simulated(&self, first: bool) -> Vec<u64> {
+        let all = self.periods();
         if self.is_simulated() {
-            return (0..self.periods()).collect();
+            return (0..all).collect();
         }
-        let distance = self.periods() as f64 / self.knots as f64;
-        let evenly = (0..self.knots).map(|k| (k as f64 * distance).round() as u64);
+        let evenly = |k: u64| (k as f64 * all as f64 / self.knots as f64).round() as u64;
+        let mut knots: Vec<u64> = (0..self.knots).map(evenly).chain([all - 1]).collect();
+        let corners = self.heat.has_corners();
+        let after = if corners { &AFTER_A_CORNER[..] } else { &[0] };
         // A turn comes before the first pass after it.
         let next = |time: f64| (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
-        let turns = self
-            .heat
-            .turns()
-            .into_iter()
-            .map(|time| self.period_of(next(time)));
-        let shown = if self.heat.has_corners() {
-            AFTER_A_CORNER.len()
-        } else {
-            1
-        };
-        let after_turns =
-            turns.flat_map(|turn| AFTER_A_CORNER[..shown].iter().map(move |after| turn + after));
-        let last = [last, self.passes].map(|pass| self.period_of(pass - 1));
-        let all = evenly.chain(after_turns).chain(AFTER_A_CORNER).chain(last);
-        let knots: BTreeSet<u64> = all.filter(|knot| *knot < self.periods()).collect();
-        knots.into_iter().collect()
+        let period_of = |time: f64| (next(time) / self.period).min(all - 1);
+        let turns = self.heat.turns().into_iter().map(period_of);
+        for turn in turns.chain(corners.then_some(0)) {
+            knots.extend(after.iter().map(|after| turn + after));
+        }
+        let (mut next, mut step) = (0.0, 1.0);
+        while first && step < all as f64 / self.knots as f64 {
+            knots.push(next as u64);
+            if next >= MORNING as f64 {
+                step *= MORNING_GROWTH;
+            }
+            next += step;
+        }
+        knots.retain(|knot| *knot < all);
+        knots.sort_unstable();
+        knots.dedup();
+        knots
     }
 
-    /// What happens in a day from midnight to midnight, its pass number `last` being simulated.
-    pub(super) fn events(&self, last: u64) -> Vec<Event> {
-        let knots = self.simulated(last);
-        let mut events = vec![Event::new(Act::Warm, self.heat.at(0.0), 0)];
+    /// What happens in a day, the `first` or another, up to its pass number `passes`, which is
+    /// simulated, and at its end, when the temperature is that of its beginning.
+    pub(super) fn events(&self, passes: u64, first: bool) -> Vec<Event> {
+        let whole = passes.div_ceil(self.period).min(self.periods());
+        let mut knots = self.simulated(first);
+        knots.retain(|knot| *knot + 1 < whole);
+        knots.push(whole - 1);
+        let mut events = Vec::new();
+        if first {
+            events.push(Event::warm(self.heat.at(0.0), 0, false));
+        }
         for (k, &knot) in knots.iter().enumerate() {
-            let begin = events.len();
-            for pass in self.passes_of(knot)..self.passes_of(knot + 1) {
-                let time = (pass as f64 + 0.5) / self.passes as f64;
-                events.extend(self.warming(pass, time));
-                let act = Act::Pass((pass % self.period) as usize);
-                events.push(Event::new(act, self.heat.at(time), pass + 1));
-            }
-            events[begin].begins = true;
-            let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(self.periods()));
-            let middle = from + (to - from) / 2;
-            for (from, to) in [(from, middle), (middle, to)] {
-                if from < to {
-                    let thermal_force = self.heat_before(to as f64);
-                    events.push(Event::new(Act::Step(from, to), thermal_force, self.passes_of(to)));
+            let mut begins = true;
+            for pass in self.passes_of(knot)..self.passes_of(knot + 1).min(passes) {
+                let thermal_force = self.thermal_force(pass as f64 + 0.5);
+                for thermal_force in self.turns_before(pass).into_iter().chain([thermal_force]) {
+                    events.push(Event::warm(thermal_force, pass, begins));
+                    begins = false;
                 }
+                let act = Act::Pass((pass % self.period) as usize);
+                events.push(Event {
+                    act,
+                    passes: pass + 1,
+                    ..Event::warm(thermal_force, pass, false)
+                });
+            }
+            // Two steps to the next knot, so that passes between are known well too.
+            let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(whole));
+            let middle = from + (to - from) / 2;
+            let steps = [(from, middle), (middle, to)];
+            for (from, to) in steps.into_iter().filter(|(from, to)| from < to) {
+                events.push(Event {
+                    act: Act::Step(from, to),
+                    ..Event::warm(self.heat_before(to as f64), self.passes_of(to), false)
+                });
             }
         }
-        events.extend(self.warming(self.passes, 1.0));
+        if passes == self.passes {
+            let end = self.turns_before(passes).into_iter().chain([self.heat.at(1.0)]);
+            events.extend(end.map(|thermal_force| Event::warm(thermal_force, passes, false)));
+        }
         events
     }
 }
 
 impl Event {
-    fn new(act: Act, thermal_force: f64, passes: u64) -> Self {
+    fn warm(thermal_force: f64, passes: u64, begins: bool) -> Self {
         Self {
-            act,
+            act: Act::Warm,
             thermal_force,
             passes,
-            begins: false,
+            begins,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::part::parts;
+    use super::*;
+
+    #[test]
+    fn every_pass_of_any_day_is_known_from_its_events() {
+        let (lowest, highest) = (0.0, 1.0);
+        let heat = [
+            (DailyHeat::Cosine { lowest, highest }, 0.5),
+            (DailyHeat::Profile(vec![(0.1, 0.0), (0.4, 1.0), (0.45, 0.5)]), 0.4),
+        ];
+        let days = [(1, 1), (7, 1), (90, 1), (90, 4), (97, 3), (402, 2), (200, 150)];
+        for ((heat, hottest), (passes, period)) in heat.iter().flat_map(|heat| days.map(|day| (heat, day))) {
+            for knots in [1, 2, 5, 16, 1000] {
+                let day = Day::new(passes, period, heat.clone(), knots).expect("a day");
+                for (cut, first) in (1..=passes).flat_map(|cut| [(cut, false), (cut, true)]) {
+                    let events = day.events(cut, first);
+                    // Straight lines and what passes do relative to them: together once the cable.
+                    for pass in 1..=cut {
+                        let parts = parts(&events, pass, period as u64);
+                        let sum: f64 = parts.iter().map(|part| part.weight).sum();
+                        assert!(f64::abs(sum - 1.0) < 1e-12, "pass {pass} of {cut}: {day:?}");
+                        let is_simulated = parts.len() == 1;
+                        assert!(!is_simulated || events[parts[0].place].passes == pass);
+                    }
+                    let last = events.iter().rfind(|event| matches!(event.act, Act::Pass(_)));
+                    assert_eq!(last.map(|event| event.passes), Some(cut), "{day:?}");
+                    // The day meets its hottest moment.
+                    let is_met = |event: &Event| event.thermal_force == heat.at(*hottest);
+                    assert!(cut < passes || events.iter().any(is_met), "{day:?}");
+                }
+            }
         }
     }
 }

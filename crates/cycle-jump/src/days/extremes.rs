@@ -1,6 +1,7 @@
 //! The largest and least forces and movements of a day.
 
-use crate::Record;
+use cable_dem::PassOutcome;
+
 use crate::period::{difference, largest};
 
 /// A least and a largest value.
@@ -25,8 +26,8 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Over these records; of none all largest values are −∞ and all least ones ∞.
-    pub(super) fn of(records: &[Record]) -> Self {
+    /// Over these outcomes; of none all largest values are −∞ and all least ones ∞.
+    pub(super) fn of<'o>(outcomes: impl Iterator<Item = &'o PassOutcome>) -> Self {
         let mut extremes = Self {
             force: [NONE; 2],
             displacement: [NONE; 2],
@@ -34,20 +35,23 @@ impl Extremes {
             tension: NONE[1],
             restraints: Vec::new(),
         };
-        let widen = |range: &mut Range, value: f64| *range = [range[0].min(value), range[1].max(value)];
-        for Record { outcome, .. } in records {
-            widen(&mut extremes.force[0], outcome.force.upstream);
-            widen(&mut extremes.force[1], outcome.force.downstream);
-            widen(&mut extremes.displacement[0], outcome.upstream_displacement);
-            widen(&mut extremes.displacement[1], outcome.downstream_displacement);
-            extremes.compression = extremes.compression.max(outcome.max_compression);
-            extremes.tension = extremes.tension.max(outcome.max_tension);
-            extremes.restraints.resize(outcome.restraints.len(), NONE);
-            for (range, force) in extremes.restraints.iter_mut().zip(&outcome.restraints) {
-                widen(range, *force);
-            }
-        }
+        outcomes.for_each(|outcome| extremes.see(outcome));
         extremes
+    }
+
+    /// Takes account of an outcome.
+    fn see(&mut self, outcome: &PassOutcome) {
+        let widen = |range: &mut Range, value: f64| *range = [range[0].min(value), range[1].max(value)];
+        widen(&mut self.force[0], outcome.force.upstream);
+        widen(&mut self.force[1], outcome.force.downstream);
+        widen(&mut self.displacement[0], outcome.upstream_displacement);
+        widen(&mut self.displacement[1], outcome.downstream_displacement);
+        self.compression = self.compression.max(outcome.max_compression);
+        self.tension = self.tension.max(outcome.max_tension);
+        self.restraints.resize(outcome.restraints.len(), NONE);
+        for (range, force) in self.restraints.iter_mut().zip(&outcome.restraints) {
+            widen(range, *force);
+        }
     }
 
     fn forces(&self) -> Vec<f64> {

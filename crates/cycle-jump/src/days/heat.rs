@@ -31,10 +31,18 @@ impl DailyHeat {
             Self::Cosine { lowest, highest } => &vec![(0.0, *lowest), (0.5, *highest)],
             Self::Profile(points) => points,
         };
-        let are_in_day = points.iter().all(|(time, _)| (0.0..1.0).contains(time));
-        let is_day = are_in_day && points.is_sorted_by(|a, b| a.0 < b.0) && !points.is_empty();
-        let allowed = "one or more, ascending, from 0 to below 1";
-        check("times of a day's temperature", is_day, allowed)?;
+        let is_in_day = points.iter().all(|(time, _)| (0.0..1.0).contains(time));
+        let ascends = points.is_sorted_by(|a, b| a.0 < b.0);
+        check(
+            "points of a day's temperature",
+            !points.is_empty(),
+            "at least one",
+        )?;
+        check(
+            "times of a day's temperature",
+            is_in_day && ascends,
+            "ascending, from 0 to below 1",
+        )?;
         let is_finite = points.iter().all(|(_, force)| force.is_finite());
         check("thermal force", is_finite, "finite")
     }

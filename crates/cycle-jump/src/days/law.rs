@@ -17,7 +17,8 @@ const STILL: f64 = 1e-11;
 #[derive(Debug, Clone)]
 pub struct LockedLaw {
     /// Advances, ascending, and Φ there.
-    points: Vec<(f64, f64)>,
+    advance: Vec<f64>,
+    friction: Vec<f64>,
     limit: f64,
     residual: f64,
     is_still: bool,
@@ -34,18 +35,22 @@ impl LockedLaw {
     /// [`LockedLaw::SHARES`]: how far the middle of a cable advances in a period on which a body
     /// force −share · q acts.
     pub fn new(advances: [f64; Self::SHARES.len()], limit: f64) -> Self {
-        let mut least = f64::INFINITY;
-        let mut points: Vec<(f64, f64)> = Vec::new();
-        for (advance, share) in advances.into_iter().zip(Self::SHARES) {
-            least = advance.min(least - MIN_DIFFERENCE);
-            points.push((least, share * limit));
+        let mut falling = advances;
+        for k in 1..falling.len() {
+            falling[k] = falling[k].min(falling[k - 1] - MIN_DIFFERENCE);
         }
-        let width = points[0].0 - least;
-        points.insert(0, (points[0].0 + width, -limit));
-        points.push((least - width, limit));
-        points.reverse();
+        let (most, least) = (falling[0], falling[falling.len() - 1]);
+        let width = most - least;
+        let mut advance = vec![most + width];
+        advance.extend(falling);
+        advance.push(least - width);
+        advance.reverse();
+        let mut friction = vec![limit];
+        friction.extend(Self::SHARES.iter().rev().map(|share| share * limit));
+        friction.push(-limit);
         Self {
-            points,
+            advance,
+            friction,
             limit,
             residual: RESIDUAL * limit / width,
             is_still: advances.iter().all(|advance| advance.abs() < STILL),
@@ -79,13 +84,13 @@ impl LockedLaw {
 
     /// Φ(v) and minus its slope.
     fn segment(&self, v: f64) -> (f64, f64) {
-        let next = self.points.partition_point(|(advance, _)| *advance < v);
-        if next == 0 || next == self.points.len() {
+        let next = self.advance.partition_point(|advance| *advance < v);
+        if next == 0 || next == self.advance.len() {
             return (if next == 0 { self.limit } else { -self.limit }, 0.0);
         }
-        let [(a, from), (b, to)] = [self.points[next - 1], self.points[next]];
-        let slope = (from - to) / (b - a);
-        (from - slope * (v - a), slope)
+        let (a, b) = (next - 1, next);
+        let slope = (self.friction[a] - self.friction[b]) / (self.advance[b] - self.advance[a]);
+        (self.friction[a] - slope * (v - self.advance[a]), slope)
     }
 }
 

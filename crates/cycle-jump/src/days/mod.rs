@@ -24,16 +24,16 @@
 //! each other's error.
 
 mod cable;
-mod calendar;
 mod day;
 mod evolve;
 mod extremes;
 mod heat;
 mod law;
+mod part;
 mod step;
 
 pub use day::Day;
-pub use evolve::{Days, Row, evolve_days};
+pub use evolve::{Days, DaysRequest, Row, evolve_days};
 pub use extremes::Extremes;
 pub use heat::DailyHeat;
 pub use law::LockedLaw;

@@ -23,11 +23,11 @@ const MIN_SHARE: f64 = 1e-9;
 pub const STAGES: [f64; 2] = [GAMMA, 1.0];
 
 /// What a stage solves: the advance v with w (Φ(v) + r) + w p + θ = K (base + reach v).
-struct Stage {
+struct Stage<'a> {
     base: Vec<f64>,
     reach: f64,
     thermal_force: f64,
-    defect: Vec<f64>,
+    defect: &'a [f64],
 }
 
 /// Takes steps of many periods.
@@ -46,46 +46,54 @@ impl LongStep {
         cable: &mut RestingCable,
         u: &[f64],
         periods: f64,
-        stages: [(f64, Vec<f64>); 2],
+        stages: [(f64, &[f64]); 2],
         advance: &[f64],
     ) -> Result<Vec<f64>, CableError> {
-        let (mut base, mut v) = (u.to_vec(), advance.to_vec());
-        // What of the advance is done after each stage.
-        for ((thermal_force, defect), share) in stages.into_iter().zip([1.0 - GAMMA, GAMMA]) {
-            let stage = Stage {
-                base,
-                reach: GAMMA * periods,
-                thermal_force,
-                defect,
-            };
-            v = self.solve(cable, &stage, v)?;
-            base = moved(&stage.base, share * periods, &v);
-        }
-        Ok(base)
+        let after = |u: &[f64], share: f64, v: &[f64]| -> Vec<f64> {
+            u.iter().zip(v).map(|(u, v)| u + share * periods * v).collect()
+        };
+        let stage = |base: Vec<f64>, (thermal_force, defect)| Stage {
+            base,
+            reach: GAMMA * periods,
+            thermal_force,
+            defect,
+        };
+        let first = self.solve(cable, &stage(u.to_vec(), stages[0]), advance.to_vec())?;
+        let base = after(u, 1.0 - GAMMA, &first);
+        let second = self.solve(cable, &stage(base.clone(), stages[1]), first)?;
+        Ok(after(&base, GAMMA, &second))
     }
 
     /// The advance that solves `stage`, sought from `v` on.
     fn solve(
         &mut self,
         cable: &mut RestingCable,
-        stage: &Stage,
+        stage: &Stage<'_>,
         mut v: Vec<f64>,
     ) -> Result<Vec<f64>, CableError> {
         let limit = cable.cable().friction().limit();
-        let (mut residual, mut slope) = self.balance(cable, stage, &v);
+        let mut balance = self.balance(cable, stage, &v);
         for _ in 0..MAX_STEPS {
-            if largest(&residual) <= ACCURACY * limit {
+            if largest(&balance.0) <= ACCURACY * limit {
                 return Ok(v);
             }
-            let mut step: Vec<f64> = residual.iter().zip(&slope).map(|(r, slope)| r / slope).collect();
+            let (residual, slope) = &balance;
+            let mut step: Vec<f64> = residual.iter().zip(slope).map(|(r, slope)| r / slope).collect();
             cable.diffuse(|i| stage.reach / slope[i], &mut step);
             self.sweeps += 1;
-            let start = work(cable, &step, &residual).abs();
+            // Minus the slope of the energy along the step.
+            let fall = |cable: &RestingCable, residual: &[f64]| -> f64 {
+                let chain = cable.chain();
+                let work = |i: usize| step[i] * residual[i] * chain.nodes()[i].tributary;
+                let works = chain.free().nodes().map(work);
+                works.sum()
+            };
+            let start = fall(cable, residual).abs();
             let mut share = 1.0;
             loop {
-                let trial = moved(&v, share, &step);
-                (residual, slope) = self.balance(cable, stage, &trial);
-                if work(cable, &step, &residual) >= -MAX_RISE * start || share < MIN_SHARE {
+                let trial: Vec<f64> = v.iter().zip(&step).map(|(v, step)| v + share * step).collect();
+                balance = self.balance(cable, stage, &trial);
+                if fall(cable, &balance.0) >= -MAX_RISE * start || share < MIN_SHARE {
                     v = trial;
                     break;
                 }
@@ -94,37 +102,23 @@ impl LongStep {
         }
         Err(CableError::NoConvergence {
             vehicle_position: f64::INFINITY,
-            violation: largest(&residual) / limit,
+            violation: largest(&balance.0) / limit,
         })
     }
 
     /// What is out of balance at the advance `v` \[N/m\], and minus the slope of the law \[N/m²\].
-    fn balance(&self, cable: &mut RestingCable, stage: &Stage, v: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let (mut needed, mut residual) = (vec![0.0; v.len()], vec![0.0; v.len()]);
-        let mut slope = vec![1.0; v.len()];
-        cable.needed(
-            &moved(&stage.base, stage.reach, v),
-            stage.thermal_force,
-            &mut needed,
-        );
+    fn balance(&self, cable: &mut RestingCable, stage: &Stage<'_>, v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let place = stage.base.iter().zip(v).map(|(base, v)| base + stage.reach * v);
+        let mut needed = vec![0.0; v.len()];
+        cable.needed(&place.collect::<Vec<_>>(), stage.thermal_force, &mut needed);
+        let (mut residual, mut slope) = (vec![0.0; v.len()], vec![1.0; v.len()]);
         let chain = cable.chain();
         for i in chain.free().nodes() {
             let limit = chain.nodes()[i].limit;
             let (found, steepness) = self.law.with_defect(v[i], stage.defect[i], limit);
-            (residual[i], slope[i]) = (found - needed[i], steepness);
+            residual[i] = found - needed[i];
+            slope[i] = steepness;
         }
         (residual, slope)
     }
-}
-
-/// u + share · v.
-fn moved(u: &[f64], share: f64, v: &[f64]) -> Vec<f64> {
-    u.iter().zip(v).map(|(u, v)| u + share * v).collect()
-}
-
-/// Minus the slope of the energy along a `step` where so much is out of balance.
-fn work(cable: &RestingCable, step: &[f64], residual: &[f64]) -> f64 {
-    let chain = cable.chain();
-    let work = |i: usize| step[i] * residual[i] * chain.nodes()[i].tributary;
-    chain.free().nodes().map(work).sum()
 }

@@ -1,21 +1,21 @@
 //! All days of a scene with heat on one mesh, and what two such runs differ in.
 
 use cable_dem::{CableState, EndForces};
-use cycle_jump::days::{DailyHeat, Day, Extremes, evolve_days};
-use cycle_jump::{Guide, Jumps, Next, Request};
+use cycle_jump::days::{DailyHeat, Day, DaysRequest, Extremes, evolve_days};
+use cycle_jump::{Guide, Jumps, Next};
 
 use super::locked_law::locked_law;
 use crate::Progress;
 use crate::answer::differences::{Scale, Shares};
 use crate::answer::listed;
-use crate::passes::{Passes, Simulation, Task, listed_passes, record_of};
+use crate::passes::{Passes, Simulation, Task, listed_passes};
 use crate::refine::{OnMeshes, Work};
 use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use creepage_plan::{Error, Plan, cable::traffic};
 use creepage_scene::{Heat, Scene};
 
-/// Days simulated before any is jumped over.
-const FIRST_DAYS: u64 = 4;
+/// Days simulated after the first one, before any is jumped over.
+const FIRST_DAYS: u64 = 3;
 /// Days simulated after which no more are jumped over, and after which the run gives up.
 const MOST_DAYS: (u64, u64) = (150, 1000);
 
@@ -99,11 +99,9 @@ impl DaySimulator<'_> {
         let tolerance = (SHARE * self.plan.scene.solver.tolerance).min(MOST);
         let (finer, first_jump) = if self.finer { (0.25, 0.25) } else { (1.0, 0.5) };
         let least = (scale.force, scale.movement);
-        let mut jumps = Jumps::new(finer * tolerance, levels.length_scale, least)?;
-        let first_days = if self.every_pass { u64::MAX } else { FIRST_DAYS };
-        (jumps.first_periods, jumps.first_jump) = (first_days, first_jump);
-        jumps.most_passes = MOST_DAYS;
-        Ok(jumps)
+        let jumps =
+            Jumps::new(finer * tolerance, levels.length_scale, least)?.with_start(FIRST_DAYS, first_jump)?;
+        Ok(jumps.with_most_passes(MOST_DAYS.0, MOST_DAYS.1))
     }
 
     /// Largest difference on any listed day.
@@ -143,15 +141,15 @@ impl OnMeshes for DaySimulator<'_> {
         let (law, of_law) = locked_law(&task, vehicles, self.sequence_of_a_day())?;
         let count = scene.traffic.passes;
         let (cable, start) = (task.cable()?, task.begin()?);
-        let schedule = other.map(|other| &other.schedule);
-        let wanted = listed_passes(scene, &plan.period);
-        let wanted_days = listed(count.div_ceil(day.passes()));
-        let mut request = Request::new(count, &vehicles[..self.sequence_of_a_day()])?;
-        (request.wanted, request.days) = (&wanted, Some(&wanted_days[..]));
-        (request.start, request.guide) = (
-            start.as_ref(),
-            schedule.map_or(Guide::Free, |days| Guide::Follow(days)),
-        );
+        let schedule = other.and_then(|other| other.days.as_ref());
+        let request = DaysRequest {
+            passes: count,
+            wanted: &listed_passes(scene, &plan.period),
+            wanted_days: &listed(count.div_ceil(day.passes())),
+            every_day: self.every_pass,
+            start: start.as_ref(),
+            guide: schedule.map_or(Guide::Free, |days| Guide::Follow(&days.schedule)),
+        };
         // Where every pass is simulated the vehicles come in their own order.
         let mut order = traffic(scene, scene.order())?;
         let pass = |next: Next, state: &mut CableState| {
@@ -167,10 +165,10 @@ impl OnMeshes for DaySimulator<'_> {
         simulation.statistics.sweeps += days.sweeps as usize;
         simulation.statistics.node_updates += days.sweeps as usize * mesh.nodes();
         self.work.add(simulation.statistics);
-        let known = days.evolution.clone();
-        let listed = wanted.iter().filter_map(|&pass| record_of(&known.records, pass));
-        let passes = simulation.evolved(listed.cloned().collect(), known);
+        let passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
         Ok(Passes {
+            peaks: days.peaks.clone(),
+            schedule: days.schedule.clone(),
             days: Some(days),
             ..passes
         })

@@ -13,13 +13,13 @@ impl DaySimulator<'_> {
     /// How many days were simulated, and how.
     pub fn reason(&self, days: &Days) -> Result<String, Error> {
         let day = self.day()?;
-        let (simulated, count) = (days.simulated, days_of(self));
+        let (simulated, count) = (days.simulated_days, days_of(self));
         let real = if day.is_simulated() {
             "all passes".to_owned()
         } else {
             format!("{} periods of the traffic", self.periods_a_day)
         };
-        let lasting = periodic_from(days).map_or_else(String::new, |day| {
+        let lasting = days.periodic_from.map_or_else(String::new, |day| {
             format!("; from day {day} on every day is like the one before")
         });
         let others = words_if(simulated < count, ", the others follow from them");
@@ -44,23 +44,18 @@ impl DaySimulator<'_> {
                 downstream_displacement_m: outcome.downstream_displacement,
             }
         });
-        let drift = days.evolution.repeats.map(|(_, drift)| drift);
+        let drift = days.periodic_from.map(|_| days.drift);
         Ok(HeatRecord {
             cycle: cycle.collect(),
             passes_per_day,
             all_days: DayExtremes::new(days_of(self), &days.extremes),
-            periodic_from_day: periodic_from(days),
+            periodic_from_day: days.periodic_from,
             drift_per_day_m: drift,
             drift_per_year_m: drift.map(|drift| DAYS_PER_YEAR * drift),
             hot_profile: ForceProfile::new(&cable, &days.hot)?,
             cold_profile: ForceProfile::new(&cable, &days.cold)?,
         })
     }
-}
-
-/// The day from which on each repeats the one before.
-fn periodic_from(days: &Days) -> Option<u64> {
-    days.evolution.repeats.map(|(done, _)| done + 1)
 }
 
 /// Days of the plan's traffic.

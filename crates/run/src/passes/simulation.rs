@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use cable_dem::{CableState, DuctedCable, PassOutcome, SlipLengths, Statistics};
 use cycle_jump::days::Days;
-use cycle_jump::{Beyond, Evolution, Jumps, Next, Record, Request, evolve, peaks};
+use cycle_jump::{Beyond, Jumps, Next, Record, Request, evolve, peaks};
 
 use super::listing::Listing;
 use super::options::Jumping;
@@ -124,16 +124,6 @@ impl<'a> Simulation<'a> {
             days: None,
         }
     }
-
-    /// The passes of an `evolution`, of which these `records` are listed.
-    pub fn evolved(self, records: Vec<Record>, evolution: Evolution) -> Passes {
-        Passes {
-            peaks: peaks(&records, evolution.records),
-            schedule: evolution.schedule,
-            beyond: evolution.beyond,
-            ..self.passes(records, evolution.state, evolution.simulated)
-        }
-    }
 }
 
 impl Task<'_> {
@@ -163,10 +153,9 @@ impl Task<'_> {
         let patience = length * (passes / length).clamp(fewest, most);
         let length_scale = length_scale(self.motions, self.scene.duct.depth);
         let size = jumping.size;
-        let mut jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?;
-        (jumps.first_periods, jumps.first_jump) = (size.first_periods, size.first_jump);
-        jumps.most_passes = (patience, jumping.most_passes.max(patience));
-        Ok(jumps)
+        let jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?
+            .with_start(size.first_periods, size.first_jump)?;
+        Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
     }
 
     /// Simulates few passes, with jumps between them; the passes `listed` and the stages are
@@ -197,6 +186,11 @@ impl Task<'_> {
         };
         let evolution = evolve(&cable, &self.mesh, &jumps, &request, pass)?;
         let records = listing.records(&evolution.records);
-        Ok(simulation.evolved(records, evolution))
+        Ok(Passes {
+            peaks: peaks(&records, evolution.records),
+            schedule: evolution.schedule,
+            beyond: evolution.beyond,
+            ..simulation.passes(records, evolution.state, evolution.simulated)
+        })
     }
 }

@@ -1,4 +1,5 @@
-//! The cable on its way: passes simulated a period at a time, and advances that stand for others.
+//! The cable on its way: passes simulated one by one or a period at a time, and advances that stand
+//! for others.
 
 use std::collections::BTreeSet;
 
@@ -9,19 +10,18 @@ use crate::error::wrap;
 use crate::peaks::largest_places;
 use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
-use crate::request::{Guide, Jumps, Next, Request};
+use crate::request::{Jumps, Next, Request};
+use crate::rounds::{Rounds, Settling, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
 use crate::within_jump::JumpInterval;
 
-/// What simulates a pass.
-pub type Pass<'a, E> = &'a mut dyn FnMut(Next, &mut CableState) -> Result<PassOutcome, E>;
-
 /// The cable and the vehicles that drive over it.
-pub struct Walk<'a, E> {
+pub struct Simulation<'a, P> {
     pub request: &'a Request<'a>,
+    pub mesh: &'a Mesh,
     pub cable: RestingCable,
-    pass: Pass<'a, E>,
+    pass: P,
     wanted: BTreeSet<u64>,
     pub state: CableState,
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
@@ -29,32 +29,26 @@ pub struct Walk<'a, E> {
     scale: Scale,
     /// Error of a jump, as a share of what is large.
     pub tolerance: f64,
-    /// Periods done.
-    pub done: u64,
     /// Passes simulated.
     pub simulated: u64,
     records: Vec<Record>,
-    pub guide: Guide<'a>,
-    /// Lengths of the jumps, 0 for a simulated period between.
-    pub schedule: Vec<u64>,
-    /// Periods after which each repeats the one before, but for a movement as a whole \[m\].
-    pub repeats: Option<(u64, f64)>,
     /// Whether all passes of the traffic are done: the caller counts no later ones.
     pub is_over: bool,
 }
 
-impl<'a, E: From<JumpError>> Walk<'a, E> {
+impl<'a, P> Simulation<'a, P> {
     /// Of `cable` on `mesh`.
     pub fn new(
         cable: &DuctedCable,
-        mesh: &Mesh,
-        jumps: &Jumps,
+        mesh: &'a Mesh,
         request: &'a Request<'a>,
-        pass: Pass<'a, E>,
+        jumps: &Jumps,
+        pass: P,
     ) -> Result<Self, CableError> {
         let start = request.start.cloned();
         Ok(Self {
             request,
+            mesh,
             cable: RestingCable::new(cable, mesh)?,
             pass,
             wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
@@ -62,12 +56,8 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
             offset: 0.0,
             scale: jumps.least,
             tolerance: jumps.tolerance,
-            done: 0,
             simulated: 0,
             records: Vec::new(),
-            guide: request.guide,
-            schedule: Vec::new(),
-            repeats: None,
             is_over: false,
         })
     }
@@ -77,27 +67,77 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
         self.scale.shares(&self.cable, change)
     }
 
-    /// Simulates the next period.
-    pub fn next_period(&mut self) -> Result<Period, E> {
-        let length = self.request.order.len();
-        let period = self.period(length, Some(self.done * length as u64))?;
-        self.done += 1;
-        Ok(period)
+    /// Whether a period has several passes, of which any may show more than the wanted ones.
+    fn has_candidates(&self) -> bool {
+        self.request.order.len() > 1 && !self.is_over
     }
 
+    /// The records so far, ascending.
+    pub fn take_records(&mut self) -> Vec<Record> {
+        let mut records = std::mem::take(&mut self.records);
+        records.sort_by_key(|record| record.pass);
+        records
+    }
+
+    fn record(&mut self, pass: u64, outcome: PassOutcome, interpolated: bool) {
+        self.records.push(Record {
+            pass,
+            outcome,
+            interpolated,
+        });
+    }
+
+    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement
+    /// as a `whole` in each \[m\].
+    pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
+        for pass in self.recorded(done, all, &largest_places(period)) {
+            let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
+            let place = phase_of(pass, period.len());
+            self.record(pass, period.outcome(place).moved(moved), true);
+        }
+        self.offset += whole * (all - done) as f64;
+    }
+
+    /// The passes to be recorded after so many periods up to others without their simulation, where
+    /// passes at these `places` show the largest of a period.
+    fn recorded(&self, from: u64, to: u64, places: &BTreeSet<usize>) -> BTreeSet<u64> {
+        let length = self.request.period();
+        let mut passes: BTreeSet<u64> = self
+            .wanted
+            .range((from * length + 1)..=(to * length))
+            .copied()
+            .collect();
+        for day in self
+            .request
+            .days
+            .unwrap_or(&[])
+            .iter()
+            .filter(|day| (from + 1..=to).contains(*day))
+        {
+            passes.extend(places.iter().map(|&place| (day - 1) * length + place as u64 + 1));
+        }
+        passes
+    }
+}
+
+impl<E, P> Simulation<'_, P>
+where
+    E: From<JumpError>,
+    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+{
     /// Simulates the first `length` passes of a period, which follow the pass `after` where they
     /// have numbers.
     pub fn period(&mut self, length: usize, after: Option<u64>) -> Result<Period, E> {
         let before = self.state.clone();
         let mut period = Period::begin(before.displacement());
-        for equal in self.request.order[..length].chunk_by(|one, next| one == next) {
-            self.equal_vehicles(equal.len(), after, &mut period)?;
+        for rounds in rounds(&self.request.order[..length]) {
+            self.rounds(rounds, after, &mut period)?;
         }
         period.end(self.state.displacement());
         self.cable.release(&before, &self.state);
         if self.request.days.is_some() {
             // In a day forces come and go.
-            period.outcomes().for_each(|outcome| self.scale.see(outcome));
+            (0..length).for_each(|place| self.scale.see(&period.phase(place).outcome));
         }
         let rest = PassOutcome::at_rest(self.cable.cable(), &self.state).map_err(wrap)?;
         self.scale.see(&rest);
@@ -106,33 +146,34 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
         Ok(period)
     }
 
-    /// Simulates so many equal vehicles of a `period`. Once two in a row show that the others will
-    /// change less than a small part of the tolerance, all but the last count as done.
-    fn equal_vehicles(&mut self, count: usize, after: Option<u64>, period: &mut Period) -> Result<(), E> {
-        let (mut last, mut was_settled): (Option<Scale>, bool) = (None, false);
-        let mut left = count;
+    /// Simulates rounds of a `period`. Once they will change less than a small part of the
+    /// tolerance, all but the last count as done.
+    fn rounds(&mut self, rounds: Rounds, after: Option<u64>, period: &mut Period) -> Result<(), E> {
+        let mut settling = Settling::default();
+        let mut left = rounds.times;
         while left > 0 {
             let before = self.state.displacement().to_vec();
-            let number = |place: usize| after.map(|after| after + 1 + place as u64);
-            let outcome = self.simulate(period.phases.len(), number(period.phases.len()))?;
-            period.push(&self.state, outcome);
+            for _ in 0..rounds.round {
+                let phase = period.len();
+                let number = after.map(|after| after + 1 + phase as u64);
+                let outcome = self.simulate(phase, number)?;
+                period.push(&self.state, outcome);
+            }
             left -= 1;
             let mut change = difference(self.state.displacement(), &before);
             let whole = remove_mean(&self.cable, &mut change);
-            let change = self.shares(&change);
             let skipped = left.saturating_sub(1);
-            let allowed = NEGLIGIBLE * self.tolerance;
-            let is_settled = last.is_some_and(|last| change.remaining(last, skipped).worse() <= allowed);
-            last = Some(change);
-            let are_settled = std::mem::replace(&mut was_settled, is_settled) && is_settled;
-            let places = period.phases.len()..period.phases.len() + skipped;
-            if !are_settled || skipped == 0 || !self.may_skip(after, &places) {
+            let is_settled = settling.is_settled(self.shares(&change), skipped, NEGLIGIBLE * self.tolerance);
+            let begin = period.len();
+            let passes = begin..begin + skipped * rounds.round;
+            if !is_settled || skipped == 0 || !self.may_skip(after, &passes) {
                 continue;
             }
-            for place in places {
-                period.repeat(whole);
-                if let Some(pass) = number(place).filter(|pass| self.wanted.contains(pass)) {
-                    self.record(pass, period.phases[place].outcome.clone(), true);
+            for place in passes {
+                period.repeat(rounds.round, whole);
+                let pass = after.map(|after| after + 1 + place as u64);
+                if let Some(pass) = pass.filter(|pass| self.wanted.contains(pass)) {
+                    self.record(pass, period.outcome(place), true);
                 }
             }
             if whole != 0.0 {
@@ -169,39 +210,6 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
         Ok(outcome)
     }
 
-    /// Moves the cable by `advance` \[m\] and lets it come to rest.
-    pub fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
-        let now = self.state.displacement().iter();
-        let mut moved: Vec<f64> = now.zip(advance).map(|(u, y)| u + y).collect();
-        self.offset += remove_mean(&self.cable, &mut moved);
-        self.place(moved)
-    }
-
-    fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {
-        self.state = self.cable.moved(&self.state, displacement).map_err(wrap)?;
-        self.cable.settle(&mut self.state).map_err(wrap)
-    }
-
-    /// Takes the days left of `all` to repeat the last one, the `period`, but for a movement as a
-    /// whole: if its advance, gone on unchanged, would change no force and no movement noticeably.
-    pub fn repeat(&mut self, period: &Period, all: u64) -> bool {
-        let (done, left) = (self.done, all - self.done);
-        let mut change = period.rate.clone();
-        let whole = remove_mean(&self.cable, &mut change);
-        let change = left as f64 * self.shares(&change).worse();
-        if self.request.days.is_none() || left == 0 || change > NEGLIGIBLE * self.tolerance {
-            return false;
-        }
-        for pass in self.recorded(done, all, &largest_places(period)) {
-            let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
-            let outcome = period.phases[phase_of(pass, period.phases.len())].outcome.clone();
-            self.record(pass, outcome.moved(moved), true);
-        }
-        self.offset += whole * left as f64;
-        (self.repeats, self.done) = (Some((done, whole)), all);
-        true
-    }
-
     /// Records passes within a jump, before its last simulated period.
     pub fn record_jump(&mut self, jump: &JumpInterval<'_>) -> Result<(), E> {
         let mut places = largest_places(jump.before);
@@ -227,36 +235,16 @@ impl<'a, E: From<JumpError>> Walk<'a, E> {
         Ok(())
     }
 
-    /// The passes to be recorded after so many periods up to others without their simulation, where
-    /// passes at these `places` show the largest of a period.
-    fn recorded(&self, from: u64, to: u64, places: &BTreeSet<usize>) -> BTreeSet<u64> {
-        let length = self.request.period();
-        let wanted = self.wanted.range(from * length + 1..=to * length).copied();
-        let days = self.request.days.unwrap_or(&[]).iter();
-        let of_days = days.filter(|day| (from + 1..=to).contains(*day)).flat_map(|day| {
-            let before = (day - 1) * length;
-            places.iter().map(move |&place| before + place as u64 + 1)
-        });
-        wanted.chain(of_days).collect()
+    /// Moves the cable by `advance` \[m\] and lets it come to rest.
+    pub fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
+        let now = self.state.displacement().iter();
+        let mut moved: Vec<f64> = now.zip(advance).map(|(u, y)| u + y).collect();
+        self.offset += remove_mean(&self.cable, &mut moved);
+        self.place(moved)
     }
 
-    /// Whether a period has several passes, of which any may show more than the wanted ones.
-    fn has_candidates(&self) -> bool {
-        self.request.order.len() > 1 && !self.is_over
-    }
-
-    fn record(&mut self, pass: u64, outcome: PassOutcome, interpolated: bool) {
-        self.records.push(Record {
-            pass,
-            outcome,
-            interpolated,
-        });
-    }
-
-    /// The records so far, ascending.
-    pub fn take_records(&mut self) -> Vec<Record> {
-        let mut records = std::mem::take(&mut self.records);
-        records.sort_by_key(|record| record.pass);
-        records
+    fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {
+        self.state = self.cable.moved(&self.state, displacement).map_err(wrap)?;
+        self.cable.settle(&mut self.state).map_err(wrap)
     }
 }
