@@ -90,7 +90,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let limits = |Places(places): &Places| -> Result<Limits, Failure> {
         // Held somehow: what is limited there counts.
         let held = input.located(held(&input.scene, places, 1.0))?;
-        arguments.limits.limits_beside(&held, &everywhere)
+        let limits = arguments.limits.limits_beside(&held, &everywhere)?;
+        if limits.all().next().is_some() {
+            return Ok(limits);
+        }
+        Err(Failure::Usage {
+            argument: "--limit-force",
+            found: "no limit".into(),
+            allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
+                .into(),
+        })
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     let units = units.for_springs();

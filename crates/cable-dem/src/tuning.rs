@@ -3,8 +3,8 @@
 //! Times are those of nine cables of 30 to 1000 m under one to five wheels, relative to the value
 //! that stands here; differences below 10 % are noise.
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows
-/// while a vehicle passes.
+/// Share of the friction limit by which friction and equilibrium may be off outside the windows,
+/// and with [`UNBALANCED_FORCE`] at ends and clamps, while a vehicle passes.
 ///
 /// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random
 /// scenes with [`WATCHED_SHARE`] of 0.05, but for one cable held by nothing: 5e-4).

@@ -22,11 +22,6 @@ impl Stretch {
         self.hi + 1 - self.lo
     }
 
-    /// Whether both have a node in common.
-    pub fn overlaps(self, other: Self) -> bool {
-        self.lo <= other.hi && other.lo <= self.hi
-    }
-
     /// The shortest one that holds both.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {

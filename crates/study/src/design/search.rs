@@ -34,8 +34,8 @@ const HALVINGS: usize = 14;
 ///
 /// # Errors
 ///
-/// [`DesignError`] where limits or places have no meaning, a run fails, or the limits of one spring
-/// are kept in several ranges of stiffness.
+/// [`DesignError`] where limits or places have no meaning, a run fails, or the limits are kept in
+/// several ranges of stiffness.
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
     options.check(scene)?;
     scene.validate().map_err(Error::from)?;
