@@ -3,16 +3,15 @@
 //! Times are those of nine cables of 30 to 1000 m under one to five wheels, relative to the value
 //! that stands here; differences below 10 % are noise.
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows,
-/// and with [`UNBALANCED_FORCE`] at ends and clamps, while a vehicle passes.
+/// Share of the friction limit by which friction and equilibrium may be off outside the windows
+/// while a vehicle passes.
 ///
 /// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random
 /// scenes with [`WATCHED_SHARE`] of 0.05, but for one cable held by nothing: 5e-4).
 pub const UNBALANCED_SHARE: f64 = 1e-3;
 
-/// Share of the force on the ends before a pass up to which ends and clamps may also be out of balance during it. With 0 three
-/// lanes take 1.1 times the node updates; the force of 5000 passes changes by 1e-9.
-pub const UNBALANCED_FORCE: f64 = 2e-6;
+/// The same share at ends and clamps, whose forces are read: a tenth. Only what a vehicle far away does is left out.
+pub const UNBALANCED_SUPPORT: f64 = 0.1 * UNBALANCED_SHARE;
 
 /// Nodes are watched where adhesion reaches this part of [`UNBALANCED_SHARE`]. From 0.025 to 0.25 the
 /// forces of traffic do not change by more than 1e-6; at 0.25 days with heat take 1.4 times as long.

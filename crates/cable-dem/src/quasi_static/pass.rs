@@ -7,8 +7,8 @@ use friction_chain::{ChainError, Clamp, Contact, ImplicitStep, Load, Stretch};
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window::{self, Window};
-use crate::tuning::{UNBALANCED_FORCE, UNBALANCED_SHARE};
-use crate::{CableError, CableState, EndForces, PassOutcome};
+use crate::tuning::{UNBALANCED_SHARE, UNBALANCED_SUPPORT};
+use crate::{CableError, CableState, PassOutcome};
 
 /// Solves at most in which clamps change between sticking and sliding: a few are right at once.
 const MAX_CORRECTIONS: usize = 100;
@@ -256,10 +256,8 @@ impl QuasiStatic {
     fn is_due(&self, node: usize) -> bool {
         let slides = |clamp: &Clamp| clamp.node == node && !clamp.is_stuck();
         let node_there = &self.step.chain.nodes()[node];
-        let EndForces { upstream, downstream } = self.outcome.force;
-        let force = UNBALANCED_FORCE * upstream.abs().max(downstream.abs());
-        let allowed = UNBALANCED_SHARE * node_there.limit + force * node_there.per_tributary;
-        self.imbalance(node) > allowed || self.step.chain.clamps().iter().any(slides)
+        self.imbalance(node) > UNBALANCED_SUPPORT * node_there.limit
+            || self.step.chain.clamps().iter().any(slides)
     }
 
     /// Records the forces on ends and clamps with the vehicle at the snapshot's position.
