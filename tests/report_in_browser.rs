@@ -393,7 +393,7 @@ fn heat_and_crowded_drawings_are_well_on_every_screen_and_on_paper() {
         (&printed(&page), SHEET, false),
     ] {
         // Two drawings; two figures of force, three of heat, two of the cause.
-        let faults = faults(page, width, dark, 8);
+        let faults = faults(page, width, dark, 9);
         assert!(faults.is_empty(), "{width} px, dark {dark}: {faults:#?}");
     }
 }
