@@ -5,6 +5,7 @@ pub mod cable;
 mod cost;
 #[doc(hidden)]
 pub mod error;
+mod error_source;
 #[doc(hidden)]
 pub mod finite;
 #[doc(hidden)]
@@ -27,7 +28,8 @@ pub mod tuning;
 mod warnings;
 
 pub use cost::Estimates;
-pub use error::{Error, ErrorSource, with_causes};
+pub use error::{Error, with_causes};
+pub use error_source::ErrorSource;
 pub use mesh::Levels;
 pub use method::MOST_PASSES;
 pub use period::Period;

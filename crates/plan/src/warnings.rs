@@ -3,7 +3,8 @@
 use cable_dem::Order;
 use ground_field::{Base, DuctMotion};
 
-use crate::error::{Error, ErrorSource};
+use crate::error::Error;
+use crate::error_source::ErrorSource;
 use crate::occurrence::{Occurrence, TOP};
 use crate::period::coming;
 use crate::shown::{exact_percent, percent};

@@ -2,6 +2,7 @@
 
 mod along_cable;
 pub mod balance;
+mod calendar;
 pub mod differences;
 pub mod error_estimate;
 mod fixed_mesh;
@@ -15,12 +16,13 @@ mod table_rows;
 mod units;
 
 pub use along_cable::*;
+pub use calendar::after;
 pub use differences::larger;
 pub use error_estimate::{ErrorEstimate, ErrorShares};
 pub use fixed_mesh::{FixedMesh, JumpSize, KnownJumps};
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
-pub use listed::{after, beyond, listed, simulated};
+pub use listed::{beyond, listed, simulated};
 pub use place::{Limited, Place, largest_movement_in_duct};
 pub use record::*;
 pub use saturation::saturation;

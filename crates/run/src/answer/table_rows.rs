@@ -1,7 +1,8 @@
 //! Which of the listed passes a short table shows.
 
+use super::calendar::calendar;
 use super::heat::DayExtremes;
-use super::listed::{ROUND, calendar};
+use super::listed::ROUND;
 use super::record::PassRecord;
 use creepage_plan::{
     Period,
