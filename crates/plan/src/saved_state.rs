@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cable::cable;
 use crate::error::Error;
+use crate::hash::fnv1a;
 use creepage_scene::{CableEnd, Scene};
 
 /// Version of what is written.
@@ -15,12 +16,15 @@ const SAME: f64 = 1e-9;
 
 /// The cable as a run has left it, and the duct that it lies in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SavedState {
     version: u32,
     /// Passes so far, of all runs.
     passes: u64,
     /// What must agree with the scene of the next run.
     duct: Vec<Value>,
+    /// Of [`Self::duct`].
+    hash: u64,
     ends: [SavedEnd; 2],
     clamps: Vec<SavedClamp>,
     cable: CableState,
@@ -96,6 +100,12 @@ fn duct(scene: &Scene) -> Vec<Value> {
     duct
 }
 
+/// Of the values and their names.
+fn hash(duct: &[Value]) -> u64 {
+    let bytes = |value: &Value| [value.key.as_bytes(), &value.value.to_bits().to_le_bytes()].concat();
+    fnv1a(duct.iter().flat_map(bytes))
+}
+
 fn same(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= SAME * a.abs().max(b.abs())
 }
@@ -110,6 +120,7 @@ impl SavedState {
         before: Option<&Self>,
         passes: Vec<PastPass>,
     ) -> Self {
+        let duct = duct(scene);
         let position = cable.end_positions();
         let ends = [(cable.upstream(), position[0]), (cable.downstream(), position[1])];
         let clamps = cable.restraints().iter().zip(state.clamp_slips(cable));
@@ -125,7 +136,8 @@ impl SavedState {
             version: VERSION,
             passes: first + scene.traffic.passes,
             history,
-            duct: duct(scene),
+            hash: hash(&duct),
+            duct,
             ends: ends.map(|(end, position_m)| SavedEnd {
                 stiffness_n_per_m: end.stiffness(),
                 position_m,
@@ -152,7 +164,7 @@ impl SavedState {
         &self.history
     }
 
-    /// Refuses a state of another duct.
+    /// Refuses a state of another duct, or one that was changed.
     ///
     /// # Errors
     ///
@@ -164,6 +176,8 @@ impl SavedState {
         let reason = if self.version != VERSION {
             let version = self.version;
             format!("its version is {version}, and this program knows {VERSION}")
+        } else if self.hash != hash(&self.duct) {
+            "it was changed after it was written".to_owned()
         } else if scene.friction_limit() == 0.0 {
             "without friction a cable goes back to where it was laid".to_owned()
         } else if here.len() != self.duct.len() {
