@@ -100,10 +100,3 @@ pub(crate) fn shares<'a>(
     };
     sections.iter().map(share).filter(|(share, _)| *share > ROUNDING)
 }
-
-/// The friction limit of a node \[N/m\] on sections with these `shares`, with the `force` \[N\] in the cable there.
-pub(crate) fn limit_of<'a>(shares: impl Iterator<Item = (f64, &'a Section)>, force: f64) -> f64 {
-    shares
-        .map(|(share, section)| share * section.limit_under(force))
-        .sum()
-}

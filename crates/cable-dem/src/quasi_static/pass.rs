@@ -22,7 +22,7 @@ impl QuasiStatic {
         state: &mut CableState,
         mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<PassOutcome, CableError> {
-        self.begin(passage, state)?;
+        self.begin(passage, state);
         let mut last = passage.still();
         let mut watched = self.bounds.free;
         for (step, &position) in passage.positions.iter().enumerate() {
@@ -57,7 +57,7 @@ impl QuasiStatic {
     }
 
     /// Begins a pass over the cable in `state`.
-    fn begin(&mut self, passage: &Passage, state: &CableState) -> Result<(), CableError> {
+    fn begin(&mut self, passage: &Passage, state: &CableState) {
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.step.begin(&self.r, passage.peak);
@@ -65,17 +65,16 @@ impl QuasiStatic {
         for (anchor, (r, g)) in self.anchor.iter_mut().zip(self.r.iter().zip(&self.g)) {
             *anchor = r + compliance * g;
         }
-        self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));
+        let clamps = self.clamps.stuck(&state.clamp_slips);
+        self.step.chain.set_clamps(&clamps);
         self.supports
             .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
         self.predicted.clear();
         self.predicted.resize(passage.points(), Contact::Stuck);
-        self.outcome = PassOutcome::of_forces(
-            state.end_forces(&self.cable)?,
-            state.restraint_forces(&self.cable)?,
-        );
-        Ok(())
+        let (u, f) = (|i: usize| state.displacement[i], |i: usize| state.friction[i]);
+        let forces = self.clamps.forces(&clamps, self.cable.restraints(), u);
+        self.outcome = PassOutcome::of_forces(self.ends.read(self.thermal_force, u, f), forces);
     }
 
     /// The cable under `snapshot`; clamps that never slip keep what they had in `before`.

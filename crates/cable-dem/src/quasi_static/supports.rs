@@ -1,7 +1,7 @@
 //! Ends and clamps while the vehicle passes: their loads, and where they stand, in the adherent frame.
 //!
-//! The cable around each of them is solved where it is out of balance, which a vehicle far away hardly puts it: solved at every step, three
-//! lanes take 1.3 times as long.
+//! The cable around each of them is solved where it is out of balance, which a vehicle far away hardly puts it. Solved at every step,
+//! three lanes take 1.2 times the node updates, and three clamps 1.3 times.
 
 use friction_chain::{Chain, Stretch, Trial};
 
