@@ -126,7 +126,10 @@ impl Study {
             let Some(at) = top(&tried.outcomes) else { break };
             match runs.run(measure, &at, true)? {
                 Ok(outcome) => tried.outcomes.push(outcome),
-                Err(failure) => tried.failures.push(failure),
+                Err(failure) => {
+                    tried.failures.push(failure);
+                    break;
+                }
             }
         }
         Ok(tried)

@@ -36,7 +36,7 @@ impl Sweep {
                 ..RunOptions::default()
             };
             let run = |scene: &Scene| match options.evaluate {
-                Some(evaluate) => evaluate(scene),
+                Some(evaluate) => evaluate(scene).and_then(|run| finite::check(&run).map(|()| run)),
                 None => run_over(scene, grounds.of(scene)?, &run_options),
             };
             while let Some(&index) = points.get(begun.fetch_add(1, Relaxed)) {
@@ -65,7 +65,6 @@ impl Sweep {
         let compute = || -> Result<Row, Error> {
             let scene = self.scene(index)?;
             let run = &run(&scene)?;
-            finite::check(run)?;
             let limits = self.limits.as_ref();
             let verdicts = limits.map_or(Ok(Vec::new()), |limits| limits.verdicts(run, &scene))?;
             let answer = Answer {
