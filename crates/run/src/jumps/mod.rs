@@ -15,6 +15,7 @@ use crate::refine::{MeshLoop, OnMeshes, Solved, Work};
 use crate::tuning::meshes::{FINDING, MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 use creepage_plan::{Error, Levels, Period, Plan};
 use creepage_scene::{Scene, SolverMethod};
+use jump_search::Found;
 
 /// A plan's passes, on whatever level.
 #[derive(Clone, Copy)]
@@ -26,8 +27,8 @@ struct PassesOnMeshes<'a> {
     stages: &'a [u64],
     /// The jumps that are taken; none where every pass is simulated.
     jumps: Option<JumpSize>,
-    /// Their lengths, if these were found before.
-    schedule: Option<&'a [u64]>,
+    /// Where they were found.
+    found: Option<&'a Found>,
     /// What all passes have cost.
     work: &'a Work,
 }
@@ -46,7 +47,7 @@ pub fn solve(
         period: &plan.period,
         stages: options.stages,
         jumps: None,
-        schedule: None,
+        found: None,
         work: &work,
     };
     let jumps = method == SolverMethod::PassLaw;
@@ -62,7 +63,7 @@ pub fn solve(
     if let Some(jumps) = good_enough {
         (passes.jumps, error.passes) = (Some(jumps.size), jumps.error);
     }
-    passes.schedule = found.as_ref().map(|found| &found.passes.schedule[..]);
+    passes.found = found.as_ref();
     let meshes = MeshLoop {
         plan,
         options,
@@ -98,6 +99,10 @@ impl OnMeshes for PassesOnMeshes<'_> {
         answer: bool,
     ) -> Result<Passes, Error> {
         let levels = &self.plan.levels;
+        let is_plain = !answer && std::ptr::eq(scene, self.plan.scene);
+        if let Some(found) = self.found.filter(|found| is_plain && found.level == level) {
+            return Ok(found.passes.clone());
+        }
         let task = Task {
             stages: if answer { self.stages } else { &[] },
             progress,
@@ -107,7 +112,9 @@ impl OnMeshes for PassesOnMeshes<'_> {
             period: self.period,
             size,
             most_passes: levels.affordable_passes(level),
-            guide: self.schedule.map_or(Guide::Free, Guide::Follow),
+            guide: self
+                .found
+                .map_or(Guide::Free, |found| Guide::Follow(&found.passes.schedule)),
             beyond: answer,
         });
         let passes = match jumping {
