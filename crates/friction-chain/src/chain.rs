@@ -3,6 +3,7 @@
 use crate::clamp::Clamp;
 use crate::error::ChainError;
 use crate::node::{Node, rounding};
+use crate::problem::Contact;
 use crate::stretch::Stretch;
 use crate::tridiagonal::{self, Row};
 
@@ -146,6 +147,20 @@ impl Chain {
         let unknown = self.free.of_mut(&mut x);
         tridiagonal::solve([0.0; 2], |k| row(lo + k), &mut factors, unknown);
         x
+    }
+
+    /// How a stretch that sticks answers a force of 1 N on its `node` while the nodes beside it are held: displacement \[m\] and friction
+    /// \[N/m\] of each of its nodes.
+    pub fn stuck_response(&self, stretch: Stretch, node: usize) -> [Vec<f64>; 2] {
+        let zeros = vec![0.0; self.nodes.len()];
+        let (mut r, mut factors, mut load) = (zeros.clone(), zeros.clone(), zeros);
+        load[node] = 1.0;
+        let of = |i: usize| [load[i] * self.per_stiffness, 0.0, 0.0];
+        let row = |i: usize| self.nodes[i].row(Contact::Stuck, of(i), self.per_stiffness);
+        let unknown = stretch.of_mut(&mut r);
+        tridiagonal::solve([0.0; 2], |k| row(stretch.lo + k), &mut factors, unknown);
+        let friction = |i: usize| self.balancing_friction(&r, &load, i);
+        [stretch.of(&r).to_vec(), stretch.nodes().map(friction).collect()]
     }
 
     /// Gives node `i` another friction limit q \[N/m\].

@@ -104,7 +104,7 @@ impl QuasiStatic {
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
-        self.solve(self.bounds.free, snapshot)?;
+        self.solve(Window::travelling(self.bounds.free), snapshot)?;
         self.anchor(self.bounds.free);
         self.moving.clear();
         self.record(snapshot);
@@ -122,22 +122,20 @@ impl QuasiStatic {
         let mut windows = std::mem::take(&mut self.windows);
         self.begin_windows(snapshot, watched, &mut windows);
         self.moving.clear();
-        for Window { stretch, travels } in &mut windows {
-            let (begun, before) = (*stretch, self.moving.len());
-            if *travels {
+        for window in &mut windows {
+            let begun = window.stretch;
+            if window.travels {
                 let guess = &self.predicted[first + begun.lo..][..begun.count()];
                 self.step.trial.contact[begun.nodes()].copy_from_slice(guess);
             }
-            *stretch = self.solve(begun, snapshot)?;
-            if *travels {
-                let contact = &self.step.trial.contact[stretch.nodes()];
-                self.predicted[first + stretch.lo..][..stretch.count()].copy_from_slice(contact);
-            } else {
-                // Around a support nothing travels.
-                self.moving.truncate(before);
+            let solved = self.solve(*window, snapshot)?;
+            if window.travels {
+                let contact = &self.step.trial.contact[solved.nodes()];
+                self.predicted[first + solved.lo..][..solved.count()].copy_from_slice(contact);
             }
+            window.stretch = solved;
             let widest = &mut self.outcome.statistics.widest_window;
-            *widest = stretch.count().max(*widest);
+            *widest = solved.count().max(*widest);
         }
         for window in &windows {
             self.anchor(window.stretch);
@@ -175,10 +173,10 @@ impl QuasiStatic {
         }
         let due = self
             .supports
-            .windows
+            .each
             .iter()
-            .filter(|(node, _)| self.is_due(*node));
-        windows.extend(due.map(|(_, window)| Window::resting(*window)));
+            .filter(|support| self.is_due(support.node));
+        windows.extend(due.map(|support| Window::resting(support.window)));
         window::join(windows);
     }
 
@@ -196,24 +194,26 @@ impl QuasiStatic {
         }
     }
 
-    /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
-    /// moves is appended to `moving`.
-    fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
-        let (mut growth, mut corrections) = (self.bounds.margin, 0);
+    /// Solves a window, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
+    /// moves is appended to `moving` if it travels: around a support nothing does.
+    fn solve(&mut self, window: Window, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
+        let Window { mut stretch, travels } = window;
+        let (mut growth, mut corrections, mut rests) = (self.bounds.margin, 0, !travels);
         loop {
             self.outcome.statistics.windows += 1;
-            let load = Load {
-                adhesion: snapshot.adhesion,
-                support: &self.supports.load,
-                anchor: &self.anchor,
-            };
-            let solved = self.step.solve(&load, stretch);
-            let solved = if corrections > MAX_CORRECTIONS {
+            let solved = if std::mem::take(&mut rests) && self.respond(stretch, snapshot.adhesion) {
+                Ok(())
+            } else if corrections > MAX_CORRECTIONS {
                 Err(ChainError::NoEquilibrium {
                     violation: f64::INFINITY,
                 })
             } else {
-                solved
+                let load = Load {
+                    adhesion: snapshot.adhesion,
+                    support: &self.supports.load,
+                    anchor: &self.anchor,
+                };
+                self.step.solve(&load, stretch)
             };
             let position = self.mesh.lattice_step() * snapshot.position as f64;
             solved.map_err(|error| CableError::of_step(error, position))?;
@@ -233,11 +233,27 @@ impl QuasiStatic {
         let u = |i: usize| trial.r[i] + snapshot.adherent_at(i);
         chain.settle_clamps(stretch, u, &mut self.outcome.dissipated);
         let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
-        window::moving(stretch, moves, &mut self.moving);
+        if travels {
+            window::moving(stretch, moves, &mut self.moving);
+        }
         let nodes = stretch.nodes();
         self.r[nodes.clone()].copy_from_slice(&trial.r[nodes.clone()]);
         self.g[nodes.clone()].copy_from_slice(&trial.g[nodes]);
         Ok(stretch)
+    }
+
+    /// Brings the supports of a `window` into balance if it is theirs and sticks, with the `adhesion` on it; false if not.
+    fn respond(&mut self, window: Stretch, adhesion: &[f64]) -> bool {
+        let (step, load) = (&mut self.step, &self.supports.load);
+        let limit = self.cable.least_limit();
+        let mut supports = self.supports.of_window(window).peekable();
+        let responds = supports.peek().is_some()
+            && step.chain.clamps().iter().all(Clamp::is_stuck)
+            && supports.all(|support| support.respond(step, load, adhesion, limit));
+        if responds {
+            step.work.node_updates += window.count();
+        }
+        responds
     }
 
     /// Whether the trial leaves the held node beside the window out of balance.
