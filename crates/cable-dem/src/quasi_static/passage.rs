@@ -119,7 +119,7 @@ impl Passage {
 
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
         let behind = ((end + stride + approach) / m + 3) * m;
-        let shape = course.tabulate((-behind..behind).map(|j| step * j as f64))?;
+        let shape = course.tabulate((-behind..=behind).map(|j| step * j as f64))?;
         let mut positions = schedule(end, approach, (course.half_length / step).ceil() as i64, stride);
         if course.direction == Direction::Reverse {
             for position in &mut positions {

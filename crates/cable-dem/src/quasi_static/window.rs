@@ -71,6 +71,13 @@ impl Window {
     }
 }
 
+impl Window {
+    /// Whether no node lies between this one and the `next`.
+    pub fn touches(self, next: Self) -> bool {
+        next.stretch.lo <= self.stretch.hi + 1
+    }
+}
+
 /// Windows that touch, or nearly so, become one; they are left in order.
 pub(super) fn join(windows: &mut Vec<Window>) {
     windows.sort_unstable_by_key(|window| window.stretch.lo);
