@@ -1,8 +1,8 @@
 //! What is refused: numbers that are none, parts of another mesh or cable, arguments out of range; and what a failed pass leaves.
 
 use cable_dem::{
-    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Order, Passage, QuasiStatic,
-    Restraint, Traffic,
+    CableError, CableState, DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh,
+    MovingDuct, Order, Passage, QuasiStatic, Restraint, Traffic,
 };
 use ground_field::Direction;
 
@@ -29,6 +29,17 @@ fn a_motion_that_is_not_a_number_is_refused() {
             );
         }
     }
+}
+
+/// The solver with inertia says so.
+#[test]
+fn inertia_and_heat_do_not_go_together() {
+    let bar = reference_cable(10.0, coulomb(LIMITS[0]));
+    let mesh = Mesh::for_depth(10.0, 1.2, 6.0).expect("a valid mesh");
+    let duct = MovingDuct::new(&bar, &mesh, &reference_motion(), APPROACH).expect("a valid duct");
+    let mut solver = Explicit::new(bar, mesh, 11.1, ExplicitOptions::default()).expect("a valid solver");
+    let mut warm = solver.at_rest().with_thermal_force(1.0).expect("a number");
+    assert_eq!(solver.pass(&duct, &mut warm).err(), Some(CableError::Heated));
 }
 
 #[test]
@@ -136,20 +147,4 @@ fn arguments_out_of_range_are_refused() {
     let sigmoid = Friction::new(FrictionLaw::Sigmoid { shape_factor: 1e7 }, 1.0).expect("valid friction");
     let refused = QuasiStatic::new(DuctedCable::new(10.0, 1e6, sigmoid).expect("a valid cable"), mesh);
     assert!(matches!(refused, Err(CableError::NoRest { law: "sigmoid", .. })));
-}
-
-#[test]
-fn elements_that_step_over_the_whole_motion_are_refused() {
-    let motion = reference_motion();
-    let cable = reference_cable(30.0, coulomb(LIMITS[0]));
-    // 2 to 12 depths of the duct.
-    for elements in 2..=12 {
-        let spacing = 30.0 / f64::from(elements);
-        let mesh = Mesh::new(30.0, spacing, spacing).expect("a valid mesh");
-        let refused = Passage::new(&cable, &mesh, &motion, APPROACH);
-        assert!(
-            matches!(refused, Err(CableError::CoarseMesh { .. })),
-            "{spacing} m"
-        );
-    }
 }
