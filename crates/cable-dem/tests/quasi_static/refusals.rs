@@ -77,38 +77,25 @@ fn what_belongs_to_another_mesh_or_cable_is_refused() {
 
     let coarse = Mesh::new(12.0, 0.4, 0.1).expect("a valid mesh");
     let mut other = CableState::at_rest(&coarse);
-    let error = run
-        .solver
-        .pass(&passage, &mut other)
-        .expect_err("another mesh's state");
-    assert_eq!(
-        error,
-        CableError::StateMismatch {
-            found: 31,
-            expected: 61
-        }
-    );
+    let refused = run.solver.pass(&passage, &mut other);
+    let (found, expected) = (31, 61);
+    assert_eq!(refused, Err(CableError::StateMismatch { found, expected }));
     assert_eq!(other, CableState::at_rest(&coarse));
 
-    assert!(QuasiStatic::new(cable.clone(), Mesh::new(13.0, 0.2, 0.1).expect("a valid mesh")).is_err());
-
-    let longer = Mesh::new(24.0, 0.2, 0.1).expect("a valid mesh");
-    let finer = Mesh::new(12.0, 0.1, 0.1).expect("a valid mesh");
+    let [longer, long, finer] = [(13.0, 0.2), (24.0, 0.2), (12.0, 0.1)]
+        .map(|(length, spacing)| Mesh::new(length, spacing, 0.1).expect("a valid mesh"));
+    assert!(QuasiStatic::new(cable.clone(), longer).is_err());
+    let long_cable = reference_cable(24.0, coulomb(LIMITS[0]));
     let stiffer = reference_cable(12.0, elastic_plastic(1e5, LIMITS[0]));
-    for wrong in [
-        Passage::new(&cable, &coarse, &motion, APPROACH),
-        Passage::new(&cable, &finer, &motion, APPROACH),
-        Passage::new(
-            &reference_cable(24.0, coulomb(LIMITS[0])),
-            &longer,
-            &motion,
-            APPROACH,
-        ),
-        Passage::new(&stiffer, &mesh, &motion, APPROACH),
+    for (cable, mesh) in [
+        (&cable, coarse),
+        (&cable, finer),
+        (&long_cable, long),
+        (&stiffer, mesh),
     ] {
+        let wrong = Passage::new(cable, &mesh, &motion, APPROACH).expect("a valid passage");
         let before = run.state.clone();
-        let refused = run.try_pass(&wrong.expect("a valid passage"));
-        assert!(refused.is_err());
+        assert!(run.try_pass(&wrong).is_err());
         assert_eq!(run.state, before);
     }
 }

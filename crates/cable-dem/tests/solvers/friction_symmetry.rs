@@ -184,7 +184,7 @@ proptest! {
     /// order holds up to waves.
     #[test]
     fn who_starts_farther_forward_gets_farther(
-        scene in Drawn { speed: 1.0..2.0, sigmoid: false, ..Drawn::default() }.scenes(),
+        scene in Drawn { longest: 8.0, width: 0.5..1.2, speed: 1.0..2.0, sigmoid: false, ..Drawn::default() }.scenes(),
         more in 1e-7..1e-4_f64,
         place in 0.0..=1.0_f64,
     ) {

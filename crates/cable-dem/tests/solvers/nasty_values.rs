@@ -11,18 +11,7 @@ use super::harness::{APPROACH, Bar, Kind, Outcome, Run, SPEED, truck};
 use super::mirrored::mirrored;
 
 fn any_number() -> impl Strategy<Value = f64> {
-    let special = vec![
-        f64::NAN,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        0.0,
-        -0.0,
-        -1.0,
-        f64::MIN_POSITIVE,
-        f64::MAX,
-        1.0,
-        3.0,
-    ];
+    let special = testkit::NASTY.to_vec();
     prop_oneof![prop::sample::select(special), any::<f64>(), 0.001..1e3_f64]
 }
 

@@ -13,7 +13,7 @@ fn a_run_resumed_from_a_saved_state_equals_a_straight_run() -> Outcome {
         FrictionLaw::Sigmoid { shape_factor: 1e9 },
     ] {
         let bar = Bar {
-            length: 12.0,
+            length: 6.0,
             law,
             limit: LIMITS[1],
             ends: (End::Spring(1e6), End::Fixed),
@@ -41,7 +41,7 @@ fn a_run_resumed_from_a_saved_state_equals_a_straight_run() -> Outcome {
                 // A pass is a function of the state and the passage, whatever passed before.
                 assert_eq!(straight.state, resumed.state, "{name}");
             }
-            let coarse = CableState::at_rest(&Mesh::new(12.0, 6.0, 6.0)?);
+            let coarse = CableState::at_rest(&Mesh::new(6.0, 3.0, 3.0)?);
             assert!(Run::resumed(kind, &problem, coarse)?.pass(0).is_err(), "{name}");
         }
     }
