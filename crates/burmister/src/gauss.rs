@@ -51,20 +51,3 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     }
     (current, n as f64 * (x * current - previous) / (x * x - 1.0))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exact_for_polynomials_up_to_twice_the_size() {
-        for &n in &SIZES {
-            let rule = rule(n);
-            let total: f64 = rule.iter().map(|(_, w)| w).sum();
-            assert!((total - 2.0).abs() < 1e-13, "{n}");
-            let degree = 2 * (n as i32 - 1);
-            let moment: f64 = rule.iter().map(|(x, w)| w * x.powi(degree)).sum();
-            assert!((moment - 2.0 / f64::from(degree + 1)).abs() < 1e-13, "{n}");
-        }
-    }
-}

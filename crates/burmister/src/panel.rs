@@ -214,22 +214,3 @@ impl Panels {
         parts.fold(Displacement::ZERO, |sum, part| sum + part)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn series_reproduces_a_smooth_function() {
-        let values: Series = std::array::from_fn(|i| basis().nodes[i].exp());
-        let series = series_of(&values);
-        for t in [-1.0_f64, -0.3, 0.0, 0.71, 1.0] {
-            assert!((evaluate(&series, t) - t.exp()).abs() < 1e-14);
-        }
-        for (slope, value) in derivative_of(&values).iter().zip(values) {
-            assert!((slope - value).abs() < 1e-12);
-        }
-        assert!((dot(&basis().ends[0], &values) - (-1.0_f64).exp()).abs() < 1e-14);
-        assert!((dot(&basis().ends[1], &values) - 1.0_f64.exp()).abs() < 1e-14);
-    }
-}

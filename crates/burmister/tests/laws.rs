@@ -6,6 +6,7 @@ use burmister::LayeredHalfSpace;
 use ground_field::{Base, Displacement, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
+use testkit::gauss_legendre::rings;
 
 const ACCURACY: f64 = 1e-8;
 
@@ -73,15 +74,7 @@ proptest! {
         let layered = ground(&[(thickness, soil)], Base::HalfSpace(nearly));
         let radii = radii(depth);
         let values = layered.displacements(load(0.0), &radii, depth).expect("layered");
-        let (e, nu) = (soil.young_modulus(), soil.poisson_ratio());
-        let scale = (1.0 + nu) * 5e4 / (2.0 * PI * e);
-        let exact: Vec<Displacement> = radii.iter().map(|&r| {
-            let d = r.hypot(depth);
-            Displacement {
-                radial: scale * (r * depth / d.powi(3) - (1.0 - 2.0 * nu) * r / (d * (d + depth))),
-                vertical: scale * (depth * depth / d.powi(3) + 2.0 * (1.0 - nu) / d),
-            }
-        }).collect();
+        let exact: Vec<Displacement> = radii.iter().map(|&r| testkit::johnson(soil, 5e4, r, depth)).collect();
         same(&exact, &values, ACCURACY)?;
     }
 
@@ -112,21 +105,17 @@ proptest! {
         let contact = share * depth;
         let all = radii(depth);
         let disc = ground.displacements(load(contact), &all, depth).expect("disc");
-        // Midpoint in the angle, Gauss-Legendre with 8 points in the square of the radius: geometric convergence.
-        let rule = [
-            (0.1834346424956498_f64, 0.362683783378362), (0.525532409916329, 0.3137066458778873),
-            (0.7966664774136267, 0.2223810344533745), (0.9602898564975363, 0.1012285362903763),
-        ];
+        // Midpoint in the angle: geometric convergence.
         let mut distances = Vec::new();
         let mut parts = Vec::new();
         for (index, &r) in all.iter().enumerate() {
             for j in 0..16 {
                 let (sine, cosine) = (PI * (f64::from(j) + 0.5) / 16.0).sin_cos();
-                for (t, weight) in rule.iter().flat_map(|&(t, w)| [(t, w), (-t, w)]) {
-                    let ring = contact * f64::sqrt(0.5 * (1.0 + t));
+                for (share, weight) in rings(8) {
+                    let ring = contact * share;
                     let (x, y) = (r - ring * cosine, ring * sine);
                     distances.push(x.hypot(y));
-                    parts.push((index, 0.5 * weight / 16.0, x / x.hypot(y)));
+                    parts.push((index, weight / 16.0, x / x.hypot(y)));
                 }
             }
         }
@@ -146,19 +135,14 @@ proptest! {
         let ground = ground(&layers, base);
         let distance = one + two + gap;
         let work = |source: f64, target: f64| {
-            // Gauss-Legendre with 8 points in the square of the radius, midpoints of 32 angles.
-            let rule = [
-                (0.1834346424956498_f64, 0.362683783378362), (0.525532409916329, 0.3137066458778873),
-                (0.7966664774136267, 0.2223810344533745), (0.9602898564975363, 0.1012285362903763),
-            ];
             let mut distances = Vec::new();
             let mut weights = Vec::new();
             for j in 0..32 {
                 let cosine = (PI * (f64::from(j) + 0.5) / 32.0).cos();
-                for (node, weight) in rule.iter().flat_map(|&(node, weight)| [(node, weight), (-node, weight)]) {
-                    let ring = target * (0.5 * (1.0 + node)).sqrt();
+                for (share, weight) in rings(8) {
+                    let ring = target * share;
                     distances.push((distance * distance + ring * ring - 2.0 * distance * ring * cosine).sqrt());
-                    weights.push(0.5 * weight / 32.0);
+                    weights.push(weight / 32.0);
                 }
             }
             let values = ground.displacements(load(source), &distances, 0.0).expect("surface");

@@ -3,8 +3,6 @@
 #[path = "answers_and_errors.rs"]
 mod answers_and_errors;
 mod common;
-#[path = "difficult.rs"]
-mod difficult;
 #[path = "laws.rs"]
 mod laws;
 #[path = "nasty_values.rs"]

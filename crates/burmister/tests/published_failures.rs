@@ -1,28 +1,22 @@
 //! The ways in which published layered-elastic programs fail, each with a test that this one does not.
 
-use super::common::{case, ground, table};
+use super::common::{case, ground};
 use burmister::LayeredHalfSpace;
-use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+use ground_field::{Base, GroundField, SoilProfile, SurfaceLoad};
 
 /// Transfer matrices overflow: exp(m h) with a load of 15 cm on layers of 1 km reaches exp(100 000).
 #[test]
 fn thick_layers_do_not_overflow() {
-    let soil = |i: i32| Soil::new(1e8 * (1.0 + 1e-13 * f64::from(i)), 0.35).expect("soil");
-    let layers = (0..4)
-        .map(|i| SoilLayer::uniform(1000.0, soil(i)).expect("layer"))
-        .collect();
+    let soil = |i: i32| testkit::soil(1e8 * (1.0 + 1e-13 * f64::from(i)), 0.35);
+    let layers = (0..4).map(|i| testkit::layer(1000.0, soil(i))).collect();
     let profile = SoilProfile::new(layers, Base::HalfSpace(soil(4))).expect("profile");
     let layered = LayeredHalfSpace::new(&profile).expect("ground");
     let one = LayeredHalfSpace::new(&SoilProfile::half_space(soil(0))).expect("ground");
     let load = SurfaceLoad::new(1e5, 0.15).expect("load");
     for depth in [0.0, 0.05, 1.0, 700.0, 999.0, 1000.0, 3500.0, 5000.0] {
-        let (a, b) = (
-            layered.displacement(load, 0.4, depth),
-            one.displacement(load, 0.4, depth),
-        );
-        let (a, b) = (a.expect("layered"), b.expect("half-space"));
-        assert!((a.vertical - b.vertical).abs() <= 1e-8 * b.vertical, "{depth}");
-        assert!((a.radial - b.radial).abs() <= 1e-8 * b.vertical, "{depth}");
+        let [a, b] = [&layered, &one].map(|ground| ground.displacement(load, 0.4, depth).expect("value"));
+        let off = (a.vertical - b.vertical).abs().max((a.radial - b.radial).abs());
+        assert!(off <= 1e-8 * b.vertical, "{depth}");
     }
 }
 
@@ -32,7 +26,7 @@ fn thick_layers_do_not_overflow() {
 #[test]
 fn far_points_keep_relative_accuracy() {
     let mut checked = 0;
-    for row in table("computed_layered.csv", ("", 0.0)) {
+    for row in testkit::layered::table(include_str!("data/computed_layered.csv"), ("", 0.0)) {
         let (ground, load) = case(&row.case);
         for &(radius, expected) in row.points.iter().filter(|point| point.0 >= 5.0) {
             let got = ground.displacement(load, radius, row.depth).expect("value");
@@ -53,8 +47,7 @@ fn far_points_keep_relative_accuracy() {
 #[test]
 fn nothing_is_lost_hundreds_of_metres_away() {
     let (ground, load) = case("task3");
-    let base =
-        LayeredHalfSpace::new(&SoilProfile::half_space(Soil::new(8e8, 0.4).expect("soil"))).expect("base");
+    let base = LayeredHalfSpace::new(&SoilProfile::half_space(testkit::soil(8e8, 0.4))).expect("base");
     for depth in [0.0, 1.2] {
         for radius in [100.0, 300.0, 1e3, 1e4, 1e6] {
             let got = ground.displacement(load, radius, depth).expect("value");
@@ -66,20 +59,6 @@ fn nothing_is_lost_hundreds_of_metres_away() {
                 "{radius} {depth} {got:?} {alone:?}"
             );
         }
-    }
-}
-
-/// Programs that extend one radius' zeros to all go wrong when given many points at once.
-#[test]
-fn many_points_are_what_each_is_alone() {
-    let (ground, load) = case("five");
-    let radii: Vec<f64> = (0..500).map(|i| f64::from(i * i) * 2e-3).collect();
-    let together = ground.displacements(load, &radii, 0.9).expect("together");
-    let peak = together[0].vertical;
-    for (value, &radius) in together.iter().zip(&radii).step_by(7) {
-        let alone = ground.displacement(load, radius, 0.9).expect("alone");
-        assert!((value.vertical - alone.vertical).abs() <= 2e-8 * peak);
-        assert!((value.radial - alone.radial).abs() <= 2e-8 * peak);
     }
 }
 
@@ -114,14 +93,10 @@ fn interfaces_are_continuous() {
         let at = ground.displacement(load, 0.1, depth).expect("at");
         for near in [depth * (1.0 - 1e-12), depth * (1.0 + 1e-12)] {
             let near = ground.displacement(load, 0.1, near).expect("near");
-            assert!(
-                (near.vertical - at.vertical).abs() <= 3e-8 * at.vertical.abs(),
-                "{depth}"
-            );
-            assert!(
-                (near.radial - at.radial).abs() <= 3e-8 * at.vertical.abs(),
-                "{depth}"
-            );
+            let off = (near.vertical - at.vertical)
+                .abs()
+                .max((near.radial - at.radial).abs());
+            assert!(off <= 3e-8 * at.vertical.abs(), "{depth}");
         }
     }
 }

@@ -1,11 +1,12 @@
 //! What a fit learns of its model: few runs, fewer where a coarser model or its parts are known, and all that the answer rests on.
 
-mod common;
-
 use calibrate::{
-    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Parameter, Part, Prior, Scale,
+    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Parameter, Part, Prior,
 };
-use common::{noisy, options, passes, saturation, saturation_parameters};
+
+use super::common::{
+    fitted, fitted_with, linear, logarithmic, noisy, passes, saturation, saturation_parameters,
+};
 
 /// Differences of two fits' values and closed ends, in standard errors; what is open in one is open in both.
 fn differences(one: &Fit, other: &Fit) -> Vec<f64> {
@@ -31,17 +32,14 @@ fn a_smooth_model_takes_few_runs() {
     let model = saturation(&passes(40));
     for (seed, truth) in (0..).zip([[550.0, 20.0], [900.0, 3.0], [400.0, 45.0], [120.0, 8.0]]) {
         let data = noisy(&model.predict(&truth).unwrap(), 0.01 * truth[0], seed);
-        for (loss, sigmas) in [
+        for (loss, sigma) in [
             (Loss::Squares, None),
             (Loss::Squares, Some(0.01 * truth[0])),
             (Loss::Tukey, None),
         ] {
-            let mut calibration = Calibration::new(&model, saturation_parameters(), data.clone()).unwrap();
-            if let Some(sigma) = sigmas {
-                calibration = calibration.with_sigmas(vec![sigma; 40]).unwrap();
-            }
-            let options = options(|options| options.loss = loss);
-            let fit = calibration.with_options(options).unwrap().fit().unwrap();
+            let fit = fitted_with(&model, saturation_parameters(), data.clone(), sigma, |options| {
+                options.loss = loss;
+            });
             for (estimate, truth) in fit.estimates.iter().zip(truth) {
                 let off = (estimate.value - truth) / estimate.standard_error.unwrap();
                 assert!(off.abs() < 3.0, "{estimate:?}");
@@ -129,19 +127,16 @@ fn each_series_is_followed_by_itself() {
     for series in ["1", "2"] {
         for (name, upper) in [("force", 2000.0), ("passes", 100.0)] {
             let name = format!("{name}_{series}");
-            parameters.push(Parameter::new(&name, 0.01 * upper, upper, Scale::Logarithmic).unwrap());
+            parameters.push(logarithmic(&name, 0.01 * upper, upper));
         }
     }
-    let shared = Parameter::new("factor", 0.3, 3.0, Scale::Logarithmic).unwrap();
-    let prior = Prior {
-        value: 1.0,
-        sigma: 0.05,
-    };
+    let shared = logarithmic("factor", 0.3, 3.0);
+    let (value, sigma) = (1.0, 0.05);
+    let prior = Prior { value, sigma };
     parameters.push(shared.with_prior(prior).unwrap());
     let fit = |says_parts| {
         let model = TwoSeries { says_parts };
-        let calibration = Calibration::new(&model, parameters.clone(), data.clone()).unwrap();
-        calibration.fit().unwrap()
+        fitted(&model, parameters.clone(), data.clone(), None)
     };
     let [parts, whole] = [true, false].map(fit);
     let most = differences(&whole, &parts).into_iter().fold(0.0, f64::max);
@@ -186,22 +181,17 @@ fn what_the_data_do_not_hold_is_called_so() {
     let with = |third: Parameter| {
         let mut parameters = saturation_parameters();
         parameters.push(third);
-        Calibration::new(&model, parameters, data.clone())
-            .unwrap()
-            .fit()
-            .unwrap()
+        fitted(&model, parameters, data.clone(), None)
     };
-    let third = Parameter::new("nothing", 0.0, 1.0, Scale::Linear).unwrap();
+    let third = linear("nothing", 0.0, 1.0);
     let fit = with(third.clone());
     assert_eq!(
         (fit.estimates[2].interval.lower, fit.estimates[2].interval.upper),
         (None, None)
     );
     assert!(fit.estimates[0].identifiable && fit.estimates[1].identifiable);
-    let prior = Prior {
-        value: 0.5,
-        sigma: 0.02,
-    };
+    let (value, sigma) = (0.5, 0.02);
+    let prior = Prior { value, sigma };
     let fit = with(third.with_prior(prior).unwrap());
     let known = &fit.estimates[2];
     assert!(
@@ -227,10 +217,7 @@ fn a_stranger_is_no_coarse_model() {
         }
     };
     let emulator = fit(30, saturation_parameters(), None).unwrap().emulator;
-    let narrower = vec![
-        Parameter::new("force", 100.0, 5000.0, Scale::Linear).unwrap(),
-        Parameter::new("passes", 0.5, 500.0, Scale::Logarithmic).unwrap(),
-    ];
+    let narrower = vec![linear("force", 100.0, 5000.0), logarithmic("passes", 0.5, 500.0)];
     assert!(fit(30, saturation_parameters(), Some(emulator.clone())).is_ok());
     for found in [
         fit(31, saturation_parameters(), Some(emulator.clone())),

@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use calibrate::{Calibration, Fit, ModelError, Parameter, Prior, Scale};
+use calibrate::{Calibration, Estimate, Fit, ModelError, Parameter, Prior, Scale};
+
+use super::common::{answering, fitted, linear, logarithmic};
 
 const PASSES: usize = 30;
 
@@ -22,8 +24,8 @@ fn observations(seed: u64) -> Vec<f64> {
 
 fn parameters() -> Vec<Parameter> {
     vec![
-        Parameter::new("force", 100.0, 2000.0, Scale::Logarithmic).unwrap(),
-        Parameter::new("passes", 1.0, 100.0, Scale::Logarithmic).unwrap(),
+        logarithmic("force", 100.0, 2000.0),
+        logarithmic("passes", 1.0, 100.0),
     ]
 }
 
@@ -45,16 +47,13 @@ fn instrument(of_model: bool) -> Vec<Parameter> {
 
 fn assert_near(one: &Fit, other: &Fit, tolerance: f64) {
     for (a, b) in one.estimates.iter().zip(&other.estimates) {
+        let read = |estimate: &Estimate| {
+            let Estimate { value, interval, .. } = estimate;
+            [*value, interval.lower.unwrap(), interval.upper.unwrap()]
+        };
         let error = b.standard_error.unwrap();
-        assert!((a.value - b.value).abs() < tolerance * error, "{a:?} {b:?}");
-        for (a, b) in [
-            (a.interval.lower, b.interval.lower),
-            (a.interval.upper, b.interval.upper),
-        ] {
-            assert!(
-                (a.unwrap() - b.unwrap()).abs() < 2.0 * tolerance * error,
-                "{a:?} {b:?}"
-            );
+        for ((one, other), share) in read(a).into_iter().zip(read(b)).zip([1.0, 2.0, 2.0]) {
+            assert!((one - other).abs() < share * tolerance * error, "{a:?} {b:?}");
         }
     }
 }
@@ -68,18 +67,15 @@ fn terms_fit_as_a_models_parameters_do() {
         assert_eq!(p.len(), 2);
         Ok(column(|pass| p[0] * (1.0 - (-pass / p[1]).exp())))
     };
-    let all = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
-        Ok(column(|pass| {
-            p[0] * (1.0 - (-pass / p[1]).exp()) + p[2] + p[3] * pass
-        }))
-    };
+    let all = answering(|p| column(|pass| p[0] * (1.0 - (-pass / p[1]).exp()) + p[2] + p[3] * pass));
     let data = observations(3);
-    let expected = Calibration::new(&all, [parameters(), instrument(true)].concat(), data.clone())
-        .unwrap()
-        .fit()
-        .unwrap();
-    let calibration = Calibration::new(&model, [parameters(), instrument(false)].concat(), data).unwrap();
-    let fit = calibration.fit().unwrap();
+    let expected = fitted(
+        &all,
+        [parameters(), instrument(true)].concat(),
+        data.clone(),
+        None,
+    );
+    let fit = fitted(&model, [parameters(), instrument(false)].concat(), data, None);
     assert_near(&fit, &expected, 0.03);
     assert!(runs.into_inner() <= 60, "{}", fit.evaluations);
 }
@@ -88,14 +84,14 @@ fn terms_fit_as_a_models_parameters_do() {
 /// distance from the nearest line is exact.
 #[test]
 fn what_the_parameters_make_good_is_told() {
-    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(column(|pass| p[0] + p[1] * pass)) };
-    let of = |name| Parameter::new(name, -1e4, 1e4, Scale::Linear).unwrap();
-    let fit = Calibration::new(&model, vec![of("a"), of("b")], column(|pass| 100.0 + pass))
-        .unwrap()
-        .with_sigmas(vec![4.0; PASSES])
-        .unwrap()
-        .fit()
-        .unwrap();
+    let model = answering(|p| column(|pass| p[0] + p[1] * pass));
+    let of = |name| linear(name, -1e4, 1e4);
+    let fit = fitted(
+        &model,
+        vec![of("a"), of("b")],
+        column(|pass| 100.0 + pass),
+        Some(4.0),
+    );
     let (moved, left) = fit.shift(&column(|_| 1.0));
     let moved = moved[0] * fit.estimates[0].standard_error.unwrap();
     assert!((moved + 1.0).abs() < 1e-3 && left < 1e-3, "{moved} {left}");
@@ -109,7 +105,7 @@ fn what_the_parameters_make_good_is_told() {
 #[test]
 fn bad_columns_are_named() {
     assert!(Parameter::term("zero", -1.0, 1.0, &[1.0, f64::NAN]).is_err());
-    let model = |_: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![0.0; 3]) };
+    let model = answering(|_| vec![0.0; 3]);
     let short = Parameter::term("zero", -1.0, 1.0, &[1.0, 1.0]).unwrap();
     let error = Calibration::new(&model, vec![short], vec![1.0, 2.0, 3.0])
         .err()

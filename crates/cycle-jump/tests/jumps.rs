@@ -2,7 +2,7 @@
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, QuasiStatic,
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
     RestingCable, Restraint, Section,
 };
 use cycle_jump::{Evolution, Guide, JumpError, Jumps, Next, Request, evolve};
@@ -147,15 +147,14 @@ fn traffic(
     directions: &[Direction],
 ) -> Result<(Evolution, Vec<PassOutcome>), Box<dyn std::error::Error>> {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
-    let line = DuctLine::new(1.2, 0.0)?;
+    let truck = Vehicle::point("truck", 196_133.0, 11.1)?;
+    let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 130.0, 1e-8)?;
     let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
-    let wheels = Vehicle::point("truck", 196_133.0, 11.1)?.wheels().to_vec();
-    let mut passages = Vec::new();
-    for &direction in directions {
-        let truck = Vehicle::new("truck", wheels.clone(), 11.1, direction)?;
-        let motion = DuctMotion::new(&ground, &truck, line, 130.0, 1e-8)?;
-        passages.push(solver.passage(&motion, 48.0)?);
-    }
+    let passage = |&direction| {
+        let shape = |xi: f64| motion.longitudinal(xi);
+        Passage::from_shape(cable, &mesh, direction, shape, 48.0)
+    };
+    let passages: Vec<Passage> = directions.iter().map(passage).collect::<Result<_, _>>()?;
     let mut state = solver.at_rest();
     let mut every = Vec::new();
     for pass in 0..300 {

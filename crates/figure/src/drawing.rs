@@ -290,13 +290,3 @@ pub(crate) fn check_room(text: &str, needed: f64, room: f64) -> Result<(), Figur
     let text = text.to_owned();
     Err(FigureError::NoRoom { text, needed, room })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn texts_are_escaped() {
-        assert_eq!(escaped("a < b & \u{1}"), "a &lt; b &amp; \u{fffd}");
-    }
-}

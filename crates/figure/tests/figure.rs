@@ -61,18 +61,11 @@ fn a_chart_is_well_formed_and_names_everything() {
     let svg = chart.to_svg().expect("svg");
     let elements = parse(&svg);
     let texts = texts(&elements);
-    for text in [
-        "a < b & \"c\"",
-        "place, m",
-        "D_l, µm",
-        "a line",
-        "points <2>",
-        "both & all",
-        "dashes",
-        "area\u{fffd}",
-        "limit",
-        "band",
-    ] {
+    #[rustfmt::skip]
+    let names = [
+        "a < b & \"c\"", "place, m", "D_l, µm", "a line", "points <2>", "both & all", "dashes", "area\u{fffd}", "limit", "band",
+    ];
+    for text in names {
         assert_eq!(
             texts.iter().filter(|found| **found == text).count(),
             1,
@@ -162,17 +155,9 @@ fn a_map_colours_each_cell() {
         .with(Series::line("limit", [(3e-3, -0.5), (3e-3, 1.5)]));
     let elements = parse(&map.to_svg().expect("svg"));
     let texts = texts(&elements);
-    for text in [
-        "stability",
-        "right",
-        "wrong",
-        "refused",
-        "limit",
-        "coulomb",
-        "sigmoid",
-        "step, s",
-        "law",
-    ] {
+    #[rustfmt::skip]
+    let names = ["stability", "right", "wrong", "refused", "limit", "coulomb", "sigmoid", "step, s", "law"];
+    for text in names {
         assert!(texts.contains(&text), "{text} in {texts:?}");
     }
     let filled = |colour: &str| {
@@ -189,20 +174,13 @@ fn a_map_colours_each_cell() {
         .find(|e| e.get("fill") == "#F0E442" && e.name == "polygon")
         .expect("the cell")
         .points();
-    let middle = 0.25
-        * cell
-            .iter()
-            .fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1))
-            .0;
-    assert!(
-        (middle - tick(&elements, "0.1", "middle")).abs() <= 0.1,
-        "{middle}"
-    );
-    let height = 0.25 * cell.iter().map(|point| point.1).sum::<f64>();
-    assert!(
-        (height - tick(&elements, "coulomb", "end")).abs() <= 0.1,
-        "{height}"
-    );
+    let (x_sum, y_sum) = cell.iter().fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1));
+    for (middle, tick) in [
+        (0.25 * x_sum, tick(&elements, "0.1", "middle")),
+        (0.25 * y_sum, tick(&elements, "coulomb", "end")),
+    ] {
+        assert!((middle - tick).abs() <= 0.1, "{middle}, {tick}");
+    }
 
     let values = [Some(1.0), Some(10.0), None, Some(3.0), Some(5.0), Some(100.0)];
     let map = Chart::of_values("error", x(), y(), Axis::logarithmic("error, %"), values);
@@ -233,140 +211,102 @@ fn panels_stand_in_rows() {
     assert_eq!(title("panel a").0, title("panel c").0);
 }
 
+/// The name of the error of a drawing.
+fn fault(drawn: Result<String, FigureError>) -> &'static str {
+    match drawn.expect_err("an error") {
+        FigureError::Empty { .. } => "empty",
+        FigureError::NoPlace { .. } => "no place",
+        FigureError::BadRange { .. } => "bad range",
+        FigureError::BadCells(_) => "bad cells",
+        FigureError::NoRoom { .. } => "no room",
+        other => panic!("{other}"),
+    }
+}
+
 #[test]
 fn errors_instead_of_wrong_pictures() {
     let (x, y) = axes();
-    let is = |chart: Chart, wanted: fn(&FigureError) -> bool| {
-        let error = chart.to_svg().expect_err("an error");
-        assert!(wanted(&error), "{error}");
-    };
-    is(Chart::new("none", x, y), |e| {
-        matches!(e, FigureError::Empty { .. })
-    });
-    is(chart(Series::line("none", [])), |e| {
-        matches!(e, FigureError::Empty { .. })
-    });
-    for value in [f64::NAN, f64::INFINITY] {
-        is(chart(Series::line("bad", [(0.0, 0.0), (value, 0.0)])), |e| {
-            matches!(e, FigureError::NoPlace { index: 1, .. })
-        });
-        is(chart(line()).refer(Reference::horizontal(value, "")), |e| {
-            matches!(e, FigureError::NoPlace { .. })
-        });
-        let sized = Panels::new("").panel_size(400.0, value).with(chart(line()));
-        let refused = sized.to_svg();
-        assert!(
-            matches!(refused, Err(FigureError::NoPlace { index: 1, .. })),
-            "{refused:?}"
-        );
-    }
-    let on_logarithmic =
-        |chart: fn(Chart) -> Chart| chart(Chart::new("", Axis::logarithmic("x"), Axis::linear("y")));
-    is(on_logarithmic(|chart| chart.with(line())), |e| {
-        matches!(e, FigureError::NoPlace { .. })
-    });
-    is(
-        on_logarithmic(|chart| {
-            chart
-                .with(Series::line("", [(1.0, 1.0), (2.0, 2.0)]))
-                .refer(Reference::vertical(0.0, ""))
-        }),
-        |e| matches!(e, FigureError::NoPlace { .. }),
-    );
-    for (from, to) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        is(
-            Chart::new("", Axis::linear("x").range(from, to), Axis::linear("y")).with(line()),
-            |e| matches!(e, FigureError::BadRange { .. }),
-        );
-    }
     let long = "long ".repeat(40);
-    is(chart(Series::line(&long, [(0.0, 0.0), (1.0, 1.0)])), |e| {
-        matches!(e, FigureError::NoRoom { .. })
-    });
-    is(
-        Chart::new("", Axis::linear(&long), Axis::linear("y")).with(line()),
-        |e| matches!(e, FigureError::NoRoom { .. }),
-    );
-    is(chart(line()).refer(Reference::horizontal(0.5, &long)), |e| {
-        matches!(e, FigureError::NoRoom { .. })
-    });
+    let on_logarithmic = |series| Chart::new("", Axis::logarithmic("x"), Axis::linear("y")).with(series);
+    let in_range = |from, to| {
+        let x = Axis::linear("x").range(from, to);
+        Chart::new("", x, Axis::linear("y")).with(line())
+    };
+    let positive = Series::line("", [(1.0, 1.0), (2.0, 2.0)]);
+    let mut cases = vec![
+        (Chart::new("none", x, y), "empty"),
+        (chart(Series::line("none", [])), "empty"),
+        (on_logarithmic(line()), "no place"),
+        (
+            on_logarithmic(positive).refer(Reference::vertical(0.0, "")),
+            "no place",
+        ),
+        (in_range(1.0, 1.0), "bad range"),
+        (in_range(2.0, 1.0), "bad range"),
+        (in_range(f64::NAN, 1.0), "bad range"),
+        (in_range(0.0, f64::INFINITY), "bad range"),
+        (chart(Series::line(&long, [(0.0, 0.0), (1.0, 1.0)])), "no room"),
+        (
+            Chart::new("", Axis::linear(&long), Axis::linear("y")).with(line()),
+            "no room",
+        ),
+        (chart(line()).refer(Reference::horizontal(0.5, &long)), "no room"),
+    ];
+    for value in [f64::NAN, f64::INFINITY] {
+        cases.push((chart(line()).refer(Reference::horizontal(value, "")), "no place"));
+        // Both tell which of the numbers it is.
+        let bad = chart(Series::line("bad", [(0.0, 0.0), (value, 0.0)]));
+        let sized = Panels::new("").panel_size(400.0, value).with(chart(line()));
+        for refused in [bad.to_svg(), sized.to_svg()] {
+            assert!(
+                matches!(refused, Err(FigureError::NoPlace { index: 1, .. })),
+                "{refused:?}"
+            );
+        }
+    }
+    for (chart, expected) in cases {
+        assert_eq!(fault(chart.to_svg()), expected);
+    }
     let small = Panels::new("").panel_size(100.0, 100.0).with(chart(line()));
-    assert!(matches!(small.to_svg(), Err(FigureError::NoRoom { .. })));
-    assert!(matches!(
-        Panels::new("none").to_svg(),
-        Err(FigureError::Empty { .. })
-    ));
+    assert_eq!(
+        [small, Panels::new("none")].map(|panels| fault(panels.to_svg())),
+        ["no room", "empty"]
+    );
 }
 
 #[test]
 fn errors_of_maps() {
     let grid = |values: [f64; 2]| Axis::linear("x").cells(values);
-    let classes =
-        |cells: &[usize], x| Chart::of_classes("", x, grid([0.0, 1.0]), ["a", "b"], cells.to_vec()).to_svg();
-    assert!(classes(&[0, 1, 1, 0], grid([0.0, 1.0])).is_ok());
-    assert!(matches!(
-        classes(&[], grid([0.0, 1.0])),
-        Err(FigureError::Empty { .. })
-    ));
-    assert!(matches!(
-        classes(&[0, 1, 1], grid([0.0, 1.0])),
-        Err(FigureError::BadCells(_))
-    ));
-    assert!(matches!(
-        classes(&[0, 1, 2, 0], grid([0.0, 1.0])),
-        Err(FigureError::BadCells(_))
-    ));
-    assert!(matches!(
-        classes(&[0; 4], grid([1.0, 1.0])),
-        Err(FigureError::BadRange {
-            from: 1.0,
-            to: 1.0,
-            ..
-        })
-    ));
-    assert!(matches!(
-        classes(&[0; 4], grid([0.0, f64::NAN])),
-        Err(FigureError::NoPlace { .. })
-    ));
-    let logarithmic = Axis::logarithmic("x").cells([0.0, 1.0]);
-    assert!(matches!(
-        classes(&[0; 4], logarithmic),
-        Err(FigureError::NoPlace { .. })
-    ));
-    let values = |cells: [Option<f64>; 4], axis| {
-        Chart::of_values("", grid([0.0, 1.0]), grid([0.0, 1.0]), axis, cells).to_svg()
-    };
+    let unit = || grid([0.0, 1.0]);
+    let classes = |cells: &[usize], x| Chart::of_classes("", x, unit(), ["a", "b"], cells.to_vec()).to_svg();
+    let values = |cells: [Option<f64>; 4], axis| Chart::of_values("", unit(), unit(), axis, cells).to_svg();
     let linear = || Axis::linear("v");
+    assert!(classes(&[0, 1, 1, 0], unit()).is_ok());
     assert!(values([Some(1.0), None, None, Some(2.0)], linear()).is_ok());
-    assert!(matches!(
-        values([None; 4], linear()),
-        Err(FigureError::Empty { .. })
-    ));
-    assert!(matches!(
-        values([Some(f64::NAN); 4], linear()),
-        Err(FigureError::NoPlace { .. })
-    ));
-    assert!(matches!(
-        values([Some(0.0); 4], Axis::logarithmic("v")),
-        Err(FigureError::NoPlace { .. })
-    ));
+    for (refused, expected) in [
+        (classes(&[], unit()), "empty"),
+        (classes(&[0, 1, 1], unit()), "bad cells"),
+        (classes(&[0, 1, 2, 0], unit()), "bad cells"),
+        (classes(&[0; 4], grid([1.0, 1.0])), "bad range"),
+        (classes(&[0; 4], grid([0.0, f64::NAN])), "no place"),
+        (
+            classes(&[0; 4], Axis::logarithmic("x").cells([0.0, 1.0])),
+            "no place",
+        ),
+        (values([None; 4], linear()), "empty"),
+        (values([Some(f64::NAN); 4], linear()), "no place"),
+        (values([Some(0.0); 4], Axis::logarithmic("v")), "no place"),
+    ] {
+        assert_eq!(fault(refused), expected);
+    }
 }
 
 /// No number, however large or small, makes the drawing panic.
 #[test]
 fn extreme_numbers_give_a_figure_or_an_error() {
-    let numbers = [
-        -f64::MAX,
-        -1.0,
-        -f64::MIN_POSITIVE,
-        0.0,
-        f64::MIN_POSITIVE,
-        1e-300,
-        1.0,
-        1.0 + f64::EPSILON,
-        1e300,
-        f64::MAX,
-    ];
+    const LEAST: f64 = f64::MIN_POSITIVE;
+    #[rustfmt::skip]
+    let numbers = [-f64::MAX, -1.0, -LEAST, 0.0, LEAST, 1e-300, 1.0, 1.0 + f64::EPSILON, 1e300, f64::MAX];
     for a in numbers {
         for b in numbers {
             for axis in [
@@ -383,14 +323,8 @@ fn extreme_numbers_give_a_figure_or_an_error() {
                     }
                 }
             }
-            let _ = Chart::of_values(
-                "",
-                Axis::linear("x").cells([a, b]),
-                Axis::linear("y").cells([b]),
-                Axis::linear("v"),
-                [Some(a), Some(b)],
-            )
-            .to_svg();
+            let (x, y) = (Axis::linear("x").cells([a, b]), Axis::linear("y").cells([b]));
+            let _ = Chart::of_values("", x, y, Axis::linear("v"), [Some(a), Some(b)]).to_svg();
         }
     }
 }

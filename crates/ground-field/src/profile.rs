@@ -278,18 +278,3 @@ fn clenshaw(series: &Series, t: f64) -> f64 {
     }
     t * b1 - b2 + series[0]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_series_and_its_derivative_reproduce_a_polynomial() {
-        let series = coefficients(|k| node(k).powi(5) - 2.0 * node(k));
-        for t in [-1.0_f64, -0.3, 0.0, 0.77, 1.0] {
-            let (value, slope) = (clenshaw(&series, t), clenshaw(&derivative(&series), t));
-            assert!((value - (t.powi(5) - 2.0 * t)).abs() < 1e-14);
-            assert!((slope - (5.0 * t.powi(4) - 2.0)).abs() < 1e-13);
-        }
-    }
-}

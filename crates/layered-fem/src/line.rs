@@ -92,24 +92,3 @@ fn second_derivatives(s: &[f64], values: &[Displacement]) -> Vec<Displacement> {
     }
     bends
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-    use ground_field::Soil;
-
-    #[test]
-    fn line_reproduces_smooth_values_and_their_second_difference() {
-        let radii: Vec<f64> = (0..60).map(|k| 0.15 * (0.1 * f64::from(k)).sinh()).collect();
-        let soil = HalfSpace::new(Soil::new(1.0, 0.3).unwrap());
-        let values: Vec<Displacement> = radii.iter().map(|&r| soil.displacement(r, 1.2)).collect();
-        let line = DepthLine::new(&radii, 0.15, &values, None, Some(soil), 1.2);
-        for k in 0..100 {
-            let r = 0.0433 * f64::from(k);
-            let exact = soil.displacement(r, 1.2);
-            assert_relative_eq!(line.at(r).radial, exact.radial, epsilon = 1e-5);
-            assert_relative_eq!(line.at(r).vertical, exact.vertical, epsilon = 1e-5);
-        }
-    }
-}

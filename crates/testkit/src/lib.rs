@@ -2,11 +2,13 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a test may panic")]
 
+pub mod gauss_legendre;
 pub mod house;
+pub mod layered;
 pub mod tridiagonal;
 
 use ground_field::{
-    Base, DuctLine, DuctMotion, GroundError, GroundField, Soil, SoilLayer, SoilProfile, Vehicle,
+    Base, Displacement, DuctLine, DuctMotion, GroundError, GroundField, Soil, SoilLayer, SoilProfile, Vehicle,
 };
 
 /// Weight of the truck of the full-scale experiment \[N\]: 20 tf.
@@ -72,6 +74,17 @@ pub fn layer(thickness: f64, soil: Soil) -> SoilLayer {
 pub fn truck(ground: &dyn GroundField, speed: f64) -> Result<DuctMotion, GroundError> {
     let truck = Vehicle::point("truck", TRUCK, speed)?;
     DuctMotion::new(ground, &truck, DuctLine::new(1.2, 0.0)?, 400.0, 1e-10)
+}
+
+/// Point load on a half-space: K. L. Johnson, Contact Mechanics (1985), eq. 3.18.
+pub fn johnson(soil: Soil, force: f64, r: f64, z: f64) -> Displacement {
+    let (e, nu) = (soil.young_modulus(), soil.poisson_ratio());
+    let d = r.hypot(z);
+    let scale = (1.0 + nu) * force / (2.0 * std::f64::consts::PI * e);
+    Displacement {
+        radial: scale * (r * z / d.powi(3) - (1.0 - 2.0 * nu) * r / (d * (d + z))),
+        vertical: scale * (z * z / d.powi(3) + 2.0 * (1.0 - nu) / d),
+    }
 }
 
 /// A number from the standard normal distribution (Box and Muller).

@@ -5,7 +5,7 @@
 mod quadrature;
 
 use boussinesq::{HalfSpace, Stress};
-use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
+use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
 use quadrature::{Rule, disc};
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ const A: f64 = 0.15;
 const PRESSURE: f64 = 0.7e6;
 
 fn ground(nu: f64) -> HalfSpace {
-    HalfSpace::new(Soil::new(E, nu).expect("a valid soil"))
+    HalfSpace::new(testkit::soil(E, nu))
 }
 
 fn wheel() -> SurfaceLoad {
@@ -63,34 +63,12 @@ fn disc_agrees_with_the_axis() {
 #[test]
 fn disc_agrees_with_quadrature() {
     let rule = Rule::new(16);
-    let depths = [
-        0.0, 1e-6, 1e-3, 0.03, 0.2, 0.7, 1.5, 2.5, 3.9, 4.1, 8.0, 14.0, 33.0,
-    ];
+    #[rustfmt::skip]
+    let depths = [0.0, 1e-6, 1e-3, 0.03, 0.2, 0.7, 1.5, 2.5, 3.9, 4.1, 8.0, 14.0, 33.0];
+    #[rustfmt::skip]
     let radii = [
-        0.0,
-        1e-9,
-        1e-3,
-        0.05,
-        0.2,
-        0.5,
-        0.8,
-        0.97,
-        0.999,
-        1.0 - 1e-7,
-        1.0,
-        1.0 + 1e-7,
-        1.001,
-        1.05,
-        1.5,
-        2.2,
-        3.1,
-        3.99,
-        4.01,
-        5.0,
-        7.0,
-        12.0,
-        40.0,
-        333.0,
+        0.0, 1e-9, 1e-3, 0.05, 0.2, 0.5, 0.8, 0.97, 0.999, 1.0 - 1e-7, 1.0, 1.0 + 1e-7, 1.001, 1.05,
+        1.5, 2.2, 3.1, 3.99, 4.01, 5.0, 7.0, 12.0, 40.0, 333.0,
     ];
     for nu in [0.0, 0.2, 0.35, 0.5] {
         for z in depths {
@@ -152,15 +130,13 @@ fn rim_is_continuous() {
 
 #[test]
 fn reference_cases() {
-    let rows: Vec<Vec<f64>> = include_str!("../data/half_space.csv")
-        .lines()
-        .skip(1)
-        .map(|line| {
-            line.split(',')
-                .map(|word| word.parse().expect("a number"))
-                .collect()
-        })
-        .collect();
+    let numbers = |line: &str| {
+        line.split(',')
+            .map(|word| word.parse().expect("a number"))
+            .collect()
+    };
+    let table = include_str!("../data/half_space.csv");
+    let rows: Vec<Vec<f64>> = table.lines().skip(1).map(numbers).collect();
     assert!(rows.len() > 300);
     for row in &rows {
         let same = |other: &&Vec<f64>| other[..4] == row[..4] && other[5] == row[5];
@@ -170,7 +146,7 @@ fn reference_cases() {
                 .map(|o| o[column].abs())
                 .fold(0.0, f64::max)
         };
-        let ground = HalfSpace::new(Soil::new(row[0], row[1]).expect("a valid soil"));
+        let ground = HalfSpace::new(testkit::soil(row[0], row[1]));
         let load = SurfaceLoad::new(row[2], row[3]).expect("a valid load");
         let value = at(&ground, load, row[4], row[5]);
         for (value, column) in [(value.radial, 6), (value.vertical, 7)] {
@@ -218,7 +194,12 @@ fn point_radial_strain(ground: &HalfSpace, force: f64, r: f64, z: f64) -> Result
     Ok((stress.radial - soil.poisson_ratio() * (stress.vertical + stress.hoop)) / soil.young_modulus())
 }
 
-/// ∂u_r/∂r against Richardson-extrapolated central differences.
+/// Slope of `f` at 0 by central differences over ±h and ±2h, extrapolated (Richardson).
+fn slope(h: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let central = |h: f64| (f(h) - f(-h)) / (2.0 * h);
+    (4.0 * central(h) - central(2.0 * h)) / 3.0
+}
+
 #[test]
 fn radial_strain_is_the_derivative() {
     for nu in [0.0, 0.3, 0.5] {
@@ -232,11 +213,7 @@ fn radial_strain_is_the_derivative() {
             (3.0, 1.2),
             (40.0, 0.6),
         ] {
-            let slope = |h: f64| {
-                (at(&ground, load, r + h, z).radial - at(&ground, load, r - h, z).radial) / (2.0 * h)
-            };
-            let h = 1e-3 * f64::hypot(r, z);
-            let difference = (4.0 * slope(h) - slope(2.0 * h)) / 3.0;
+            let difference = slope(1e-3 * f64::hypot(r, z), |h| at(&ground, load, r + h, z).radial);
             let strain = point_radial_strain(&ground, 1e5, r, z).expect("a regular point");
             let scale = 1e5 / (E * (r * r + z * z));
             assert!(
@@ -258,11 +235,7 @@ fn volume_strain_on_the_axis() {
         let radial = point_radial_strain(&ground, force, 0.0, z).expect("a regular point");
         let hoop = at(&ground, load, 1e-9, z).radial / 1e-9;
         assert!((radial - hoop).abs() < 1e-12 * force / (E * z * z));
-        let h = 1e-3;
-        let slope = |h: f64| {
-            (at(&ground, load, 0.0, z + h).vertical - at(&ground, load, 0.0, z - h).vertical) / (2.0 * h)
-        };
-        let vertical = (4.0 * slope(h) - slope(2.0 * h)) / 3.0;
+        let vertical = slope(1e-3, |h| at(&ground, load, 0.0, z + h).vertical);
         let volume = -(1.0 + nu) * (1.0 - 2.0 * nu) * force / (PI * E * z * z);
         assert!(
             (radial + hoop + vertical - volume).abs() < 1e-10 * force / (E * z * z),

@@ -5,27 +5,14 @@
 
 use std::f64::consts::PI;
 
+use testkit::gauss_legendre::gauss_legendre;
+
 /// Nodes and weights of the Gauss–Legendre rule on (−1, 1).
 pub struct Rule(Vec<(f64, f64)>);
 
 impl Rule {
     pub fn new(points: usize) -> Self {
-        let n = points as f64;
-        let pair = |i: usize| {
-            let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..100 {
-                let (mut before, mut value) = (1.0, x);
-                for k in 2..=points {
-                    let k = k as f64;
-                    (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
-                }
-                slope = n * (x * value - before) / (x * x - 1.0);
-                x -= value / slope;
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        };
-        Self((0..points).map(pair).collect())
+        Self(gauss_legendre(points))
     }
 
     fn once(&self, f: &dyn Fn(f64) -> [f64; 2], from: f64, to: f64) -> [f64; 2] {

@@ -259,15 +259,10 @@ fn oracle_reproduces_the_half_space() {
     };
     for depth in [0.01, 1.2, 350.0] {
         let radii = [0.0, 0.7, 3.0, 40.0].map(|depths| depths * depth);
-        let truth = radii.map(|r: f64| {
-            let distance = r.hypot(depth);
-            let scale = 1.0 / (4.0 * std::f64::consts::PI * shear);
-            (
-                scale
-                    * (r * depth / distance.powi(3)
-                        - (1.0 - 2.0 * poisson) * r / (distance * (distance + depth))),
-                scale * (depth * depth / distance.powi(3) + 2.0 * (1.0 - poisson) / distance),
-            )
+        let soil = Soil::new(2.0 * (1.0 + poisson) * shear, poisson).expect("soil");
+        let truth = radii.map(|r| {
+            let exact = testkit::johnson(soil, 1.0, r, depth);
+            (exact.radial, exact.vertical)
         });
         let error = difference(
             &truth,

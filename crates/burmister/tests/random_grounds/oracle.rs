@@ -8,7 +8,9 @@
 //! bottom, κ = 3 − 4ν, never grow. From the base up, the growing amplitudes of a layer and the decaying ones of the next follow from its
 //! own decaying ones by the four conditions of the bonded interface.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
+
+use testkit::gauss_legendre::gauss_legendre;
 
 use crate::double_double::Double;
 
@@ -282,24 +284,4 @@ impl Ground {
         }
         sums
     }
-}
-
-/// Nodes and weights on [−1, 1].
-fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
-    (0..n)
-        .map(|i| {
-            let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..8 {
-                let (mut last, mut value) = (1.0, x);
-                for k in 2..=n {
-                    let k = k as f64;
-                    (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
-                }
-                slope = n as f64 * (x * value - last) / (x * x - 1.0);
-                x -= value / slope;
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
 }

@@ -8,7 +8,9 @@ use cable_dem::{
 use ground_field::Direction;
 
 use super::full_newton::{FullChain, even_positions};
-use super::scenes::{APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, coulomb, reference_motion, sheathed};
+use super::scenes::{
+    APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, clamp_springs, coulomb, reference_motion, sheathed,
+};
 
 const LENGTH: f64 = 15.0;
 const SPACING: f64 = 0.2;
@@ -29,120 +31,87 @@ fn mesh() -> Mesh {
     Mesh::new(LENGTH, SPACING, 0.5 * SPACING).expect("a valid mesh")
 }
 
-/// Ends and clamps \[N\] by the solver and by the whole-chain Newton method, in one list each.
-fn readings(cable: &DuctedCable) -> [Vec<f64>; 2] {
-    let (mesh, motion) = (mesh(), reference_motion());
-    let passage = Passage::new(cable, &mesh, &motion, APPROACH).expect("a valid passage");
+/// Forces on ends and clamps \[N\]: as read from the cable's state, which balances its friction, and as the whole-chain Newton method has them.
+fn readings(ends: (End, End), clamps: &[(f64, f64)]) -> Vec<f64> {
+    let (cable, mesh, motion) = (clamped(ends, clamps), mesh(), reference_motion());
+    let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
     let mut run = Run::new(cable.clone(), mesh);
-    let mut oracle = FullChain::new(cable, &mesh);
+    let mut oracle = FullChain::new(&cable, &mesh);
     let positions = even_positions(&mesh, Direction::Forward, APPROACH);
     for _ in 0..PASSES {
         run.pass(&passage);
         oracle.pass(&positions, |xi| motion.longitudinal(xi));
     }
-    let clamp = |clamp: &Restraint| {
-        let place = clamp.position / SPACING;
-        let left = (place as usize).min(mesh.elements() - 1);
-        let share = place - left as f64;
-        let u = &oracle.displacement;
-        clamp.stiffness * ((1.0 - share) * u[left] + share * u[left + 1])
+    let bears = |springs: &[(usize, f64)]| {
+        springs
+            .iter()
+            .map(|(node, k)| k * oracle.displacement[*node])
+            .sum()
     };
-    let (found, expected) = (
-        run.state.end_forces(cable).expect("the state's mesh"),
+    let (at_ends, exact) = (
+        run.state.end_forces(&cable).expect("the state's mesh"),
         oracle.end_forces(),
     );
-    let forces = run
-        .state
-        .restraint_forces(cable)
-        .expect("the state's mesh")
-        .into_iter();
-    [
-        [found.upstream, found.downstream]
-            .into_iter()
-            .chain(forces)
-            .collect(),
-        [expected.upstream, expected.downstream]
-            .into_iter()
-            .chain(cable.restraints().iter().map(clamp))
-            .collect(),
-    ]
-}
-
-fn assert_readings_agree(cable: &DuctedCable) {
-    let [found, expected] = readings(cable);
-    let allowed = ACCURACY * LIMITS[0] * LENGTH;
-    for (one, other) in found.iter().zip(&expected) {
-        assert!((one - other).abs() < allowed, "{found:.3?}, {expected:.3?} N");
+    let at_clamps = run.state.restraint_forces(&cable).expect("the state's mesh");
+    let expected = clamp_springs(&cable, &mesh);
+    let expected = [exact.upstream, exact.downstream]
+        .into_iter()
+        .chain(expected.chunks(2).map(bears));
+    let found = [&[at_ends.upstream, at_ends.downstream], &at_clamps[..]].concat();
+    for (one, other) in found.iter().zip(expected) {
+        let off = (one - other).abs();
+        assert!(
+            off < ACCURACY * LIMITS[0] * LENGTH,
+            "{ends:?} {clamps:?}: {found:.3?}, {other:.3} N"
+        );
     }
+    let friction = run.state.friction().iter().enumerate();
+    let rubbed: f64 = friction.map(|(node, f)| mesh.tributary_length(node) * f).sum();
+    let unbalanced = at_ends.downstream - at_ends.upstream + at_clamps.iter().sum::<f64>() - rubbed;
+    assert!(
+        unbalanced.abs() < 1e-5 * LIMITS[0] * LENGTH,
+        "{ends:?} {clamps:?}: {unbalanced} N"
+    );
+    found
 }
 
 #[test]
-fn a_sprung_end_reads_its_spring_alone() {
-    for spring in [1e5, 1e6, 1e9] {
-        let ends = (End::Spring(spring), End::Spring(spring));
-        for beside in [0.0, 0.5 * SPACING, SPACING] {
-            for clamp in [0.3 * spring, 3.0 * spring] {
-                assert_readings_agree(&clamped(ends, &[(beside, clamp), (LENGTH - beside, clamp)]));
-            }
+fn ends_and_clamps_read_what_the_oracle_reads() {
+    for spring in [1e5, 1e6, 1e9].map(End::Spring) {
+        for (beside, share) in [0.0, 0.5, 1.0]
+            .into_iter()
+            .flat_map(|beside| [(beside, 0.3), (beside, 3.0)])
+        {
+            let (place, clamp) = (beside * SPACING, share * spring.stiffness().unwrap_or(0.0));
+            readings((spring, spring), &[(place, clamp), (LENGTH - place, clamp)]);
         }
     }
+    let together = [(LENGTH, 2e6), (LENGTH - 0.3 * SPACING, 1e6), (0.5 * SPACING, 1e6)];
+    for upstream in [End::Free, End::Spring(1e4)] {
+        readings((upstream, End::Fixed), &together);
+    }
+    readings((End::Spring(1e6), End::Spring(1e6)), &together);
 }
 
 #[test]
 fn a_clamp_beside_a_fixed_end_takes_its_part_and_one_on_it_none() {
     for beside in [0.0, 0.5 * SPACING, SPACING] {
-        let clamps = [(beside, 1e8), (LENGTH - beside, 1e8)];
-        let cable = clamped((End::Fixed, End::Fixed), &clamps);
-        assert_readings_agree(&cable);
-        let [found, _] = readings(&cable);
+        let found = readings((End::Fixed, End::Fixed), &[(beside, 1e8), (LENGTH - beside, 1e8)]);
         for clamp in &found[2..] {
             assert_eq!(*clamp == 0.0, beside == 0.0, "{found:?}");
         }
     }
     // What does not move cannot feel the clamp: the joint carries all, to the last digit.
-    let [with, _] = readings(&clamped((End::Free, End::Fixed), &[(LENGTH, 1e8)]));
-    let [without, _] = readings(&clamped((End::Free, End::Fixed), &[]));
-    assert_eq!(with[..2], without[..2]);
+    let with = readings((End::Free, End::Fixed), &[(LENGTH, 1e8)]);
+    assert_eq!(with[..2], readings((End::Free, End::Fixed), &[]));
 }
 
 #[test]
 fn a_free_end_reads_nothing_and_its_clamp_all() {
     for beside in [0.0, 0.5 * SPACING] {
-        let cable = clamped((End::Free, End::Free), &[(LENGTH - beside, 1e7)]);
-        assert_readings_agree(&cable);
-        let [found, _] = readings(&cable);
+        let found = readings((End::Free, End::Free), &[(LENGTH - beside, 1e7)]);
         assert_eq!(found[..2], [0.0, 0.0]);
         assert!(found[2] > 20.0, "{found:?}");
-    }
-}
-
-#[test]
-fn ends_and_clamps_together_carry_the_friction() {
-    let place = |share: f64| LENGTH - share * SPACING;
-    for ends in [
-        (End::Spring(1e6), End::Spring(1e6)),
-        (End::Free, End::Fixed),
-        (End::Spring(1e4), End::Fixed),
-    ] {
-        let cable = clamped(
-            ends,
-            &[(place(0.0), 2e6), (place(0.3), 1e6), (0.5 * SPACING, 1e6)],
-        );
-        let mesh = mesh();
-        let passage = Passage::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
-        let mut run = Run::new(cable.clone(), mesh);
-        run.passes(PASSES, &passage);
-        let force = run.state.end_forces(&cable).expect("the state's mesh");
-        let held: f64 = run
-            .state
-            .restraint_forces(&cable)
-            .expect("the state's mesh")
-            .iter()
-            .sum();
-        let friction = run.state.friction().iter().enumerate();
-        let rubbed: f64 = friction.map(|(node, f)| mesh.tributary_length(node) * f).sum();
-        let unbalanced = force.downstream - force.upstream + held - rubbed;
-        assert!(unbalanced.abs() < 1e-5 * LIMITS[0] * LENGTH, "{unbalanced} N");
     }
 }
 

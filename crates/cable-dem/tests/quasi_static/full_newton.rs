@@ -2,11 +2,12 @@
 //!
 //! The whole chain at every step, displacements as they are (no moving frame, no windows), reverse traffic as reverse
 //! traffic (no mirror), elastic-plastic friction, damped Newton on the step's convex energy. A pass begins and ends with
-//! the ground at rest. Where the vehicle stops on its way is given: by steps that are all the same ([`even_positions`]), or where
-//! the crate was seen to stop, so that both discretise the same path.
+//! the ground at rest. Where the vehicle stops on its way is given: by steps that are all the same ([`even_positions`]).
 
 use cable_dem::{DuctedCable, End, EndForces, Mesh};
 use ground_field::Direction;
+
+use super::scenes::clamp_springs;
 
 /// Newton steps after which the oracle counts as lost.
 const MAX_STEPS: usize = 500;
@@ -47,12 +48,8 @@ impl FullChain {
                 End::Spring(stiffness) => springs[node] += stiffness,
             }
         }
-        for clamp in cable.restraints() {
-            // A clamp within an element pulls at both of its nodes, by the lever rule.
-            let left = ((clamp.position / h).floor() as usize).min(last - 1);
-            let share = clamp.position / h - left as f64;
-            springs[left] += (1.0 - share) * clamp.stiffness;
-            springs[left + 1] += share * clamp.stiffness;
+        for (node, stiffness) in clamp_springs(cable, mesh) {
+            springs[node] += stiffness;
         }
         let friction = cable.friction();
         let mut tributary = vec![h; last + 1];
@@ -194,6 +191,17 @@ impl FullChain {
             right[i] += upper[i] * right[i + 1];
         }
         right
+    }
+
+    /// Compression along the cable \[N\]: at its upstream end, in its elements, at its downstream end.
+    pub fn forces(&self) -> Vec<f64> {
+        let ends = self.end_forces();
+        let inner = self
+            .displacement
+            .windows(2)
+            .map(|pair| self.stiffness * (pair[0] - pair[1]));
+        let upstream = std::iter::once(ends.upstream);
+        upstream.chain(inner).chain([ends.downstream]).collect()
     }
 
     /// Compression on the ends \[N\], from what holds them.

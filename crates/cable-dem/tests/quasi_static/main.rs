@@ -4,7 +4,6 @@
 //! One binary, one idea a file; [`scenes`] holds what they share, [`full_newton`] the independent solver.
 
 mod against_full_newton;
-mod approach;
 mod closed_forms;
 mod coulomb_chains;
 mod end_clamps;

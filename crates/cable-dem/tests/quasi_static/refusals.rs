@@ -1,8 +1,8 @@
 //! What is refused: numbers that are none, parts of another mesh or cable, arguments out of range; and what a failed pass leaves.
 
 use cable_dem::{
-    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Order, Passage, QuasiStatic,
-    Restraint, Traffic,
+    CableError, CableState, DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh,
+    MovingDuct, Order, Passage, QuasiStatic, Restraint, Traffic,
 };
 use ground_field::Direction;
 
@@ -29,6 +29,17 @@ fn a_motion_that_is_not_a_number_is_refused() {
             );
         }
     }
+}
+
+/// The solver with inertia says so.
+#[test]
+fn inertia_and_heat_do_not_go_together() {
+    let bar = reference_cable(10.0, coulomb(LIMITS[0]));
+    let mesh = Mesh::for_depth(10.0, 1.2, 6.0).expect("a valid mesh");
+    let duct = MovingDuct::new(&bar, &mesh, &reference_motion(), APPROACH).expect("a valid duct");
+    let mut solver = Explicit::new(bar, mesh, 11.1, ExplicitOptions::default()).expect("a valid solver");
+    let mut warm = solver.at_rest().with_thermal_force(1.0).expect("a number");
+    assert_eq!(solver.pass(&duct, &mut warm).err(), Some(CableError::Heated));
 }
 
 #[test]
@@ -66,38 +77,25 @@ fn what_belongs_to_another_mesh_or_cable_is_refused() {
 
     let coarse = Mesh::new(12.0, 0.4, 0.1).expect("a valid mesh");
     let mut other = CableState::at_rest(&coarse);
-    let error = run
-        .solver
-        .pass(&passage, &mut other)
-        .expect_err("another mesh's state");
-    assert_eq!(
-        error,
-        CableError::StateMismatch {
-            found: 31,
-            expected: 61
-        }
-    );
+    let refused = run.solver.pass(&passage, &mut other);
+    let (found, expected) = (31, 61);
+    assert_eq!(refused, Err(CableError::StateMismatch { found, expected }));
     assert_eq!(other, CableState::at_rest(&coarse));
 
-    assert!(QuasiStatic::new(cable.clone(), Mesh::new(13.0, 0.2, 0.1).expect("a valid mesh")).is_err());
-
-    let longer = Mesh::new(24.0, 0.2, 0.1).expect("a valid mesh");
-    let finer = Mesh::new(12.0, 0.1, 0.1).expect("a valid mesh");
+    let [longer, long, finer] = [(13.0, 0.2), (24.0, 0.2), (12.0, 0.1)]
+        .map(|(length, spacing)| Mesh::new(length, spacing, 0.1).expect("a valid mesh"));
+    assert!(QuasiStatic::new(cable.clone(), longer).is_err());
+    let long_cable = reference_cable(24.0, coulomb(LIMITS[0]));
     let stiffer = reference_cable(12.0, elastic_plastic(1e5, LIMITS[0]));
-    for wrong in [
-        Passage::new(&cable, &coarse, &motion, APPROACH),
-        Passage::new(&cable, &finer, &motion, APPROACH),
-        Passage::new(
-            &reference_cable(24.0, coulomb(LIMITS[0])),
-            &longer,
-            &motion,
-            APPROACH,
-        ),
-        Passage::new(&stiffer, &mesh, &motion, APPROACH),
+    for (cable, mesh) in [
+        (&cable, coarse),
+        (&cable, finer),
+        (&long_cable, long),
+        (&stiffer, mesh),
     ] {
+        let wrong = Passage::new(cable, &mesh, &motion, APPROACH).expect("a valid passage");
         let before = run.state.clone();
-        let refused = run.try_pass(&wrong.expect("a valid passage"));
-        assert!(refused.is_err());
+        assert!(run.try_pass(&wrong).is_err());
         assert_eq!(run.state, before);
     }
 }
@@ -136,20 +134,4 @@ fn arguments_out_of_range_are_refused() {
     let sigmoid = Friction::new(FrictionLaw::Sigmoid { shape_factor: 1e7 }, 1.0).expect("valid friction");
     let refused = QuasiStatic::new(DuctedCable::new(10.0, 1e6, sigmoid).expect("a valid cable"), mesh);
     assert!(matches!(refused, Err(CableError::NoRest { law: "sigmoid", .. })));
-}
-
-#[test]
-fn elements_that_step_over_the_whole_motion_are_refused() {
-    let motion = reference_motion();
-    let cable = reference_cable(30.0, coulomb(LIMITS[0]));
-    // 2 to 12 depths of the duct.
-    for elements in 2..=12 {
-        let spacing = 30.0 / f64::from(elements);
-        let mesh = Mesh::new(30.0, spacing, spacing).expect("a valid mesh");
-        let refused = Passage::new(&cable, &mesh, &motion, APPROACH);
-        assert!(
-            matches!(refused, Err(CableError::CoarseMesh { .. })),
-            "{spacing} m"
-        );
-    }
 }

@@ -1,10 +1,14 @@
 //! Scenes and helpers that several tests share.
 
+use std::ops::Range;
+
 use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
+    Restraint,
 };
 use ground_field::{Direction, DuctMotion};
+use proptest::prelude::*;
 
 /// Distance beyond the duct's ends from which vehicles come \[m\].
 pub const APPROACH: f64 = 15.0;
@@ -17,13 +21,27 @@ pub const LIMITS: [f64; 2] = [0.25 * 108.8, 0.27 * 163.2];
 
 /// Young's modulus 800 MPa, Poisson's ratio 0.4, a load of 20 tf, a duct at 1.2 m.
 pub fn reference_motion() -> DuctMotion {
-    reference_motion_at_speed(11.1)
+    let ground = HalfSpace::new(testkit::soil(800e6, 0.4));
+    testkit::truck(&ground, 11.1).expect("a smooth field")
 }
 
-/// [`reference_motion`] of a truck at `speed` \[m/s\].
-pub fn reference_motion_at_speed(speed: f64) -> DuctMotion {
-    let ground = HalfSpace::new(testkit::soil(800e6, 0.4));
-    testkit::truck(&ground, speed).expect("a smooth field")
+/// Wheels of a vehicle: where each stands \[m\], how far it moves the duct \[m\], and over which width \[m\].
+pub fn any_wheels(moved: Range<f64>) -> impl Strategy<Value = Vec<(f64, f64, f64)>> {
+    prop::collection::vec((-12.0..12.0_f64, moved, 0.6..2.5_f64), 1..6)
+}
+
+/// The duct's displacement \[m\] at `xi`, of wheels that each move it in this `shape` of the distance over its width.
+pub fn wheeled(wheels: &[(f64, f64, f64)], xi: f64, shape: impl Fn(f64) -> f64) -> f64 {
+    let wheel = |&(x, moved, width): &(f64, f64, f64)| moved * shape((xi - x) / width);
+    wheels.iter().map(wheel).sum()
+}
+
+pub fn any_end(stiffness: Range<f64>) -> impl Strategy<Value = End> {
+    prop_oneof![
+        Just(End::Free),
+        Just(End::Fixed),
+        (stiffness.start.ln()..stiffness.end.ln()).prop_map(|e| End::Spring(e.exp()))
+    ]
 }
 
 /// The passage of `motion` on whatever mesh, also one too coarse to say anything of the duct.
@@ -60,6 +78,31 @@ pub fn cable(
     DuctedCable::new(length, axial_stiffness, friction)
         .and_then(|cable| cable.with_ends(upstream, downstream))
         .expect("a valid cable")
+}
+
+/// Nodes at which clamps pull, and with which stiffness \[N/m\]: within an element at both of its nodes, by the lever rule.
+pub fn clamp_springs(cable: &DuctedCable, mesh: &Mesh) -> Vec<(usize, f64)> {
+    let pulls = |clamp: &Restraint| {
+        let place = clamp.position / mesh.spacing();
+        let left = (place as usize).min(mesh.elements() - 1);
+        let share = place - left as f64;
+        [
+            (left, (1.0 - share) * clamp.stiffness),
+            (left + 1, share * clamp.stiffness),
+        ]
+    };
+    cable.restraints().iter().flat_map(pulls).collect()
+}
+
+/// Largest magnitude, infinite for NaN.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |worst: f64, value| {
+        if value.is_nan() {
+            f64::INFINITY
+        } else {
+            worst.max(value.abs())
+        }
+    })
 }
 
 /// One cable, its solver and its state.
@@ -107,6 +150,15 @@ impl Run {
         (0..count).fold(PassOutcome::default(), |_, _| self.pass(passage))
     }
 
+    /// Compression along the cable \[N\]: at its upstream end, in its elements, at its downstream end.
+    pub fn forces(&self) -> Vec<f64> {
+        let cable = self.solver.cable();
+        let ends = self.state.end_forces(cable).expect("the state's mesh");
+        let inner = self.state.element_forces(cable).expect("the state's mesh");
+        let upstream = std::iter::once(ends.upstream);
+        upstream.chain(inner).chain([ends.downstream]).collect()
+    }
+
     /// Largest imbalance of a node that is not fixed, as a share of the friction limit on one element: equilibrium written
     /// out anew from the cable's definition.
     pub fn imbalance(&self) -> f64 {
@@ -129,38 +181,18 @@ impl Run {
                 End::Fixed => force[node] = 0.0,
             }
         }
-        for clamp in cable.restraints() {
-            let left = ((clamp.position / h) as usize).min(last - 1);
-            let share = clamp.position / h - left as f64;
-            for (node, stiffness) in [
-                (left, (1.0 - share) * clamp.stiffness),
-                (left + 1, share * clamp.stiffness),
-            ] {
-                let fixed = (node == 0 && cable.upstream() == End::Fixed)
-                    || (node == last && cable.downstream() == End::Fixed);
-                if !fixed {
-                    force[node] -= stiffness * u[node];
-                }
+        for (node, stiffness) in clamp_springs(cable, mesh) {
+            let end = [(0, cable.upstream()), (last, cable.downstream())];
+            if !end.contains(&(node, End::Fixed)) {
+                force[node] -= stiffness * u[node];
             }
         }
-        force.iter().fold(0.0, |worst: f64, f| {
-            if f.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(f.abs())
-            }
-        }) / (cable.friction().limit() * h)
+        largest(&force) / (cable.friction().limit() * h)
     }
 
     /// Largest friction as a share of its limit.
     pub fn utilisation(&self) -> f64 {
-        self.state.friction().iter().fold(0.0, |worst: f64, f| {
-            if f.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(f.abs())
-            }
-        }) / self.solver.cable().friction().limit()
+        largest(self.state.friction()) / self.solver.cable().friction().limit()
     }
 }
 

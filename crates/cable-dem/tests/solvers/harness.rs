@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, EndForces, EnergyBalance, Explicit, ExplicitOptions, FrictionLaw,
-    Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, laid,
+    CableError, CableState, DuctedCable, End, EndForces, EnergyBalance, Explicit, ExplicitOptions, Friction,
+    FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, SigmoidLeak, laid,
 };
 use ground_field::Direction;
 
@@ -17,6 +17,10 @@ pub const MASS: f64 = 108.8 / 9.80665;
 pub const AXIAL_STIFFNESS: f64 = 8.01e6;
 /// Its friction limits \[N/m\]: upper cable, and lower cable with the load of the others.
 pub const LIMITS: [f64; 2] = [0.25 * 108.8, 0.27 * 163.2];
+/// Sheath of the upper cable.
+pub const SHEATH: FrictionLaw = FrictionLaw::ElasticPlastic {
+    shape_factor: 2e8 / LIMITS[0],
+};
 /// Distance beyond the duct's ends from which its vehicle comes \[m\].
 pub const APPROACH: f64 = 15.0;
 /// 40 km/h.
@@ -33,6 +37,51 @@ pub fn sheathed(limit: f64) -> FrictionLaw {
 pub fn truck() -> Result<Drive, Box<dyn std::error::Error>> {
     let motion = testkit::truck(&HalfSpace::new(testkit::soil(800e6, 0.4)), SPEED)?;
     Ok(Drive::new(SPEED, APPROACH, move |xi| motion.longitudinal(xi)))
+}
+
+/// A cable like those of the full-scale experiment, and its mesh: node spacing and vehicle step \[m\].
+#[derive(Debug, Clone, Copy)]
+pub struct Bar {
+    pub length: f64,
+    pub axial_stiffness: f64,
+    pub law: FrictionLaw,
+    pub limit: f64,
+    pub ends: (End, End),
+    pub mesh: (f64, f64),
+}
+
+impl Default for Bar {
+    /// The upper cable.
+    fn default() -> Self {
+        Self {
+            length: 30.0,
+            axial_stiffness: AXIAL_STIFFNESS,
+            law: SHEATH,
+            limit: LIMITS[0],
+            ends: (End::Free, End::Fixed),
+            mesh: (0.2, 0.1),
+        }
+    }
+}
+
+impl Bar {
+    pub fn cable(&self) -> Result<DuctedCable, CableError> {
+        DuctedCable::new(
+            self.length,
+            self.axial_stiffness,
+            Friction::new(self.law, self.limit)?,
+        )?
+        .with_ends(self.ends.0, self.ends.1)
+    }
+
+    /// With a vehicle that comes forward, and back.
+    pub fn under(&self, vehicle: &Drive) -> Result<Problem, CableError> {
+        Ok(Problem {
+            cable: self.cable()?,
+            mesh: Mesh::new(self.length, self.mesh.0, self.mesh.1)?,
+            drives: vec![vehicle.clone(), vehicle.back()],
+        })
+    }
 }
 
 /// The solvers.
@@ -76,6 +125,14 @@ impl Drive {
         }
     }
 
+    /// The same at another speed \[m/s\].
+    pub fn at(&self, speed: f64) -> Self {
+        Self {
+            speed,
+            ..self.clone()
+        }
+    }
+
     /// The same vehicle on its way back.
     pub fn back(&self) -> Self {
         Self {
@@ -112,6 +169,31 @@ impl Problem {
         1e-12 * self.cable.friction().limit() * self.cable.length()
     }
 
+    /// Compression along the cable \[N\]: at its upstream end, in its elements, at its downstream end.
+    pub fn forces(&self, state: &CableState) -> Vec<f64> {
+        let ends = state.end_forces(&self.cable).expect("the state's mesh");
+        let inner = state.element_forces(&self.cable).expect("the state's mesh");
+        let upstream = std::iter::once(ends.upstream);
+        upstream.chain(inner).chain([ends.downstream]).collect()
+    }
+
+    /// [`Problem::forces`] by the quasi-static solver after vehicles of these indices, and the largest force met in the cable at any time.
+    pub fn without_inertia(&self, traffic: &[usize]) -> (Vec<f64>, f64) {
+        // Where nothing moves nothing is left but rounding.
+        let mut largest = 1e-6 * self.largest_force();
+        let mut run = Run::new(Kind::QuasiStatic, self).expect("a valid problem");
+        for &drive in traffic {
+            let pass = run.watch(drive, |_, state| {
+                let forces = self.forces(&state());
+                largest = forces
+                    .iter()
+                    .fold(largest, |largest, force| largest.max(force.abs()));
+            });
+            pass.expect("an equilibrium");
+        }
+        (self.forces(&run.state), largest)
+    }
+
     /// Largest force that friction can build up: q L \[N\].
     pub fn largest_force(&self) -> f64 {
         self.cable.friction().limit() * self.cable.length()
@@ -135,8 +217,10 @@ pub struct Pass {
     pub outcome: PassOutcome,
     /// Force on each end \[N\] at the vehicle's last position, before the ground returns to rest.
     pub before_rest: EndForces,
-    /// Of solvers with inertia.
+    /// Of the solver with inertia.
     pub energy: Option<EnergyBalance>,
+    /// Under the sigmoid law.
+    pub leak: Option<SigmoidLeak>,
     /// Of the quasi-static solver: the cable at the vehicle's last position.
     pub pushed: Option<CableState>,
 }
@@ -150,53 +234,78 @@ impl Run {
     /// From `state`, by a new solver.
     pub fn resumed(kind: Kind, problem: &Problem, state: CableState) -> Result<Self, CableError> {
         let Problem { cable, mesh, drives } = problem;
-        let ducts = || -> Result<Vec<MovingDuct>, CableError> {
-            let duct = |drive: &Drive| {
-                let shape = &*drive.shape;
-                MovingDuct::from_shape(cable, mesh, drive.direction, drive.speed, shape, drive.approach)
-            };
-            drives.iter().map(duct).collect()
-        };
+        if kind == Kind::Explicit {
+            let run = Self::explicit(problem, ExplicitOptions::default())?;
+            return Ok(Self { state, ..run });
+        }
         let passage =
             |drive: &Drive| Passage::from_shape(cable, mesh, drive.direction, &*drive.shape, drive.approach);
-        let own = cable.clone();
-        let solver = match kind {
-            Kind::QuasiStatic => Solver::QuasiStatic(
-                Box::new(QuasiStatic::new(own, *mesh)?),
-                drives.iter().map(passage).collect::<Result<_, _>>()?,
-            ),
-            Kind::Explicit => {
-                let explicit = Explicit::new(own, *mesh, MASS, ExplicitOptions::default())?;
-                Solver::Explicit(Box::new(explicit), ducts()?)
-            }
+        let solver = Box::new(QuasiStatic::new(cable.clone(), *mesh)?);
+        let passages = drives.iter().map(passage).collect::<Result<_, _>>()?;
+        Ok(Self {
+            solver: Solver::QuasiStatic(solver, passages),
+            state,
+        })
+    }
+
+    /// As laid, by the explicit solver with these options.
+    pub fn explicit(problem: &Problem, options: ExplicitOptions) -> Result<Self, CableError> {
+        let Problem { cable, mesh, drives } = problem;
+        let duct = |drive: &Drive| {
+            let Drive {
+                direction,
+                speed,
+                shape,
+                approach,
+            } = drive;
+            MovingDuct::from_shape(cable, mesh, *direction, *speed, &**shape, *approach)
         };
-        Ok(Self { solver, state })
+        let solver = Box::new(Explicit::new(cable.clone(), *mesh, MASS, options)?);
+        let ducts = drives.iter().map(duct).collect::<Result<_, _>>()?;
+        Ok(Self {
+            solver: Solver::Explicit(solver, ducts),
+            state: laid(cable, mesh)?,
+        })
     }
 
     /// Lets the vehicle of this index pass.
     pub fn pass(&mut self, drive: usize) -> Result<Pass, CableError> {
-        let transient = match &mut self.solver {
+        self.watch(drive, |_, _| {})
+    }
+
+    /// [`Run::pass`]; `observe` sees the vehicle's position \[m\] and the cable at each of them.
+    pub fn watch(
+        &mut self,
+        drive: usize,
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
+    ) -> Result<Pass, CableError> {
+        match &mut self.solver {
             Solver::QuasiStatic(solver, passages) => {
                 let cable = solver.cable().clone();
                 let mut last = self.state.clone();
-                let outcome = solver.pass_observed(&passages[drive], &mut self.state, |_, state| {
+                let outcome = solver.pass_observed(&passages[drive], &mut self.state, |vehicle, state| {
+                    observe(vehicle, state);
                     last = state();
                 })?;
-                return Ok(Pass {
+                Ok(Pass {
                     outcome,
                     before_rest: last.end_forces(&cable)?,
                     energy: None,
+                    leak: None,
                     pushed: Some(last),
-                });
+                })
             }
-            Solver::Explicit(solver, ducts) => solver.pass(&ducts[drive], &mut self.state)?,
-        };
-        Ok(Pass {
-            outcome: transient.pass,
-            before_rest: transient.force_before_rest,
-            energy: Some(transient.energy),
-            pushed: None,
-        })
+            Solver::Explicit(solver, ducts) => {
+                let found = solver.pass_observed(&ducts[drive], &mut self.state, observe)?;
+                Ok(Pass {
+                    outcome: found.pass,
+                    before_rest: found.force_before_rest,
+                    energy: Some(found.energy),
+                    leak: found.leak,
+                    pushed: None,
+                })
+            }
+        }
     }
 
     /// Largest friction as a share of its limit, infinite for NaN.

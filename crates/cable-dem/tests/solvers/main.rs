@@ -1,16 +1,22 @@
-//! Every solver on every test model, through one harness; and the laws of nature that all of them must keep.
+//! Every solver on every test model, through one harness; the laws of nature that all of them must keep; and what each of them is known for.
 //!
 //! [`models`] holds problems with their exact answers, [`harness`] runs any solver on any problem.
 
 mod agreement;
+mod approach;
+mod explicit;
+mod faults;
 mod friction_symmetry;
 mod harness;
+mod inertia;
 #[path = "../shared/mirrored.rs"]
 mod mirrored;
 mod models;
-mod opposing_traffic;
-mod rate;
+mod nasty_values;
+mod random_scenes;
 mod restart;
+mod sigmoid;
 mod slope;
 mod stiff_ends;
 mod test_models;
+mod work;

@@ -1,7 +1,8 @@
 //! What inertia does.
 
-use crate::common::{MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
-use cable_dem::{ExplicitOptions, inertia_ratio};
+use cable_dem::inertia_ratio;
+
+use super::harness::{Bar, Kind, MASS, Outcome, Run, truck};
 
 /// Accuracy of the explicit solver on these meshes, whose nodes swing as they are passed, at v/h a second.
 const LATTICE: f64 = 5e-3;
@@ -10,15 +11,19 @@ const LATTICE: f64 = 5e-3;
 #[test]
 fn the_inertia_ratio_predicts_what_leaving_inertia_out_costs() -> Outcome {
     for (speed, spacing) in [(100.0, 0.1), (300.0, 0.05), (1000.0, 0.05)] {
-        let scene = Scene::thirty_metres(STIFF_SHEATH, spacing, &truck(speed)?)?;
-        let without = scene.quasi_static(3)?.force.downstream;
-        let with = scene.explicit(3, ExplicitOptions::default())?;
-        let ratio = inertia_ratio(&scene.cable, MASS, speed / 3.6)?;
-        let found = relative(with.pass.force.downstream, without);
-        println!(
-            "{speed} km/h: ratio {ratio:.2e}, found {found:+.2e}, share {:.2}",
-            -found / ratio
-        );
+        let bar = Bar {
+            mesh: (spacing, 0.5 * spacing),
+            ..Bar::default()
+        };
+        let problem = bar.under(&truck()?.at(speed / 3.6))?;
+        let force = |kind| {
+            Run::new(kind, &problem)?
+                .passes(3)
+                .map(|pass| pass.outcome.force.downstream)
+        };
+        let found = force(Kind::Explicit)? / force(Kind::QuasiStatic)? - 1.0;
+        let ratio = inertia_ratio(&problem.cable, MASS, speed / 3.6)?;
+        println!("{speed} km/h: ratio {ratio:.2e}, found {found:+.2e}");
         assert!(
             found < LATTICE && found > -ratio - LATTICE,
             "{speed} km/h: {found} {ratio}"
