@@ -120,8 +120,49 @@ fn largest(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::distorted;
+
     use ground_field::Soil;
+
+    /// Four distorted elements round one inner corner.
+    fn distorted() -> Mesh {
+        let corner = [
+            [1.0, 0.0],
+            [2.2, -0.1],
+            [3.0, 0.0],
+            [0.9, 1.2],
+            [1.8, 0.9],
+            [3.1, 1.1],
+            [1.0, 2.0],
+            [2.1, 2.2],
+            [3.0, 2.0],
+        ];
+        let mut nodes: Vec<[f64; 2]> = Vec::new();
+        let mut index = |point: [f64; 2]| {
+            nodes
+                .iter()
+                .position(|n| (n[0] - point[0]).hypot(n[1] - point[1]) < 1e-9)
+                .unwrap_or_else(|| {
+                    nodes.push(point);
+                    nodes.len() - 1
+                })
+        };
+        let middle = |points: &[[f64; 2]]| {
+            let n = points.len() as f64;
+            [0, 1].map(|c| points.iter().map(|p| p[c]).sum::<f64>() / n)
+        };
+        let elements = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| {
+            let c = [i + 3 * j, i + 1 + 3 * j, i + 4 + 3 * j, i + 3 + 3 * j].map(|k| corner[k]);
+            let sides: [[f64; 2]; 4] = std::array::from_fn(|k| middle(&[c[k], c[(k + 1) % 4]]));
+            let points = c.into_iter().chain(sides).chain([middle(&c)]);
+            let list: Vec<usize> = points.map(&mut index).collect();
+            std::array::from_fn(|k| list[k])
+        });
+        Mesh {
+            nodes,
+            elements: elements.to_vec(),
+            across: 2,
+        }
+    }
 
     fn soil(young_modulus: f64, poisson_ratio: f64) -> Elasticity {
         Elasticity::new(Soil::new(young_modulus, poisson_ratio).unwrap())

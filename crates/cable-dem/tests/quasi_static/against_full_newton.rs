@@ -148,7 +148,7 @@ impl Scene {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(64))]
 
     /// Outside its windows the solver leaves up to a thousandth of the friction limit unbalanced at a node while the vehicle
     /// passes. Were that so at every node and with one sign, the force would be off by a thousandth of q L, and

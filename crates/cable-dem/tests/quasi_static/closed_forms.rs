@@ -169,6 +169,72 @@ fn a_bar_that_only_shears_its_sheath_pulls_with_ea_d_over_lambda() {
     assert!(outcome.dissipated.abs() < 1e-9 * Q * D * length, "{outcome:?}");
 }
 
+#[test]
+fn push_and_pull_is_a_masing_loop() {
+    let moves = [D, -D, D, -D, D, -D];
+    let forces = anchored_forces(coulomb(Q), 43.1, &moves);
+    let pushed = Q * anchored_length();
+    // Unloading works against friction 2 q: half the displacement in a bar twice as strong.
+    let pulled = pushed * (1.0 - 2.0_f64.sqrt());
+    for (force, exact) in forces[..6].iter().zip([pushed, pulled].into_iter().cycle()) {
+        assert!(
+            (force - exact).abs() < 3e-4 * pushed,
+            "{forces:?} N, exact {pushed} N and {pulled} N"
+        );
+    }
+    // The loop is closed: every round repeats the second, up to what the windows leave out within a pass.
+    for round in forces[2..6].chunks(2).zip(forces[..4].chunks(2).skip(1)) {
+        assert!((round.0[0] - round.1[0]).abs() < 1e-4 * pushed, "{forces:?}");
+        assert!((round.0[1] - round.1[1]).abs() < 1e-4 * pushed, "{forces:?}");
+    }
+    // The duct has come back by itself: its return moves nothing.
+    assert!((forces[6] - forces[5]).abs() < 1e-4 * pushed, "{forces:?}");
+}
+
+/// A pass that leaves the duct moved is a push and a pull, the pull in one step.
+#[test]
+fn a_pass_that_leaves_the_duct_moved_is_a_masing_loop() {
+    let (bar, mesh) = long_bar(coulomb(Q), End::Fixed, 43.1);
+    let pushed = Q * anchored_length();
+    let kept = pushed * (1.0 - 2.0_f64.sqrt());
+    let mut run = Run::new(bar.clone(), mesh);
+    let passages = [D, -D].map(|moved| front(&bar, &mesh, 20.0 * anchored_length(), moved));
+    // From one push to the next the other way the duct turns by 2 D: the doubled loading curve ends at its mirror image.
+    for (index, sign) in [(0, 1.0), (0, 1.0), (1, -1.0), (1, -1.0), (0, 1.0)] {
+        let outcome = run.pass(&passages[index]);
+        let extreme = if sign > 0.0 { outcome.peak } else { outcome.lowest };
+        for (force, exact) in [
+            (extreme.downstream, sign * pushed),
+            (outcome.force.downstream, sign * kept),
+        ] {
+            assert!(
+                (force - exact).abs() < 3e-4 * pushed,
+                "{outcome:?}, exact {exact} N"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_spring_end_gives_way() {
+    let x = anchored_length();
+    for spring in [0.01, 0.3, 1.0, 10.0, 1000.0].map(|share| share * EA / x) {
+        let (bar, mesh) = long_bar(coulomb(Q), End::Spring(spring), 43.1);
+        let mut run = Run::new(bar.clone(), mesh);
+        let (outcome, last) = run.pass_and_last(&front(&bar, &mesh, 2.0 * x, D));
+        // D = q X²/(2EA) + q X/S, the stretch over X and the spring's own.
+        let compliance = EA / spring;
+        let slipping = |share: f64| (compliance * compliance + share * x * x).sqrt() - compliance;
+        let pushed = Q * slipping(1.0);
+        let kept = pushed - 2.0 * Q * slipping(0.5);
+        let force = last.end_forces(&bar).expect("the state's mesh").downstream;
+        for (found, exact) in [(force, pushed), (outcome.force.downstream, kept)] {
+            assert!((found - exact).abs() < 2e-4 * Q * x, "{found} N, exact {exact} N");
+        }
+        assert!((last.displacement()[mesh.elements()] * spring / pushed - 1.0).abs() < 2e-2);
+    }
+}
+
 /// λ² = EA γ; by Masing's rule the pull is a push by D/2, doubled.
 #[test]
 fn elastic_sheaths_go_over_into_coulomb_friction() {
