@@ -43,6 +43,16 @@ impl From<crate::SceneError> for Failure {
 }
 
 impl Failure {
+    /// An argument that cannot be used as it was found.
+    pub fn usage(argument: &'static str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        let (found, allowed) = (found.into(), allowed.into());
+        Self::Usage {
+            argument,
+            found,
+            allowed,
+        }
+    }
+
     /// Prints the failure; its exit status.
     pub fn end(&self) -> ExitCode {
         if self.reader_has_left() {

@@ -48,7 +48,7 @@ pub fn film(
     };
     let ground = bench.grounds.of(scene)?;
     let mut plan = plan_over(scene, ground.clone())?;
-    plan.start = start.as_deref();
+    plan.start = start.as_ref();
     let index = question.vehicle.min(scene.vehicles.len() - 1);
     let (motion, vehicle, depth) = (&ground.motions[index], &scene.vehicles[index], scene.duct.depth);
     let mut levels = plan.levels.first..plan.levels.finest;

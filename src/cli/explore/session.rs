@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, Desk};
 use super::controls::sliders;
-use super::figures::figures;
 use super::film::film;
 use super::question::{Asked, Question, Refusal};
 use super::server::{LAST, Reply};
@@ -84,7 +83,6 @@ impl Session {
         let [force, movement, length] =
             [reader.units.force, reader.units.movement, reader.units.length].map(unit);
         let mut answer = json!(Judged { run: &run, judgement });
-        answer["figures"] = figures(&run, &reader)?;
         answer["headline"] = headline;
         answer["sliders"] = json!(sliders(&asked.file));
         answer["units"] = json!({ "force": force, "movement": movement, "length": length });
