@@ -65,11 +65,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let file = arguments.force.files([]).output(&arguments.file, "toml")?;
     // Whoever made a scene keeps it.
     if !arguments.force.force && file.path().is_file() {
-        return Err(Failure::Usage {
-            argument: "FILE",
-            found: format!("{name}, which exists"),
-            allowed: "the name of a new file: nothing is overwritten without --force".into(),
-        });
+        let allowed = "the name of a new file: nothing is overwritten without --force";
+        return Err(Failure::usage("FILE", format!("{name}, which exists"), allowed));
     }
     let text = template(&name, &arguments.values())?;
     crate::check(&Scene::from_toml(&name, &text)?)?;

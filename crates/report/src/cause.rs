@@ -22,12 +22,13 @@ pub fn cause(html: &mut Html, report: &Report) {
         report.motion.ground
     );
     figure(html, STACKED, motion(report), &caption);
-    let [forward, backward] = ways(report).map(|way| MICRO * way);
+    let ways = ways(report).map(|way| MICRO * way);
+    let [forward, backward] = ways;
     let caption = format!(
         "Velocity of that point. The areas are how far it moves: {forward:.1} µm with the vehicle and {backward:.1} µm against it within \
          this figure; they are equal when the vehicle is far away.",
     );
-    figure(html, ALONE, [velocity(report)], &caption);
+    figure(html, ALONE, [velocity(report, ways)], &caption);
     let passes = friction_of_passes(report);
     let charts = passes
         .iter()
@@ -101,25 +102,19 @@ fn position(report: &Report) -> Axis {
 /// The displacement of a point of the duct, as the vehicle drives by.
 fn motion(report: &Report) -> [Chart; 2] {
     let motion = &report.motion;
-    let chart = |title, label, values: &[f64], look| {
+    let chart = |title, values: &[f64], look| {
         let line = Series::line("", past(report, values, |value| MICRO * value));
-        Chart::new(title, position(report), Axis::linear(label)).with(line.look(look).solid())
+        Chart::new(title, position(report), Axis::linear("displacement, µm")).with(line.look(look).solid())
     };
-    let along = "Motion of the duct along its axis";
     [
-        chart(along, "displacement, µm", &motion.longitudinal_m, 0),
-        chart(
-            "Motion of the duct down",
-            "displacement, µm",
-            &motion.vertical_m,
-            1,
-        ),
+        chart("Motion of the duct along its axis", &motion.longitudinal_m, 0),
+        chart("Motion of the duct down", &motion.vertical_m, 1),
     ]
 }
 
-fn velocity(report: &Report) -> Chart {
+/// The velocity of that point, in the direction of the vehicle and against it, with both ways \[µm\].
+fn velocity(report: &Report, [forward, backward]: [f64; 2]) -> Chart {
     let velocity = &report.motion.longitudinal_velocity_m_per_s;
-    let [forward, backward] = ways(report).map(|way| MICRO * way);
     let sign = report.scene.vehicles[0].direction.sign();
     let part = |name: String, sign: f64| {
         let points = past(report, velocity, |v| MILLI * sign * (sign * v).max(0.0));

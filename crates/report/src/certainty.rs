@@ -111,7 +111,7 @@ impl OfWorst<'_> {
         let own = [(self.report.scene.friction.dynamic_coefficient, self.in_unit(own))];
         chart
             .with(Series::line_points("the others in the middle", in_middle).look(0))
-            .with(Series::points("the scene", own).look(OTHER).marker(5))
+            .with(Series::points("the scene", own).look(OTHER).marker(3))
     }
 
     /// What each unknown alone does, the others in their middle: the widest bar on top.

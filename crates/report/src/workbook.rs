@@ -8,6 +8,7 @@ use std::io;
 use rust_xlsxwriter::XlsxError;
 use serde_json::{Value, json};
 
+use creepage_plan::shown::words_if;
 use creepage_run::{Limited, Place, Run, Units, Verdict};
 use creepage_scene::SceneFile;
 
@@ -102,28 +103,19 @@ type Entry<'d> = (String, &'d str, &'d Value);
 fn entries<'d>(name: &str, field: &'d str, value: &'d Value, units: &Units) -> Vec<Entry<'d>> {
     match value {
         Value::Object(fields) => {
-            let fields = fields
-                .iter()
-                .filter(|(field, _)| !TABLES.contains(&field.as_str()));
+            let fields = fields.iter().filter(|(field, _)| !TABLES.contains(&&***field));
             let inside = fields.flat_map(|(field, value)| {
-                let before = if name.is_empty() {
-                    String::new()
-                } else {
-                    format!("{name}: ")
-                };
-                let name = format!("{before}{}", named(field, units).0);
-                entries(&name, field, value, units)
+                let own = named(field, units).0;
+                let before = words_if(!name.is_empty(), ": ");
+                entries(&format!("{name}{before}{own}"), field, value, units)
             });
             inside.collect()
         }
         Value::Array(items) => {
             let items = (1..).zip(items).filter(|(_, item)| !item.is_number());
             let inside = items.flat_map(|(number, item)| {
-                let number = if item.is_object() {
-                    format!(" {number}")
-                } else {
-                    String::new()
-                };
+                let number = format!(" {number}");
+                let number = words_if(item.is_object(), &number);
                 entries(&format!("{name}{number}"), field, item, units)
             });
             inside.collect()
@@ -147,13 +139,10 @@ fn answer(
         book.row([text("limits"), text(verdict.shown(units))], false)?;
     }
     let last = document["passes"].as_array().and_then(|passes| passes.last());
-    let last = last
-        .map(|last| entries("last pass", "", last, units))
-        .unwrap_or_default();
-    let parts = ANSWER
-        .iter()
-        .flat_map(|part| entries(part, part, &document[*part], units));
-    for (name, field, value) in last.into_iter().chain(parts) {
+    let last = last.map(|last| ("last pass", "", last));
+    let parts = ANSWER.iter().map(|part| (*part, *part, &document[*part]));
+    let all = last.into_iter().chain(parts);
+    for (name, field, value) in all.flat_map(|(name, field, value)| entries(name, field, value, units)) {
         let row = match value {
             // It has its place, and says so.
             Value::Null if name == "saturation" => vec![text(name), text("none")],

@@ -18,6 +18,14 @@ pub struct Table {
     pub words: usize,
 }
 
+impl Table {
+    /// The `rows` below these heads.
+    pub fn new<const COLUMNS: usize>(head: [&str; COLUMNS], rows: Vec<Vec<String>>, words: usize) -> Self {
+        let head = head.map(str::to_owned).into();
+        Self { head, rows, words }
+    }
+}
+
 /// The force on an end or its movement, and what its column is called.
 type Column = (String, CableEnd, Limited);
 
@@ -160,13 +168,8 @@ pub fn candidates(candidates: &[Candidate]) -> Table {
             candidate.reason.clone(),
         ]
     };
-    let head = ["model", "before the run: error, time", "why, or why not"].map(str::to_owned);
-    let rows = candidates.iter().map(row).collect();
-    Table {
-        head: head.into(),
-        rows,
-        words: 3,
-    }
+    let head = ["model", "before the run: error, time", "why, or why not"];
+    Table::new(head, candidates.iter().map(row).collect(), 3)
 }
 
 /// How a run was solved.
@@ -183,11 +186,6 @@ pub fn error_parts(run: &Run) -> Table {
     let row = |name: &str, share: f64| vec![name.to_owned(), percent(share)];
     let rows = ErrorSource::ALL.map(|source| row(source.name(), parts.of(source)));
     let movement = row("movement of the ends, all parts together", parts.movement);
-    let head = ["part", "error"].map(str::to_owned);
     let rows = rows.into_iter().chain([movement]).collect();
-    Table {
-        head: head.into(),
-        rows,
-        words: 1,
-    }
+    Table::new(["part", "error"], rows, 1)
 }
