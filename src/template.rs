@@ -36,16 +36,12 @@ pub fn template(name: &str, values: &[(&str, &str)]) -> Result<String, SceneErro
         set(&mut text, key, &toml(key, value));
     }
     let limit = Scene::from_toml(name, &text)?.friction_limit();
-    let shape_factor = if limit > 0.0 {
-        2.0 * SLOPE / limit
-    } else {
-        FRICTIONLESS_SHAPE_FACTOR
+    let shape_factor = match limit {
+        0.0 => FRICTIONLESS_SHAPE_FACTOR,
+        limit => 2.0 * SLOPE / limit,
     };
-    set(
-        &mut text,
-        "friction.shape_factor",
-        &format!("\"{shape_factor:.4e} 1/m\""),
-    );
+    let shape_factor = format!("\"{shape_factor:.4e} 1/m\"");
+    set(&mut text, "friction.shape_factor", &shape_factor);
     Scene::from_toml(name, &text)?;
     Ok(text)
 }
@@ -61,10 +57,10 @@ fn set(text: &mut String, key: &str, value: &str) {
     let end = start + text[start..].find('\n').unwrap_or(text.len() - start);
     let comment = text[start..end].split_once("  # ").map(|(_, comment)| comment);
     let line = format!("{}{value}", key.trim_start());
-    let line = comment.map_or_else(
-        || line.clone(),
-        |comment| format!("{:<COMMENTS$}# {comment}", line.clone() + " "),
-    );
+    let line = match comment {
+        Some(comment) => format!("{:<COMMENTS$}# {comment}", line + " "),
+        None => line,
+    };
     text.replace_range(start..end, &line);
 }
 
@@ -79,10 +75,9 @@ fn toml(key: &str, value: &str) -> String {
     } else {
         quoted(value)
     };
-    match (key, value) {
-        (_, "free" | "fixed") => literal,
-        ("ends.upstream" | "ends.downstream", _) => format!("{{ spring = {literal} }}"),
-        _ => literal,
+    match value {
+        value if !key.starts_with("ends.") || ["free", "fixed"].contains(&value) => literal,
+        _ => format!("{{ spring = {literal} }}"),
     }
 }
 

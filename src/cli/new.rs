@@ -71,11 +71,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let text = template(&name, &arguments.values())?;
     crate::check(&Scene::from_toml(&name, &text)?)?;
     file.write(|out| out.write_all(text.as_bytes()))?;
-    writeln!(
-        terminal::out(),
-        "{name} is written; to compute: creepage run {name}"
-    )?;
-    Ok(())
+    let next = format!("{name} is written; to compute: creepage run {name}");
+    Ok(writeln!(terminal::out(), "{next}")?)
 }
 
 impl Arguments {
@@ -95,8 +92,8 @@ impl Arguments {
             ("vehicles.speed", &self.speed),
             ("traffic.passes", &self.passes),
         ];
+        let given = given.into_iter();
         given
-            .into_iter()
             .filter_map(|(key, value)| Some((key, value.as_deref()?)))
             .collect()
     }

@@ -117,7 +117,7 @@ fn sources(input: &Input, read: &[Option<&Path>]) -> Result<Vec<Source>, Failure
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         // What was computed; a pipe can be read only once.
         if index == 0 {
-            sources.push(Source::new(name, input.text().as_bytes()));
+            sources.push(Source::new(name, input.file().text().as_bytes()));
         } else if path.is_file() {
             sources.push(Source::new(name, &std::fs::read(path)?));
         }

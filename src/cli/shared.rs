@@ -156,11 +156,6 @@ impl Input {
         self.file.histogram()
     }
 
-    /// The text of the scene file.
-    pub fn text(&self) -> &str {
-        self.file.text()
-    }
-
     /// The answer, or the error with the line of the key at fault.
     pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
         answer.map_err(|error| Failure::Analysis(error.located(&self.file)))
@@ -185,8 +180,8 @@ impl Input {
 
     /// Whether the warning is of a key that a slip was found at.
     fn is_told(&self, warning: &str) -> bool {
-        let is_of = |slip: &String, key: &str| slip.contains(&format!("`{key}`"));
-        key_of(warning).is_some_and(|key| self.warnings.iter().any(|slip| is_of(slip, key)))
+        let key = key_of(warning).map(|key| format!("`{key}`"));
+        key.is_some_and(|key| self.warnings.iter().any(|slip| slip.contains(&key)))
     }
 }
 

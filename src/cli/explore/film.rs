@@ -41,10 +41,9 @@ pub fn film(
     question: &Question,
     progress: Progress<'_>,
 ) -> Result<Value, Error> {
-    let start = if question.first {
-        None
-    } else {
-        bench.state(scene, progress)?
+    let start = match question.first {
+        true => None,
+        false => bench.state(scene, progress)?,
     };
     let ground = bench.grounds.of(scene)?;
     let mut plan = plan_over(scene, ground.clone())?;
