@@ -20,20 +20,11 @@ pub struct LimitArguments {
 #[derive(Debug, clap::Args)]
 pub struct CheckArgument {
     /// End with exit status 3 if a limit is exceeded, once everything is written
-    #[arg(long)]
+    #[arg(long, requires = "LimitArguments")]
     check: bool,
 }
 
 impl CheckArgument {
-    /// Refuses to check what has no limits.
-    pub fn needs(&self, limits: &LimitArguments) -> Result<(), Failure> {
-        if !self.check || limits.are_given() {
-            return Ok(());
-        }
-        let allowed = "--check with limits, such as --limit-force 2kN";
-        Err(Failure::usage("--check", "no limit", allowed))
-    }
-
     /// Fails if limits are exceeded and that is to be a failure.
     pub fn judge(&self, verdicts: &[Verdict]) -> Result<(), Failure> {
         if self.check && verdicts.iter().any(Verdict::is_exceeded) {
@@ -147,17 +138,21 @@ impl LimitArguments {
 
     /// Warns of bare numbers that were probably meant in another unit.
     pub fn warn_of_slips(&self) {
-        for (option, given) in self.options() {
-            for Limit { value, .. } in given.iter().filter(|limit| limit.unit.is_none()) {
-                let (is_slip, unit, meant) = match option {
-                    "--limit-force" => (*value < LEAST_FORCE, "N", "kN"),
-                    _ => (*value > MOST_MOVEMENT, "m", "mm"),
-                };
-                if is_slip {
-                    terminal::warn(format_args!(
-                        "{option} is {value} {unit}: did you mean {value}{meant}?"
-                    ));
-                }
+        let bare = |given: &[Limit]| -> Vec<f64> {
+            let bare = given.iter().filter(|limit| limit.unit.is_none());
+            bare.map(|limit| limit.value).collect()
+        };
+        for force in bare(&self.limit_force) {
+            if force < LEAST_FORCE {
+                terminal::warn(format_args!(
+                    "--limit-force is {force} N: did you mean {force}kN?"
+                ));
+            }
+        }
+        for movement in bare(&self.limit_movement) {
+            if movement > MOST_MOVEMENT {
+                let meant = format!("did you mean {movement}mm?");
+                terminal::warn(format_args!("--limit-movement is {movement} m: {meant}"));
             }
         }
     }

@@ -59,7 +59,6 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.uncertain.on(&arguments.scene.read()?)?)?;
     let limits = arguments.limits.limits(&input.scene)?;
-    arguments.check.needs(&arguments.limits)?;
     let readings = arguments.data.as_deref().map(|file| arguments.reading.read(file));
     let readings = readings.transpose()?;
     for note in readings.iter().flat_map(crate::Readings::notes) {

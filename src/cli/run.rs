@@ -45,7 +45,7 @@ pub struct Arguments {
     /// Write the cable as the last pass leaves it to this file, for --from-state
     #[arg(long, value_name = "FILE.json")]
     save_state: Option<PathBuf>,
-    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
+    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, scene
     #[arg(long, value_name = "FILE.xlsx")]
     xlsx: Option<PathBuf>,
     #[command(flatten)]
@@ -82,7 +82,6 @@ impl Judgement {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
-    arguments.check.needs(&arguments.limits)?;
     let table = input.table();
     let read = [
         Some(&*arguments.scene.file.scene),

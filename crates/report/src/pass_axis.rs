@@ -61,9 +61,10 @@ impl<'r> PassAxis<'r> {
         let begin = before.and_then(|past| past.days).unwrap_or(0.0);
         let days = begin + last as f64 / per_day;
         let is_many = |(unit, _): &(f64, &str)| days >= FEWEST * unit;
-        let (unit, name) = match is_linear {
-            true => UNITS.into_iter().find(is_many).unwrap_or(UNITS[2]),
-            false => (1.0, "time"),
+        let (unit, name) = if is_linear {
+            UNITS.into_iter().find(is_many).unwrap_or(UNITS[2])
+        } else {
+            (1.0, "time")
         };
         let (begin, each) = (begin / unit, 1.0 / (per_day * unit));
         Self {

@@ -47,11 +47,11 @@ pub fn section(report: &Report) -> (String, String) {
     drawing.area(&circle((x, y), radius), Ink::Series(0), 1.0);
     let label = format!("duct, {} deep", reader.depth(scene.duct.depth));
     let beside = radius + 6.0;
-    let (place, anchor) = match x + beside + Drawing::text_width(&label) < RIGHT {
-        true => (x + beside, Anchor::Start),
-        false => (x - beside, Anchor::End),
-    };
-    drawing.text(&label, (place, y), anchor);
+    if x + beside + Drawing::text_width(&label) < RIGHT {
+        drawing.text(&label, (x + beside, y), Anchor::Start);
+    } else {
+        drawing.text(&label, (x - beside, y), Anchor::End);
+    }
     let enlarged = words_if(inner < SMALLEST, " The duct is drawn larger than it is.");
     let darker = words_if(
         scene.ground.thickness() > 0.0,

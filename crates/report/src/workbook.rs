@@ -28,11 +28,11 @@ const ANSWER: [&str; 10] = [
     "plan",
     "cost",
 ];
-/// Tables inside these.
-const TABLES: [&str; 4] = ["cycle", "hot_profile", "cold_profile", "parts"];
+/// Tables inside these, and another name of a part of the error for other programs.
+const LEFT_OUT: [&str; 4] = ["cycle", "hot_profile", "cold_profile", "law"];
 
-/// The file of a workbook: the answer, a row for each listed pass, the force along the cable, clamps, days where the cable is heated, the
-/// parts of the error, and the scene. Interpolated passes are marked.
+/// The file of a workbook: the answer, a row for each listed pass, the force along the cable, clamps, days where the cable is heated,
+/// and the scene. Interpolated passes are marked.
 ///
 /// # Errors
 ///
@@ -63,7 +63,6 @@ fn write(
     ] {
         table(&mut book, name, records, units)?;
     }
-    errors(&mut book, document)?;
     scene(&mut book, file)?;
     book.finish()
 }
@@ -103,7 +102,7 @@ type Entry<'d> = (String, &'d str, &'d Value);
 fn entries<'d>(name: &str, field: &'d str, value: &'d Value, units: &Units) -> Vec<Entry<'d>> {
     match value {
         Value::Object(fields) => {
-            let fields = fields.iter().filter(|(field, _)| !TABLES.contains(&&***field));
+            let fields = fields.iter().filter(|(field, _)| !LEFT_OUT.contains(&&***field));
             let inside = fields.flat_map(|(field, value)| {
                 let own = named(field, units).0;
                 let before = words_if(!name.is_empty(), ": ");
@@ -199,23 +198,4 @@ fn along(profile: &Value) -> Value {
     places
         .map(|(place, force)| json!({ "position_m": place, "force_n": force }))
         .collect()
-}
-
-/// The parts of the error.
-fn errors(book: &mut Book, document: &Value) -> Result<(), XlsxError> {
-    book.sheet("error", &[("part", ""), ("share", ""), ("of", "")])?;
-    let estimate = &document["error_estimate"];
-    let share = |value: &Value| value.as_f64().map_or(Cell::Absent, Cell::Share);
-    let whole = [text("all"), share(&estimate["relative"]), text("a force")];
-    book.row(whole, false)?;
-    // Another name of `passes`, for other programs.
-    let parts = estimate["parts"].as_object().into_iter().flatten();
-    for (name, value) in parts.filter(|(name, _)| *name != "law") {
-        let of = match name.as_str() {
-            "movement" => "the largest movement; not in the sum",
-            _ => "a force",
-        };
-        book.row([text(name), share(value), text(of)], false)?;
-    }
-    Ok(())
 }

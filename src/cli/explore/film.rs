@@ -41,10 +41,10 @@ pub fn film(
     question: &Question,
     progress: Progress<'_>,
 ) -> Result<Value, Error> {
-    let start = match question.first {
-        true => None,
-        false => bench.state(scene, progress)?,
-    };
+    let mut start = None;
+    if !question.first {
+        start = bench.state(scene, progress)?;
+    }
     let ground = bench.grounds.of(scene)?;
     let mut plan = plan_over(scene, ground.clone())?;
     plan.start = start.as_ref();

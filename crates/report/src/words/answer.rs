@@ -259,10 +259,8 @@ impl Answer<'_> {
     fn level(&self) -> Option<Load> {
         let level = self.run.saturation?;
         let force = |end: CableEnd| end.of([level.upstream_force_n, level.downstream_force_n]);
-        let when = match level.is_beyond(&self.run.passes) {
-            true => "after a pass beyond those computed",
-            false => "after a pass",
-        };
+        let when = ["after a pass", "after a pass beyond those computed"];
+        let when = when[usize::from(level.is_beyond(&self.run.passes))];
         Some(Load::new(level.force_n, pressed_end(self.scene, force), when))
     }
 
