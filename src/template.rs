@@ -6,8 +6,6 @@ use crate::scene::{SceneError, quoted};
 /// Slope of the elastic part of friction \[N/m per m of cable\] behind the shape factor of a new scene: as in the scenes of
 /// the full-scale experiment, an assumption.
 const SLOPE: f64 = 1e8;
-/// Shape factor \[1/m\] if there is no friction.
-const FRICTIONLESS_SHAPE_FACTOR: f64 = 1e7;
 const TEXT: &str = include_str!("template.toml");
 /// Column of the comments.
 const COMMENTS: usize = 36;
@@ -36,12 +34,10 @@ pub fn template(name: &str, values: &[(&str, &str)]) -> Result<String, SceneErro
         set(&mut text, key, &toml(key, value));
     }
     let limit = Scene::from_toml(name, &text)?.friction_limit();
-    let shape_factor = match limit {
-        0.0 => FRICTIONLESS_SHAPE_FACTOR,
-        limit => 2.0 * SLOPE / limit,
-    };
-    let shape_factor = format!("\"{shape_factor:.4e} 1/m\"");
-    set(&mut text, "friction.shape_factor", &shape_factor);
+    if limit > 0.0 {
+        let shape_factor = format!("\"{:.4e} 1/m\"", 2.0 * SLOPE / limit);
+        set(&mut text, "friction.shape_factor", &shape_factor);
+    }
     Scene::from_toml(name, &text)?;
     Ok(text)
 }

@@ -75,12 +75,8 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     };
     let unit = dimension.unit_of(value);
     let value = dimension.parse_argument(value).map_err(|error| {
-        let units: Vec<&str> = dimension.units().collect();
-        format!(
-            "{error}; allowed: {} (units: {}); another limit is another option",
-            dimension.noun(),
-            units.join(", ")
-        )
+        let (noun, units) = (dimension.noun(), dimension.units().collect::<Vec<_>>().join(", "));
+        format!("{error}; allowed: {noun} (units: {units}); another limit is another option")
     })?;
     if value > 0.0 && value.is_finite() {
         return Ok(Limit { of, value, unit });

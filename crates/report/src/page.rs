@@ -56,10 +56,8 @@ impl Report {
         let answer = self.answer();
         html.element("h1", &self.scene.title);
         let warnings = words_if(self.warnings.is_empty(), " No warnings.");
-        let made = self.made();
-        html.paragraph(&format!(
-            "Creepage of the cable in its duct under traffic, {made}.{warnings}"
-        ));
+        let what = format!("Creepage of the cable in its duct under traffic, {}", self.made());
+        html.paragraph(&format!("{what}.{warnings}"));
         html.raw("<div class=\"answer\">");
         html.paragraph(&answer.sentences());
         html.raw("</div>");

@@ -17,14 +17,12 @@ pub struct Slider {
     value: Option<f64>,
     /// Of an end: free, spring or fixed.
     held: Option<String>,
-    /// Where the slider begins and ends, in the unit.
+    /// Where the slider begins and ends, in the unit; it is logarithmic where it begins above zero.
     least: f64,
     most: f64,
-    is_logarithmic: bool,
 }
 
-/// Heading; key without the numbers of lists; name, with `#` for that number; dimension; where the slider begins and ends in this unit. It is
-/// logarithmic where it begins above zero.
+/// Heading; key without the numbers of lists; name, with `#` for that number; dimension; where the slider begins and ends in this unit.
 type Row = (
     &'static str,
     &'static str,
@@ -109,9 +107,8 @@ impl Slider {
             let text = usual.map_or(number.to_string(), |usual| format!("{number} {}", usual.symbol()));
             parsed(&text).unwrap_or(number)
         });
-        let is_logarithmic = range[0] > 0.0;
         // What was typed has its place on the slider.
-        if let Some(value) = value.filter(|value| !is_logarithmic || *value > 0.0) {
+        if let Some(value) = value.filter(|value| least <= 0.0 || *value > 0.0) {
             (least, most) = (least.min(value), most.max(value));
         }
         let number = numbers.first().and_then(|number| number.parse::<usize>().ok());
@@ -124,7 +121,6 @@ impl Slider {
             held: is_end.then(|| held.to_owned()),
             least,
             most,
-            is_logarithmic,
             key: if is_end { names } else { typed.key.clone() },
         })
     }

@@ -3,7 +3,7 @@
 use ground_field::{Base, Direction, Modulus};
 
 use super::answer::Answer;
-use super::number::{passes, power_of_ten, quantity, significant};
+use super::number::{passes, power_of_ten, quantity, range, significant};
 use super::reader::Reader;
 use super::table::Table;
 use creepage_plan::{ground::load_ratio, shown::words_if};
@@ -32,10 +32,7 @@ fn sloping(slope: f64, along: &str) -> String {
 
 /// Middle between a vehicle's outer wheels, to the left of the line from which the scene measures \[m\].
 pub fn middle(vehicle: &TrafficVehicle) -> f64 {
-    let sides = vehicle.wheels().into_iter().map(|wheel| wheel.y);
-    let [right, left] = sides.fold([f64::INFINITY, f64::NEG_INFINITY], |[right, left], side| {
-        [right.min(side), left.max(side)]
-    });
+    let [right, left] = range(vehicle.wheels().into_iter().map(|wheel| wheel.y));
     0.5 * (right + left) + vehicle.lateral_offset
 }
 
@@ -245,8 +242,7 @@ impl Answer<'_> {
         let weights = || self.scene.vehicles.iter().map(TrafficVehicle::weight);
         let shared = weights().zip(self.scene.shares());
         let mean: f64 = shared.map(|(weight, share)| share * weight).sum();
-        let least = weights().fold(f64::INFINITY, f64::min);
-        let most = weights().fold(0.0, f64::max);
+        let [least, most] = range(weights());
         let [least, most, mean] = [least, most, mean].map(|load| self.reader.load(load));
         format!("{least} to {most}, in the mean {mean}")
     }
