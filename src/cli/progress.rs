@@ -1,4 +1,4 @@
-//! How far a computation is. The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is.
+//! How far a computation is. The command computes in rayon's threads, as many as `--threads` says, while a further one shows how far it is.
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -61,12 +61,11 @@ pub fn watched<A: Send>(
         line(&words(share), share / usual, seconds, left)
     };
     thread::scope(|scope| {
-        let (done, running) = channel();
+        // It is dropped with an answer, and without one.
+        let (_done, running) = channel();
         if io::stderr().is_terminal() {
             scope.spawn(move || show(&running, shown));
         }
-        // In rayon's threads; it is done when it has an answer, and when it fails.
-        let _done = done;
         rayon::scope(|_| compute(Progress::new(&report)))
     })
 }
