@@ -107,11 +107,10 @@ pub fn main() -> ExitCode {
         limit_threads(&matches);
         Arguments::from_arg_matches_mut(&mut matches)
     });
-    let done = match parsed {
-        Ok(arguments) => execute(&arguments.command),
+    match parsed {
+        Ok(arguments) => failure::status(execute(&arguments.command)),
         Err(error) => failure::unparsed(&error),
-    };
-    done.map_or_else(|failure| failure.end(), |()| ExitCode::SUCCESS)
+    }
 }
 
 /// Makes rayon's threads, in which everything is computed, as many as `--threads` says.
