@@ -6,8 +6,6 @@ use crate::scene::{SceneError, quoted};
 /// Slope of the elastic part of friction \[N/m per m of cable\] behind the shape factor of a new scene: as in the scenes of
 /// the full-scale experiment, an assumption.
 const SLOPE: f64 = 1e8;
-/// Shape factor \[1/m\] if there is no friction.
-const FRICTIONLESS_SHAPE_FACTOR: f64 = 1e7;
 const TEXT: &str = include_str!("template.toml");
 /// Column of the comments.
 const COMMENTS: usize = 36;
@@ -36,16 +34,10 @@ pub fn template(name: &str, values: &[(&str, &str)]) -> Result<String, SceneErro
         set(&mut text, key, &toml(key, value));
     }
     let limit = Scene::from_toml(name, &text)?.friction_limit();
-    let shape_factor = if limit > 0.0 {
-        2.0 * SLOPE / limit
-    } else {
-        FRICTIONLESS_SHAPE_FACTOR
-    };
-    set(
-        &mut text,
-        "friction.shape_factor",
-        &format!("\"{shape_factor:.4e} 1/m\""),
-    );
+    if limit > 0.0 {
+        let shape_factor = format!("\"{:.4e} 1/m\"", 2.0 * SLOPE / limit);
+        set(&mut text, "friction.shape_factor", &shape_factor);
+    }
     Scene::from_toml(name, &text)?;
     Ok(text)
 }
@@ -61,10 +53,10 @@ fn set(text: &mut String, key: &str, value: &str) {
     let end = start + text[start..].find('\n').unwrap_or(text.len() - start);
     let comment = text[start..end].split_once("  # ").map(|(_, comment)| comment);
     let line = format!("{}{value}", key.trim_start());
-    let line = comment.map_or_else(
-        || line.clone(),
-        |comment| format!("{:<COMMENTS$}# {comment}", line.clone() + " "),
-    );
+    let line = match comment {
+        Some(comment) => format!("{:<COMMENTS$}# {comment}", line + " "),
+        None => line,
+    };
     text.replace_range(start..end, &line);
 }
 
@@ -79,10 +71,9 @@ fn toml(key: &str, value: &str) -> String {
     } else {
         quoted(value)
     };
-    match (key, value) {
-        (_, "free" | "fixed") => literal,
-        ("ends.upstream" | "ends.downstream", _) => format!("{{ spring = {literal} }}"),
-        _ => literal,
+    match value {
+        value if !key.starts_with("ends.") || ["free", "fixed"].contains(&value) => literal,
+        _ => format!("{{ spring = {literal} }}"),
     }
 }
 

@@ -15,6 +15,7 @@ use crate::calibration::{
 };
 use crate::scene::{Dimension, FrictionLaw, four_digits};
 use crate::shown::{ROWS, percent};
+use crate::words::Table;
 use crate::{Error, Readings};
 
 #[derive(Debug, clap::Args)]
@@ -102,10 +103,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let first = arguments.scene.clone().zip(arguments.data.clone());
     let files: Vec<(PathBuf, PathBuf)> = first.into_iter().chain(arguments.scene_data.clone()).collect();
     let input = |(scene, _): &(PathBuf, PathBuf)| {
-        Input::read(&SceneArguments {
-            scene: scene.clone(),
-            set: arguments.set.clone(),
-        })
+        let (scene, set) = (scene.clone(), arguments.set.clone());
+        Input::read(&SceneArguments { scene, set })
     };
     let inputs = files.iter().map(input).collect::<Result<Vec<_>, _>>()?;
     let readings = files.iter().map(|(_, data)| arguments.reading.read(data));
@@ -140,17 +139,13 @@ fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> 
         drift_sigma: arguments.drift_sigma,
         discrepancy: arguments.discrepancy,
         deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
-        loss: if arguments.robust {
-            Loss::Tukey
-        } else {
-            Loss::Squares
-        },
+        loss: [Loss::Squares, Loss::Tukey][usize::from(arguments.robust)],
         ..CalibrateOptions::default()
     };
-    let series = inputs.iter().zip(readings).map(|(input, readings)| Series {
-        scene: &input.scene,
-        readings,
-    });
+    let scenes = inputs.iter().map(|input| &input.scene);
+    let series = scenes
+        .zip(readings)
+        .map(|(scene, readings)| Series { scene, readings });
     let series: Vec<Series<'_>> = series.collect();
     let most = MOST_RUNS as f64;
     // Measured on one to four parameters; two are fitted where none is named.
@@ -166,13 +161,6 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
     writeln!(out, "{}, law {}\n", titles.join("; "), law.name())?;
-    let names = [
-        "parameter",
-        "value",
-        "standard error",
-        "95 % interval",
-        "identifiable",
-    ];
     let row = |parameter: &FittedParameter| {
         let error = parameter.standard_error.map(significant);
         vec![
@@ -183,8 +171,15 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             if parameter.identifiable { "yes" } else { "NO" }.to_owned(),
         ]
     };
-    let rows: Vec<Vec<String>> = answer.parameters.iter().map(row).collect();
-    terminal::table(&mut out, &names.map(str::to_owned), &rows)?;
+    let head = [
+        "parameter",
+        "value",
+        "standard error",
+        "95 % interval",
+        "identifiable",
+    ];
+    let parameters = Table::new(head, answer.parameters.iter().map(row).collect(), 1);
+    terminal::table(&mut out, &parameters.head, &parameters.rows)?;
     for i in 1..answer.parameters.len() {
         for j in 0..i {
             if let Some(correlation) = answer.correlation[i][j] {
@@ -218,44 +213,36 @@ fn print_quality(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failur
         ("the sigmas", lack.p_sigma),
     ];
     let words = |(what, chance): (&str, Option<f64>)| Some(format!("{what} {:.2}", chance?));
-    let tests: Vec<String> = tests.into_iter().filter_map(words).collect();
+    let tests = tests.into_iter().filter_map(words).collect::<Vec<_>>().join(", ");
     let verdict = if lack.suspicious { "SUSPICIOUS" } else { "yes" };
     writeln!(
         out,
-        "whether they are noise: {verdict}; the chance that noise shows {}",
-        tests.join(", ")
+        "whether they are noise: {verdict}; the chance that noise shows {tests}"
     )?;
     for assumption in &answer.assumptions {
         writeln!(out, "assumed: {assumption}")?;
     }
+    let error = percent(answer.model_error.relative);
+    let of = only(answer).map_or("largest reading", |kind| kind.measured);
     let shifts = answer.model_error.standard_errors.iter();
+    let shift = shifts.fold(0.0_f64, |most, &error| most.max(error));
     writeln!(
         out,
-        "error of the mesh: {} of the {}, at most {:.2} standard errors of a parameter",
-        percent(answer.model_error.relative),
-        only(answer).map_or("largest reading", |kind| kind.measured),
-        shifts.fold(0.0_f64, |most, &error| most.max(error))
+        "error of the mesh: {error} of the {of}, at most {shift:.2} standard errors of a parameter"
     )?;
-    let (method, first) = (&answer.method, answer.fit[0].measured);
-    writeln!(
-        out,
-        "method: cable {}, {} {}, node spacing {:.3} m, {} model runs; {}",
-        method.cable,
-        if first == "force" { "load cell" } else { first },
-        method.load_cell[0],
-        method.node_spacing_m[0],
-        answer.evaluations,
-        method.intervals
-    )?;
-    Ok(())
+    let (method, runs) = (&answer.method, answer.evaluations);
+    let first = match answer.fit[0].measured {
+        "force" => "load cell",
+        other => other,
+    };
+    let (cable, cell, spacing) = (&method.cable, &method.load_cell[0], method.node_spacing_m[0]);
+    let how = format!("cable {cable}, {first} {cell}, node spacing {spacing:.3} m, {runs} model runs");
+    Ok(writeln!(out, "method: {how}; {}", method.intervals)?)
 }
 
 /// The kind of all readings, where they are of one.
 fn only(answer: &Calibrated) -> Option<&ResidualSize> {
-    match &answer.residuals[..] {
-        [only] => Some(only),
-        _ => None,
-    }
+    answer.residuals.first().filter(|_| answer.residuals.len() == 1)
 }
 
 fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
@@ -269,16 +256,13 @@ fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failu
             _ => format!("{value:.3e}"),
         };
         let [measured, fitted, residual] = [row.value, row.fitted, row.residual].map(shown);
-        let mut of = Vec::new();
-        if only(answer).is_none() || row.measured != "force" {
-            of.push(format!("{}, {}", row.measured, row.unit));
-        }
-        if answer.titles.len() > 1 {
-            of.push(format!("scene {}", row.series));
-        }
-        if !row.run.is_empty() {
-            of.push(format!("run {}", terminal::line(&row.run)));
-        }
+        let is_other = only(answer).is_none() || row.measured != "force";
+        let of = [
+            is_other.then(|| format!("{}, {}", row.measured, row.unit)),
+            (answer.titles.len() > 1).then(|| format!("scene {}", row.series)),
+            (!row.run.is_empty()).then(|| format!("run {}", terminal::line(&row.run))),
+        ];
+        let of: Vec<String> = of.into_iter().flatten().collect();
         vec![row.pass.to_string(), measured, fitted, residual, of.join("  ")]
     };
     let rows: Vec<Vec<String>> = answer.fit.iter().step_by(stride).map(row).collect();

@@ -19,14 +19,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::read(&arguments.scene)?;
     let plan = input.located(crate::plan(&input.scene))?;
     input.warn_all(&plan.report().warnings);
-    let mut out = terminal::out();
-    writeln!(
-        out,
-        "{}: valid; {} passes over a duct of {} m at {} m depth",
-        terminal::line(&input.scene.title),
-        input.scene.traffic.passes,
-        input.scene.duct.length,
-        input.scene.duct.depth
-    )?;
-    Ok(())
+    let (scene, title) = (&input.scene, terminal::line(&input.scene.title));
+    let (passes, length, depth) = (scene.traffic.passes, scene.duct.length, scene.duct.depth);
+    let words = format!("valid; {passes} passes over a duct of {length} m at {depth} m depth");
+    Ok(writeln!(terminal::out(), "{title}: {words}")?)
 }

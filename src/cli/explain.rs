@@ -26,21 +26,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let is_name = |part: &&str| part.parse::<usize>().is_err();
     let wanted = asked.split('.').filter(is_name).collect::<Vec<_>>().join(".");
-    let is_meant = |key: &&KeyMeaning| key.key == wanted || key.key.ends_with(&format!(".{wanted}"));
+    let [inside, section] = [format!(".{wanted}"), format!("{wanted}.")];
+    let is_meant = |key: &&KeyMeaning| key.key == wanted || key.key.ends_with(&inside);
     let mut found: Vec<&KeyMeaning> = all.iter().filter(is_meant).collect();
     // A section is told with its keys.
-    found.extend(
-        all.iter()
-            .filter(|key| key.key.starts_with(&format!("{wanted}."))),
-    );
+    found.extend(all.iter().filter(|key| key.key.starts_with(&section)));
     found.dedup();
     if found.is_empty() {
         let meant = nearest_key(&wanted).map_or_else(String::new, |key| format!("; did you mean {key}?"));
-        return Err(Failure::Usage {
-            argument: "KEY",
-            found: format!("`{asked}`"),
-            allowed: format!("a key that `creepage explain` lists{meant}"),
-        });
+        let allowed = format!("a key that `creepage explain` lists{meant}");
+        return Err(Failure::usage("KEY", format!("`{asked}`"), allowed));
     }
     arguments.json.print(&found, || explain(&found))
 }
@@ -54,11 +49,8 @@ fn list(keys: &[KeyMeaning]) -> Result<(), Failure> {
     };
     let rows: Vec<Vec<String>> = keys.iter().map(row).collect();
     terminal::table(&mut out, &["", "key", "meaning"].map(str::to_owned), &rows)?;
-    writeln!(
-        out,
-        "\n* is required. To see units, range and default: creepage explain KEY"
-    )?;
-    Ok(())
+    let more = "* is required. To see units, range and default: creepage explain KEY";
+    Ok(writeln!(out, "\n{more}")?)
 }
 
 fn explain(keys: &[&KeyMeaning]) -> Result<(), Failure> {

@@ -22,8 +22,6 @@ pub enum Failure {
     Exceeded(String),
     #[error("no point of the sweep has an answer")]
     Nothing,
-    #[error("bad usage, already printed")]
-    Unparsed,
     #[error("{argument}: found {found}; allowed: {allowed}")]
     Usage {
         argument: &'static str,
@@ -43,14 +41,22 @@ impl From<crate::SceneError> for Failure {
 }
 
 impl Failure {
+    /// An argument that cannot be used as it was found.
+    pub fn usage(argument: &'static str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        let (found, allowed) = (found.into(), allowed.into());
+        Self::Usage {
+            argument,
+            found,
+            allowed,
+        }
+    }
+
     /// Prints the failure; its exit status.
-    pub fn end(&self) -> ExitCode {
+    fn end(&self) -> ExitCode {
         if self.reader_has_left() {
             return ExitCode::SUCCESS;
         }
-        if !matches!(self, Self::Unparsed) {
-            terminal::fail(self);
-        }
+        terminal::fail(self);
         ExitCode::from(match self {
             Self::Exceeded(_) => 3,
             failure if failure.is_bad_input() => 2,
@@ -70,7 +76,7 @@ impl Failure {
 
     fn is_bad_input(&self) -> bool {
         match self {
-            Self::Usage { .. } | Self::Unparsed => true,
+            Self::Usage { .. } => true,
             Self::File(error) => error.is_bad_input(),
             Self::Design(error) => error.is_bad_input(),
             Self::Sweep(error) => error.is_bad_input(),
@@ -80,10 +86,15 @@ impl Failure {
     }
 }
 
-/// Prints help, or what is wrong with the arguments.
-pub fn unparsed(error: &clap::Error) -> Result<(), Failure> {
+/// The exit status of a command.
+pub fn status(done: Result<(), Failure>) -> ExitCode {
+    done.map_or_else(|failure| failure.end(), |()| ExitCode::SUCCESS)
+}
+
+/// Prints help, or what is wrong with the arguments; the exit status.
+pub fn unparsed(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        return Ok(error.print()?);
+        return status(error.print().map_err(Failure::from));
     }
     let text = error.render().to_string();
     let mut arguments = std::env::args_os();
@@ -94,5 +105,5 @@ pub fn unparsed(error: &clap::Error) -> Result<(), Failure> {
     } else {
         let _ = writeln!(terminal::err(), "{}", terminal::cut(text.trim_end()));
     }
-    Err(Failure::Unparsed)
+    ExitCode::from(2)
 }

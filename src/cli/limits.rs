@@ -20,28 +20,17 @@ pub struct LimitArguments {
 #[derive(Debug, clap::Args)]
 pub struct CheckArgument {
     /// End with exit status 3 if a limit is exceeded, once everything is written
-    #[arg(long)]
+    #[arg(long, requires = "LimitArguments")]
     check: bool,
 }
 
 impl CheckArgument {
-    /// Refuses to check what has no limits.
-    pub fn needs(&self, limits: &LimitArguments) -> Result<(), Failure> {
-        if !self.check || limits.are_given() {
-            return Ok(());
-        }
-        Err(Failure::Usage {
-            argument: "--check",
-            found: "no limit".into(),
-            allowed: "--check with limits, such as --limit-force 2kN".into(),
-        })
-    }
-
     /// Fails if limits are exceeded and that is to be a failure.
     pub fn judge(&self, verdicts: &[Verdict]) -> Result<(), Failure> {
-        let exceeded = self.check && verdicts.iter().any(Verdict::is_exceeded);
-        let failure = exceeded.then(|| Failure::Exceeded(Verdict::summary(verdicts)));
-        failure.map_or(Ok(()), Err)
+        if self.check && verdicts.iter().any(Verdict::is_exceeded) {
+            return Err(Failure::Exceeded(Verdict::summary(verdicts)));
+        }
+        Ok(())
     }
 }
 
@@ -62,6 +51,18 @@ enum Named {
     One(Place),
 }
 
+impl Named {
+    /// Whether a limit of this is one of a `place`.
+    fn holds(self, place: Place) -> bool {
+        match self {
+            Self::Ends => place.end().is_some(),
+            Self::Clamps => place.end().is_none(),
+            Self::One(Place::Clamp(position)) => place.is_clamp_at(position),
+            Self::One(end) => end == place,
+        }
+    }
+}
+
 fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     let (of, value) = match text.split_once('=') {
         None => match text.split_once(':') {
@@ -74,12 +75,8 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     };
     let unit = dimension.unit_of(value);
     let value = dimension.parse_argument(value).map_err(|error| {
-        let units: Vec<&str> = dimension.units().collect();
-        format!(
-            "{error}; allowed: {} (units: {}); another limit is another option",
-            dimension.noun(),
-            units.join(", ")
-        )
+        let (noun, units) = (dimension.noun(), dimension.units().collect::<Vec<_>>().join(", "));
+        format!("{error}; allowed: {noun} (units: {units}); another limit is another option")
     })?;
     if value > 0.0 && value.is_finite() {
         return Ok(Limit { of, value, unit });
@@ -112,8 +109,6 @@ pub fn place(text: &str) -> Option<Place> {
 /// Smallest force \[N\] and largest movement \[m\] that a limit is likely to be.
 const LEAST_FORCE: f64 = 10.0;
 const MOST_MOVEMENT: f64 = 1.0;
-/// What a bare number would say that is hardly meant.
-type Slip = fn(f64) -> Option<String>;
 
 impl LimitArguments {
     /// Limits of force and of movement that were typed elsewhere, as the options take them; or which one is wrong, and why.
@@ -129,30 +124,37 @@ impl LimitArguments {
         })
     }
 
-    /// Both options, each with what was given and with how a bare number that it hardly means would be meant.
-    fn options(&self) -> [(&'static str, &[Limit], Slip); 2] {
-        let force: Slip =
-            |value| (value < LEAST_FORCE).then(|| format!("{value} N: did you mean {value}kN?"));
-        let movement: Slip =
-            |value| (value > MOST_MOVEMENT).then(|| format!("{value} m: did you mean {value}mm?"));
+    /// Both options with what was given.
+    fn options(&self) -> [(&'static str, &[Limit]); 2] {
         [
-            ("--limit-force", &self.limit_force, force),
-            ("--limit-movement", &self.limit_movement, movement),
+            ("--limit-force", &self.limit_force),
+            ("--limit-movement", &self.limit_movement),
         ]
     }
 
     /// Warns of bare numbers that were probably meant in another unit.
     pub fn warn_of_slips(&self) {
-        for (option, given, slip) in self.options() {
+        let bare = |given: &[Limit]| -> Vec<f64> {
             let bare = given.iter().filter(|limit| limit.unit.is_none());
-            for slip in bare.filter_map(|limit| slip(limit.value)) {
-                terminal::warn(format_args!("{option} is {slip}"));
+            bare.map(|limit| limit.value).collect()
+        };
+        for force in bare(&self.limit_force) {
+            if force < LEAST_FORCE {
+                terminal::warn(format_args!(
+                    "--limit-force is {force} N: did you mean {force}kN?"
+                ));
+            }
+        }
+        for movement in bare(&self.limit_movement) {
+            if movement > MOST_MOVEMENT {
+                let meant = format!("did you mean {movement}mm?");
+                terminal::warn(format_args!("--limit-movement is {movement} m: {meant}"));
             }
         }
     }
 
     pub fn are_given(&self) -> bool {
-        self.options().iter().any(|(_, given, _)| !given.is_empty())
+        self.options().iter().any(|(_, given)| !given.is_empty())
     }
 
     /// The units that were typed here and in the scene.
@@ -172,11 +174,8 @@ impl LimitArguments {
     pub fn of_points(&self) -> crate::sweep::PointLimits {
         let own = self.clone();
         crate::sweep::PointLimits::new(format!("{self:?}"), move |scene| {
-            let mut limits = own.clone();
-            for given in [&mut limits.limit_force, &mut limits.limit_movement] {
-                given.retain(|limit| limit.of != Named::Clamps || !scene.restraints.is_empty());
-            }
-            let limits = limits.limits_beside(scene, &[]);
+            // A clamp of other points, wherever it is.
+            let limits = own.limits_beside(scene, &[Place::Clamp(f64::NAN)]);
             limits.map_err(|failure| failure.to_string())
         })
     }
@@ -185,26 +184,26 @@ impl LimitArguments {
     pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
         let clamps = scene.restraints.iter();
         let clamps: Vec<Place> = clamps.map(|clamp| Place::Clamp(clamp.position)).collect();
-        let there = || clamps.iter().chain(elsewhere).copied();
-        for (argument, given, _) in self.options() {
-            let found = given.iter().find_map(|limit| match limit.of {
-                Named::One(Place::Clamp(position)) if !there().any(|place| limit.of.is(place)) => {
-                    Some(format!("a clamp at {} m", exact(position)))
-                }
-                Named::Clamps if there().all(|place| place.end().is_some()) => Some("clamp".to_owned()),
-                _ => None,
-            });
-            let Some(found) = found else { continue };
-            let all: Vec<String> = clamps.iter().map(Place::to_string).collect();
-            let allowed = match all.join(", ") {
-                none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
-                all => format!("upstream, downstream, or the position of a clamp: {all}"),
+        let all = [&[Place::Upstream, Place::Downstream], &clamps[..], elsewhere].concat();
+        for (option, given) in self.options() {
+            let is_there = |limit: &Limit| all.iter().any(|place| limit.of.holds(*place));
+            let Some(limit) = given.iter().find(|limit| !is_there(limit)) else {
+                continue;
             };
-            return Err(Failure::Usage {
-                argument,
-                found: format!("{found}, where there is none"),
+            let found = match limit.of {
+                Named::One(Place::Clamp(position)) => format!("a clamp at {} m", exact(position)),
+                _ => "clamp".to_owned(),
+            };
+            let clamps: Vec<String> = clamps.iter().map(Place::to_string).collect();
+            let allowed = match clamps.join(", ") {
+                none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
+                clamps => format!("upstream, downstream, or the position of a clamp: {clamps}"),
+            };
+            return Err(Failure::usage(
+                option,
+                format!("{found}, where there is none"),
                 allowed,
-            });
+            ));
         }
         Ok(self.wherever_they_are(scene))
     }
@@ -213,44 +212,33 @@ impl LimitArguments {
     pub fn wherever_they_are(&self, scene: &Scene) -> Limits {
         let mut limits = Limits::default();
         for end in CableEnd::ALL {
-            *limits.of_mut(end) = self.at(end.into(), Named::Ends);
+            *limits.of_mut(end) = self.at(end.into());
         }
         for position_m in scene.restraints.iter().map(|clamp| clamp.position) {
             let place = Place::Clamp(position_m);
-            let own = self.at(place, Named::Clamps);
+            let own = self.at(place);
             let mut known = limits.clamps.iter();
             let is_known = known.any(|known| place.is_clamp_at(known.position_m));
             if own != EndLimits::default() && !is_known {
-                let limits_of_clamp = ClampLimits {
+                limits.clamps.push(ClampLimits {
                     position_m,
                     limits: own,
-                };
-                limits.clamps.push(limits_of_clamp);
+                });
             }
         }
         limits
     }
 
-    /// The limits at one place, which is among `all` of its kind.
-    fn at(&self, place: Place, all: Named) -> EndLimits {
+    /// The limits at one place: the last that names it, or else the last that holds there.
+    fn at(&self, place: Place) -> EndLimits {
         let of = |given: &[Limit]| {
-            let own = given.iter().rfind(|limit| limit.of.is(place));
-            let limit = own.or_else(|| given.iter().rfind(|limit| limit.of == all));
-            limit.map(|limit| limit.value)
+            let there = given.iter().filter(|limit| limit.of.holds(place));
+            let own = there.max_by_key(|limit| matches!(limit.of, Named::One(_)));
+            own.map(|limit| limit.value)
         };
         EndLimits {
             force_n: of(&self.limit_force),
             movement_m: of(&self.limit_movement),
-        }
-    }
-}
-
-impl Named {
-    /// Whether it is this place.
-    fn is(self, place: Place) -> bool {
-        match self {
-            Self::One(Place::Clamp(position)) => place.is_clamp_at(position),
-            named => named == Self::One(place),
         }
     }
 }

@@ -95,12 +95,8 @@ const EXIT_STATUS: &str = "Exit status: 0 done; 1 the computation failed; 2 bad 
 /// The command line, whose every help ends with the exit status.
 fn command_line() -> clap::Command {
     fn with_status(command: clap::Command) -> clap::Command {
-        let help = command.get_after_help().map(ToString::to_string);
-        let help = help.map_or_else(
-            || EXIT_STATUS.to_owned(),
-            |help| format!("{help}\n\n{EXIT_STATUS}"),
-        );
-        command.after_help(help)
+        let help = command.get_after_help().map(|help| format!("{help}\n\n"));
+        command.after_help(help.unwrap_or_default() + EXIT_STATUS)
     }
     with_status(Arguments::command()).mut_subcommands(with_status)
 }
@@ -111,12 +107,9 @@ pub fn main() -> ExitCode {
         limit_threads(&matches);
         Arguments::from_arg_matches_mut(&mut matches)
     });
-    match parsed.map_or_else(
-        |error| failure::unparsed(&error),
-        |arguments| execute(&arguments.command),
-    ) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.end(),
+    match parsed {
+        Ok(arguments) => failure::status(execute(&arguments.command)),
+        Err(error) => failure::unparsed(&error),
     }
 }
 

@@ -65,20 +65,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let file = arguments.force.files([]).output(&arguments.file, "toml")?;
     // Whoever made a scene keeps it.
     if !arguments.force.force && file.path().is_file() {
-        return Err(Failure::Usage {
-            argument: "FILE",
-            found: format!("{name}, which exists"),
-            allowed: "the name of a new file: nothing is overwritten without --force".into(),
-        });
+        let allowed = "the name of a new file: nothing is overwritten without --force";
+        return Err(Failure::usage("FILE", format!("{name}, which exists"), allowed));
     }
     let text = template(&name, &arguments.values())?;
     crate::check(&Scene::from_toml(&name, &text)?)?;
     file.write(|out| out.write_all(text.as_bytes()))?;
-    writeln!(
-        terminal::out(),
-        "{name} is written; to compute: creepage run {name}"
-    )?;
-    Ok(())
+    let next = format!("{name} is written; to compute: creepage run {name}");
+    Ok(writeln!(terminal::out(), "{next}")?)
 }
 
 impl Arguments {
@@ -98,8 +92,8 @@ impl Arguments {
             ("vehicles.speed", &self.speed),
             ("traffic.passes", &self.passes),
         ];
+        let given = given.into_iter();
         given
-            .into_iter()
             .filter_map(|(key, value)| Some((key, value.as_deref()?)))
             .collect()
     }

@@ -78,17 +78,11 @@ pub fn output(
 ) -> Result<Output, Failure> {
     let output = files.output(path, ending)?;
     let own = path.extension().unwrap_or_default();
-    let mut others = FORMATS.iter().filter(|other| **other != ending);
-    let is_other = others.any(|other| own.eq_ignore_ascii_case(other));
+    let is_other = |other: &&str| *other != ending && own.eq_ignore_ascii_case(other);
     // Excel opens a workbook under its own ending alone.
     let is_strange = ending == "xlsx" && !own.is_empty() && !own.eq_ignore_ascii_case(ending);
-    if is_other || is_strange {
-        let (found, allowed) = (path.display().to_string(), allowed.to_owned());
-        return Err(Failure::Usage {
-            argument,
-            found,
-            allowed,
-        });
+    if is_strange || FORMATS.iter().any(is_other) {
+        return Err(Failure::usage(argument, path.display().to_string(), allowed));
     }
     Ok(output)
 }
@@ -105,12 +99,7 @@ pub fn beside(
     let output = output(files, argument, path, ending, allowed)?;
     if path == Path::new(STDOUT) || output.is_standard_output() {
         let found = format!("`{}`, standard output", path.display());
-        let allowed = allowed.to_owned();
-        return Err(Failure::Usage {
-            argument,
-            found,
-            allowed,
-        });
+        return Err(Failure::usage(argument, found, allowed));
     }
     Ok(Some(output))
 }
@@ -118,13 +107,9 @@ pub fn beside(
 /// Where the answer and its table go.
 pub struct Destination {
     json: Json,
-    table: Table,
-}
-
-enum Table {
-    None,
-    StandardOutput,
-    File(Output),
+    table: Option<Output>,
+    /// Whether the table goes to standard output in place of the answer.
+    is_table_alone: bool,
 }
 
 impl OutputArguments {
@@ -136,25 +121,20 @@ impl OutputArguments {
     /// Makes sure before hours of computing that the table can be written.
     pub fn destination(&self, files: &mut Files) -> Result<Destination, Failure> {
         let allowed = "a table of text, such as forces.csv; `creepage run` writes a workbook with --xlsx";
-        let table = match self.csv.as_deref() {
-            None => Table::None,
-            Some(path) if path == Path::new(STDOUT) => Table::StandardOutput,
-            Some(path) => Table::File(output(files, "--csv", path, "csv", allowed)?),
-        };
-        let on_stdout = match &table {
-            Table::None => false,
-            Table::StandardOutput => true,
-            Table::File(file) => file.is_standard_output(),
-        };
-        if self.json.json && on_stdout {
-            return Err(Failure::Usage {
-                argument: "--csv",
-                found: "standard output, where --json prints".into(),
-                allowed: "a file beside --json".into(),
-            });
+        let is_table_alone = self.csv.as_deref() == Some(Path::new(STDOUT));
+        let path = self.csv.as_deref().filter(|_| !is_table_alone);
+        let table = path.map(|path| output(files, "--csv", path, "csv", allowed));
+        let table = table.transpose()?;
+        let is_on_stdout = is_table_alone || table.as_ref().is_some_and(Output::is_standard_output);
+        if self.json.json && is_on_stdout {
+            let found = "standard output, where --json prints";
+            return Err(Failure::usage("--csv", found, "a file beside --json"));
         }
-        let json = self.json;
-        Ok(Destination { json, table })
+        Ok(Destination {
+            json: self.json,
+            table,
+            is_table_alone,
+        })
     }
 }
 
@@ -166,14 +146,12 @@ impl Destination {
         rows: impl IntoIterator<Item = R>,
         print: impl FnOnce() -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        match &self.table {
-            Table::None => {}
-            // There it stands alone.
-            Table::StandardOutput => return Ok(io::stdout().lock().write_all(&csv(rows)?)?),
-            Table::File(file) => {
-                let text = csv(rows)?;
-                file.write(|out| out.write_all(&text))?;
-            }
+        if self.is_table_alone {
+            return Ok(io::stdout().lock().write_all(&csv(rows)?)?);
+        }
+        if let Some(file) = &self.table {
+            let text = csv(rows)?;
+            file.write(|out| out.write_all(&text))?;
         }
         self.json.print(answer, print)
     }

@@ -39,18 +39,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 fn print(plan: &PlanReport) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&plan.title))?;
-    let error = plan.estimated_error.map_or_else(
-        || "not known before the run".to_owned(),
-        |error| format!("about {}", percent(error)),
-    );
+    let error = plan
+        .estimated_error
+        .map(|error| format!("about {}", percent(error)));
+    let error = error.unwrap_or("not known before the run".into());
+    let [node, step] = [plan.node_spacing_m, plan.vehicle_step_m].map(spacing);
+    let (ground, cable, time) = (&plan.ground, &plan.cable, time(plan.estimated_seconds));
     writeln!(
         out,
-        "ground {}, cable {}, node spacing {} m, vehicle step {} m; error {error}, time about {}",
-        plan.ground,
-        plan.cable,
-        spacing(plan.node_spacing_m),
-        spacing(plan.vehicle_step_m),
-        time(plan.estimated_seconds)
+        "ground {ground}, cable {cable}, node spacing {node} m, vehicle step {step} m; error {error}, time about {time}"
     )?;
     if let Some(occurrence) = &plan.occurrence {
         print_occurrence(&mut out, occurrence)?;
@@ -77,6 +74,5 @@ fn print_occurrence(out: &mut impl Write, occurrence: &Occurrence) -> Result<(),
         occurrence.rough,
         " (rough: the numbers are those of one concentrated load on a half-space)",
     );
-    writeln!(out, "{rough}")?;
-    Ok(())
+    Ok(writeln!(out, "{rough}")?)
 }

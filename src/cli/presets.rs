@@ -69,10 +69,8 @@ fn heading(kind: PresetKind) -> &'static str {
 fn find(name: &str) -> Result<&'static Preset, Failure> {
     all().iter().find(|preset| preset.name == name).ok_or_else(|| {
         let names: Vec<&str> = all().iter().map(|preset| preset.name.as_str()).collect();
-        Failure::Usage {
-            argument: "NAME",
-            found: format!("`{name}`{}", did_you_mean(nearest(name, names.iter().copied()))),
-            allowed: format!("a name that `creepage presets` lists: {}", names.join(", ")),
-        }
+        let meant = did_you_mean(nearest(name, names.iter().copied()));
+        let allowed = format!("a name that `creepage presets` lists: {}", names.join(", "));
+        Failure::usage("NAME", format!("`{name}`{meant}"), allowed)
     })
 }

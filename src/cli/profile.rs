@@ -9,7 +9,6 @@ use super::outputs::OutputArguments;
 use super::progress::watched;
 use super::shared::{Input, SceneArguments, Threads};
 use super::terminal;
-use crate::Profile;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -57,27 +56,28 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         None => crate::profile(&input.scene),
     });
     let answer = input.located(answer)?;
-    let rows = (0..answer.positions_m.len()).map(|i| Row {
+    let row = |i: usize| Row {
         position_m: answer.positions_m[i],
         longitudinal_m: answer.longitudinal_m[i],
         vertical_m: answer.vertical_m[i],
         longitudinal_velocity_m_per_s: answer.longitudinal_velocity_m_per_s[i],
-    });
-    destination.write(&answer, rows, || print(&answer))
+    };
+    let rows: Vec<Row> = (0..answer.positions_m.len()).map(row).collect();
+    destination.write(&answer, &rows, || print(&answer.ground, &rows))
 }
 
-fn print(profile: &Profile) -> Result<(), Failure> {
+fn print(ground: &str, rows: &[Row]) -> Result<(), Failure> {
     let mut out = terminal::out();
-    writeln!(out, "ground: {}", profile.ground)?;
+    writeln!(out, "ground: {ground}")?;
     let names = ["ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"].map(str::to_owned);
-    let row = |i: usize| {
+    let cells = |row: &Row| {
         vec![
-            format!("{:.3}", profile.positions_m[i]),
-            format!("{:.4}", 1e6 * profile.longitudinal_m[i]),
-            format!("{:.4}", 1e6 * profile.vertical_m[i]),
-            format!("{:.3}", 1e6 * profile.longitudinal_velocity_m_per_s[i]),
+            format!("{:.3}", row.position_m),
+            format!("{:.4}", 1e6 * row.longitudinal_m),
+            format!("{:.4}", 1e6 * row.vertical_m),
+            format!("{:.3}", 1e6 * row.longitudinal_velocity_m_per_s),
         ]
     };
-    let rows: Vec<Vec<String>> = (0..profile.positions_m.len()).map(row).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
     Ok(terminal::table(&mut out, &names, &rows)?)
 }

@@ -1,10 +1,10 @@
-//! How far a computation is. The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is.
+//! How far a computation is. The command computes in rayon's threads, as many as `--threads` says, while a further one shows how far it is.
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -12,8 +12,6 @@ use super::{signals, terminal};
 use crate::Progress;
 use crate::shown::time;
 
-/// How often it is looked at.
-const TICK: Duration = Duration::from_millis(25);
 /// What takes no longer is not shown.
 const UNSEEN: Duration = Duration::from_secs(2);
 /// Between two lines, each of which takes the place of the one before.
@@ -46,52 +44,41 @@ fn line(words: &str, share: f64, seconds: f64, left: f64) -> String {
 /// As a rule it is done at the share `usual`.
 pub fn watched<A: Send>(
     usual: f64,
-    words: impl Fn(f64) -> String,
+    words: impl Fn(f64) -> String + Send,
     compute: impl FnOnce(Progress<'_>) -> A + Send,
 ) -> A {
     signals::listen();
-    let share = AtomicU64::new(0.0_f64.to_bits());
-    let first = OnceLock::new();
+    let (begun, share, first) = (Instant::now(), &AtomicU64::new(0), &OnceLock::new());
     let report = |now: f64| {
         first.get_or_init(|| now);
         share.store(now.to_bits(), Ordering::Relaxed);
         ControlFlow::Continue(())
     };
+    let shown = move || {
+        let share = f64::from_bits(share.load(Ordering::Relaxed));
+        let seconds = begun.elapsed().as_secs_f64();
+        let left = seconds * (usual - share) / (share - first.get().copied().unwrap_or_default());
+        line(&words(share), share / usual, seconds, left)
+    };
     thread::scope(|scope| {
-        let (send, receive) = channel();
-        let progress = Progress::new(&report);
-        let worker = scope.spawn(move || {
-            // A scope runs in one of rayon's threads; the one that is left only waits.
-            let _ = send.send(rayon::scope(|_| compute(progress)));
-        });
-        let (begun, is_terminal) = (Instant::now(), io::stderr().is_terminal());
-        let mut due = UNSEEN;
-        loop {
-            match receive.recv_timeout(TICK) {
-                Ok(answer) => {
-                    if due > UNSEEN {
-                        let _ = write!(io::stderr(), "{CLEAR}");
-                    }
-                    return answer;
-                }
-                Err(RecvTimeoutError::Disconnected) => match worker.join() {
-                    Err(panic) => std::panic::resume_unwind(panic),
-                    Ok(()) => unreachable!("it sends before it ends"),
-                },
-                Err(RecvTimeoutError::Timeout) => {}
-            }
-            let elapsed = begun.elapsed();
-            if elapsed < due || !is_terminal {
-                continue;
-            }
-            due = elapsed + BETWEEN_LINES;
-            let share = f64::from_bits(share.load(Ordering::Relaxed));
-            let begin = first.get().copied().unwrap_or_default();
-            let seconds = elapsed.as_secs_f64();
-            let left = seconds * (usual - share) / (share - begin);
-            let line = terminal::line(&line(&words(share), share / usual, seconds, left));
-            let line: String = line.chars().take(LINE).collect();
-            let _ = write!(io::stderr(), "{CLEAR}{line}");
+        // It is dropped with an answer, and without one.
+        let (_done, running) = channel();
+        if io::stderr().is_terminal() {
+            scope.spawn(move || show(&running, shown));
         }
+        rayon::scope(|_| compute(Progress::new(&report)))
     })
+}
+
+/// Shows lines while something is `running`, and clears the last.
+fn show(running: &Receiver<()>, line: impl Fn() -> String) {
+    let mut wait = UNSEEN;
+    while running.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+        wait = BETWEEN_LINES;
+        let line: String = terminal::line(&line()).chars().take(LINE).collect();
+        let _ = write!(io::stderr(), "{CLEAR}{line}");
+    }
+    if wait == BETWEEN_LINES {
+        let _ = write!(io::stderr(), "{CLEAR}");
+    }
 }

@@ -59,12 +59,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.uncertain.on(&arguments.scene.read()?)?)?;
     let limits = arguments.limits.limits(&input.scene)?;
-    arguments.check.needs(&arguments.limits)?;
-    let readings = arguments
-        .data
-        .as_deref()
-        .map(|file| arguments.reading.read(file))
-        .transpose()?;
+    let readings = arguments.data.as_deref().map(|file| arguments.reading.read(file));
+    let readings = readings.transpose()?;
     for note in readings.iter().flat_map(crate::Readings::notes) {
         terminal::warn(note);
     }
@@ -88,30 +84,23 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let study = study.then(|| Study::new(input.file())).transpose()?;
     let words = |_| "the scene's run, and measures where limits are given".to_owned();
     let report = watched(1.0, words, |progress| {
-        let (of_measures, mut of_page) = (progress.part(0.0, MEASURES_SHARE), progress);
-        let mut compared = None;
-        if let Some(study) = &study {
-            compared = Some(study.compare(
-                &|scene: &Scene| arguments.limits.wherever_they_are(scene),
-                of_measures,
-            )?);
-            of_page = progress.part(MEASURES_SHARE, 1.0);
-        }
-        Report::new(
-            &input.scene,
-            &ReportOptions {
-                readings: readings.as_ref(),
-                warnings: &input.warnings,
-                limits,
-                units: arguments.limits.units(input.file()),
-                start: start.as_ref(),
-                sources: &sources,
-                overrides: &overrides,
-                date: Some(&date),
-                compared: compared.as_ref(),
-                progress: of_page,
-            },
-        )
+        let limits_of = |scene: &Scene| arguments.limits.wherever_they_are(scene);
+        let compare = |study: &Study| study.compare(&limits_of, progress.part(0.0, MEASURES_SHARE));
+        let compared = study.as_ref().map(compare).transpose()?;
+        let begin = compared.as_ref().map_or(0.0, |_| MEASURES_SHARE);
+        let options = ReportOptions {
+            readings: readings.as_ref(),
+            warnings: &input.warnings,
+            limits,
+            units: arguments.limits.units(input.file()),
+            start: start.as_ref(),
+            sources: &sources,
+            overrides: &overrides,
+            date: Some(&date),
+            compared: compared.as_ref(),
+            progress: progress.part(begin, 1.0),
+        };
+        Report::new(&input.scene, &options)
     });
     let report = input.located(report)?;
     input.warn_all(&report.run().warnings);
@@ -124,13 +113,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 fn sources(input: &Input, read: &[Option<&Path>]) -> Result<Vec<Source>, Failure> {
     let mut sources = Vec::new();
     for (index, path) in read.iter().flatten().enumerate() {
-        let name = path.file_name().map_or_else(
-            || path.display().to_string(),
-            |name| name.to_string_lossy().into_owned(),
-        );
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         // What was computed; a pipe can be read only once.
         if index == 0 {
-            sources.push(Source::new(name, input.text().as_bytes()));
+            sources.push(Source::new(name, input.file().text().as_bytes()));
         } else if path.is_file() {
             sources.push(Source::new(name, &std::fs::read(path)?));
         }
@@ -146,10 +132,9 @@ pub fn date() -> Result<String, Failure> {
         Ok(text) => {
             let seconds = text.trim().parse().ok();
             let time = seconds.and_then(|seconds| DateTime::from_timestamp(seconds, 0));
-            time.ok_or_else(|| Failure::Usage {
-                argument: EPOCH,
-                found: format!("`{text}` in the environment"),
-                allowed: "seconds since 1970, such as 1700000000".into(),
+            time.ok_or_else(|| {
+                let found = format!("`{text}` in the environment");
+                Failure::usage(EPOCH, found, "seconds since 1970, such as 1700000000")
             })?
         }
     };

@@ -45,7 +45,7 @@ pub struct Arguments {
     /// Write the cable as the last pass leaves it to this file, for --from-state
     #[arg(long, value_name = "FILE.json")]
     save_state: Option<PathBuf>,
-    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
+    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, scene
     #[arg(long, value_name = "FILE.xlsx")]
     xlsx: Option<PathBuf>,
     #[command(flatten)]
@@ -82,7 +82,6 @@ impl Judgement {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
-    arguments.check.needs(&arguments.limits)?;
     let table = input.table();
     let read = [
         Some(&*arguments.scene.file.scene),
@@ -94,10 +93,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let start = arguments.start.start()?;
     let (option, path) = ("--save-state", arguments.save_state.as_deref());
     let saved = beside(&mut files, option, path, "json", "a file for --from-state")?;
-    let workbook = {
-        let allowed = "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv";
-        beside(&mut files, "--xlsx", arguments.xlsx.as_deref(), "xlsx", allowed)?
-    };
+    let (path, allowed) = (
+        arguments.xlsx.as_deref(),
+        "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv",
+    );
+    let workbook = beside(&mut files, "--xlsx", path, "xlsx", allowed)?;
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     let words = |_| "passes on finer and finer meshes".to_owned();
     let run = watched(1.0, words, |progress| {
@@ -115,22 +115,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let text = serde_json::to_vec(&run.state).map_err(io::Error::from)?;
         saved.write(|out| out.write_all(&text))?;
     }
+    let are_given = arguments.limits.are_given();
     let judged = Judged {
         run: &run,
-        judgement: arguments
-            .limits
-            .are_given()
-            .then(|| Judgement::new(&run, &limits)),
+        judgement: are_given.then(|| Judgement::new(&run, &limits)),
     };
     let judgement = judged.judgement.as_ref();
     let verdicts = judgement.map_or(&[][..], |judgement| &judgement.limits);
-    let answer = Answer {
-        scene: &input.scene,
-        run: &run,
-        reader,
-    };
+    let (scene, run) = (&input.scene, &run);
+    let answer = Answer { scene, run, reader };
     if let Some(output) = &workbook {
-        let bytes = crate::workbook::of_run(&run, verdicts, input.file(), &reader.units);
+        let bytes = crate::workbook::of_run(run, verdicts, input.file(), &reader.units);
         let bytes = bytes.map_err(|source| output.failed(source))?;
         output.write(|out| out.write_all(&bytes))?;
     }
@@ -167,10 +162,8 @@ fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
     if let Some(start) = &run.start {
         writeln!(out, "begins with the cable after {} passes", start.passes)?;
     }
-    for table in [Some(answer.passes(true)), answer.days(), answer.clamps()]
-        .into_iter()
-        .flatten()
-    {
+    let tables = [Some(answer.passes(true)), answer.days(), answer.clamps()];
+    for table in tables.into_iter().flatten() {
         writeln!(out)?;
         terminal::table(&mut out, &table.head, &table.rows)?;
     }
@@ -185,10 +178,8 @@ fn print(answer: &Answer<'_>, verdicts: &[Verdict]) -> Result<(), Failure> {
     }
     if let Some(slip) = &run.slip_lengths {
         let [forward, backward] = [slip.forward, slip.backward].map(|length| reader.length(length));
-        writeln!(
-            out,
-            "length of cable that slides under a vehicle at mid-duct: {forward} forward, {backward} backward"
-        )?;
+        let what = "length of cable that slides under a vehicle at mid-duct";
+        writeln!(out, "{what}: {forward} forward, {backward} backward")?;
     }
     writeln!(out, "{}", solved(&run.plan, reader))?;
     for reason in [&run.error_estimate.method].into_iter().chain(&run.plan.reasons) {

@@ -43,14 +43,16 @@ pub struct TrafficArguments {
     pub file: SceneArguments,
     #[command(flatten)]
     threads: Threads,
-    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days. Also "30 days" or "6 months"
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = |text: &str| years(text, "years"))]
+    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = |text: &str| within(YEARS, text, 1.0, "years", "20, or --days 30"))]
     years: Option<f64>,
     /// Days of traffic in place of --years
-    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "years", value_parser = |text: &str| years(text, "days"))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "years",
+        value_parser = |text: &str| within(YEARS, text, DAYS_PER_YEAR, "days", "30"))]
     days: Option<f64>,
     /// Vehicles a day, as traffic.per_day
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = a_day)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+        value_parser = |text: &str| within(PER_DAY, text, 1.0, "vehicles a day", "800"))]
     trucks_per_day: Option<f64>,
 }
 
@@ -60,12 +62,9 @@ impl TrafficArguments {
         let file = SceneFile::read(&self.file.scene)?.with(&self.overrides())?;
         let lasts = self.years.or(self.days).is_some();
         if lasts && !file.names("traffic.per_day") {
-            return Err(Failure::Usage {
-                argument: "--trucks-per-day",
-                found: "none, and `traffic.per_day` is missing in the scene".into(),
-                allowed: "how many vehicles a day there are in that time, such as --trucks-per-day 800"
-                    .into(),
-            });
+            let found = "none, and `traffic.per_day` is missing in the scene";
+            let allowed = "how many vehicles a day there are in that time, such as --trucks-per-day 800";
+            return Err(Failure::usage("--trucks-per-day", found, allowed));
         }
         Ok(file)
     }
@@ -81,6 +80,15 @@ impl TrafficArguments {
             .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
         self.file.set.iter().cloned().chain(given).collect()
     }
+}
+
+/// A number of `things`, so many of which are one of a key of the scene, in the range of that key.
+fn within(key: Quantity, text: &str, per_unit: f64, things: &str, example: &str) -> Result<f64, String> {
+    let number = text.trim().parse().map(|number: f64| number / per_unit);
+    number.ok().filter(|number| key.contains(*number)).ok_or_else(|| {
+        let (least, most) = (per_unit * key.least, per_unit * key.most);
+        format!("allowed: a number of {things} greater than 0, from {least:e} to {most:e}, such as {example}")
+    })
 }
 
 /// What one does not know of a scene.
@@ -113,41 +121,6 @@ fn interval(text: &str) -> Result<String, String> {
     set.ok_or_else(|| {
         format!("found `{text}`; allowed: KEY=LOW:HIGH without spaces, such as friction.dynamic_coefficient=0.2:0.5")
     })
-}
-
-/// Vehicles a day, in the range of the scene's own key.
-fn a_day(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|&number| PER_DAY.contains(number));
-    number.ok_or_else(|| {
-        format!(
-            "allowed: a number of vehicles a day {}, such as 800",
-            PER_DAY.words
-        )
-    })
-}
-
-/// A time in years, typed with its unit or in `unit`, in the range of the scene's own key.
-fn years(text: &str, unit: &str) -> Result<f64, String> {
-    let end = text.find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
-    let (number, written) = text.split_at(end.unwrap_or(text.len()));
-    let in_a_year = match if written.is_empty() { unit } else { written } {
-        "year" | "years" | "yr" | "y" | "a" => 1.0,
-        "month" | "months" => 12.0,
-        "week" | "weeks" => DAYS_PER_YEAR / 7.0,
-        "day" | "days" | "d" => DAYS_PER_YEAR,
-        _ => f64::NAN,
-    };
-    let years = number
-        .trim()
-        .parse()
-        .map_or(f64::NAN, |number: f64| number / in_a_year);
-    let Quantity { least, most, .. } = YEARS;
-    if YEARS.contains(years) {
-        return Ok(years);
-    }
-    Err(format!(
-        "allowed: a number of {unit} greater than 0, such as 20, or with its unit, such as \"30 days\", \"6 months\" or \"20 years\"; in all from {least:e} to {most:e} years"
-    ))
 }
 
 /// A scene and the file it came from.
@@ -183,11 +156,6 @@ impl Input {
         self.file.histogram()
     }
 
-    /// The text of the scene file.
-    pub fn text(&self) -> &str {
-        self.file.text()
-    }
-
     /// The answer, or the error with the line of the key at fault.
     pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
         answer.map_err(|error| Failure::Analysis(error.located(&self.file)))
@@ -212,8 +180,8 @@ impl Input {
 
     /// Whether the warning is of a key that a slip was found at.
     fn is_told(&self, warning: &str) -> bool {
-        let is_of = |slip: &String, key: &str| slip.contains(&format!("`{key}`"));
-        key_of(warning).is_some_and(|key| self.warnings.iter().any(|slip| is_of(slip, key)))
+        let key = key_of(warning).map(|key| format!("`{key}`"));
+        key.is_some_and(|key| self.warnings.iter().any(|slip| slip.contains(&key)))
     }
 }
 

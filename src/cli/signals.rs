@@ -2,6 +2,13 @@
 
 use std::sync::{Mutex, Once, PoisonError};
 
+#[cfg(unix)]
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    iterator::Signals,
+    low_level::emulate_default_handler,
+};
+
 /// What is left of the work, in words.
 static LEFT: Mutex<String> = Mutex::new(String::new());
 
@@ -15,43 +22,28 @@ pub fn leaves(words: String) {
 pub fn listen() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
+        // Without this a stopped process leaves a file behind, and nothing worse.
         #[cfg(unix)]
-        unix::listen();
+        if let Ok(signals) = Signals::new([SIGINT, SIGTERM]) {
+            std::thread::spawn(move || end_with_the_first(signals));
+        }
     });
 }
 
 #[cfg(unix)]
-mod unix {
+fn end_with_the_first(mut signals: Signals) {
     use std::io::Write;
-    use std::sync::PoisonError;
-
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    use signal_hook::iterator::Signals;
-    use signal_hook::low_level::emulate_default_handler;
-
-    pub fn listen() {
-        // Without this a stopped process leaves a file behind, and nothing worse.
-        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
-            return;
-        };
-        std::thread::spawn(move || {
-            let Some(signal) = signals.forever().next() else {
-                return;
-            };
-            let _until_the_end = crate::output::remove_all();
-            let left = crate::cli::signals::LEFT
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner);
-            let left = if left.is_empty() {
-                "nothing is computed or written"
-            } else {
-                &left
-            };
-            let _ = writeln!(crate::cli::terminal::err(), "stopped: {left}");
-            if signal != SIGINT {
-                let _ = emulate_default_handler(signal);
-            }
-            std::process::exit(128 + signal)
-        });
+    let Some(signal) = signals.forever().next() else {
+        return;
+    };
+    let _until_the_end = crate::output::remove_all();
+    let left = match &**LEFT.lock().unwrap_or_else(PoisonError::into_inner) {
+        "" => "nothing is computed or written".to_owned(),
+        left => left.to_owned(),
+    };
+    let _ = writeln!(super::terminal::err(), "stopped: {left}");
+    if signal != SIGINT {
+        let _ = emulate_default_handler(signal);
     }
+    std::process::exit(128 + signal)
 }

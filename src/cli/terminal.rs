@@ -54,8 +54,6 @@ pub fn line(text: &str) -> String {
 /// wider than a terminal, long names are broken at blanks.
 pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io::Result<()> {
     let width = |text: &String| text.chars().count();
-    let begins = |c: char| c.is_ascii_digit() || "-+<>–".contains(c);
-    let is_number = |cell: &String| cell.trim_start().starts_with(begins);
     let plain = |cell: &String| sentence(&cell.replace('\u{ad}', ""));
     let names: Vec<String> = names.iter().map(plain).collect();
     let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(plain).collect()).collect();
@@ -64,36 +62,24 @@ pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io
     let whole: usize = (0..names.len())
         .map(|column| widest(column).max(width(&names[column])) + 2)
         .sum();
-    let is_wide = whole > TERMINAL_WIDTH + 2;
-    let heading = |(column, name): (usize, &String)| {
-        let longest = if is_wide {
-            SHORT_NAME.max(widest(column))
-        } else {
-            usize::MAX
-        };
-        broken(name, longest)
+    let heading = |(column, name): (usize, &String)| match whole {
+        _ if whole <= TERMINAL_WIDTH + 2 => vec![name.clone()],
+        _ => broken(name, SHORT_NAME.max(widest(column))),
     };
-    let headings: Vec<Vec<String>> = names.iter().enumerate().map(heading).collect();
-    let height = headings.iter().map(Vec::len).max().unwrap_or_default();
+    let mut headings: Vec<Vec<String>> = names.iter().enumerate().map(heading).collect();
     // Names stand just above their columns.
-    let line = |line: usize| {
-        let name = |name: &Vec<String>| {
-            (line + name.len())
-                .checked_sub(height)
-                .map_or("", |line| &name[line])
-                .to_owned()
-        };
-        headings.iter().map(name).collect()
-    };
+    let height = headings.iter().map(Vec::len).max().unwrap_or_default();
+    for heading in &mut headings {
+        heading.splice(0..0, vec![String::new(); height - heading.len()]);
+    }
+    let line = |line: usize| headings.iter().map(|heading| heading[line].clone()).collect();
     let names: Vec<Vec<String>> = (0..height).map(line).collect();
+    let begins = |c: char| c.is_ascii_digit() || "-+<>–".contains(c);
+    let is_number = |cell: &String| cell.trim_start().starts_with(begins);
     for row in names.iter().chain(&rows) {
         let cell = |(column, cell): (usize, &String)| {
-            let width = headings[column]
-                .iter()
-                .map(width)
-                .max()
-                .unwrap_or_default()
-                .max(widest(column));
+            let heading = headings[column].iter().map(width).max();
+            let width = heading.unwrap_or_default().max(widest(column));
             if cells(column).any(is_number) {
                 format!("{cell:>width$}")
             } else {
@@ -128,17 +114,12 @@ pub fn sentence(text: &str) -> String {
 /// A message of bounded length: its beginning and its end.
 pub fn cut(message: &str) -> String {
     let count = message.chars().count();
-    let end = message.char_indices().nth(count.saturating_sub(KEPT_END));
-    match end {
-        Some((end, _)) if count > LONGEST_MESSAGE => {
-            format!(
-                "{} …{}",
-                shortened(message, LONGEST_MESSAGE - KEPT_END),
-                &message[end..]
-            )
-        }
-        _ => message.to_owned(),
+    if count <= LONGEST_MESSAGE {
+        return message.to_owned();
     }
+    let begin = shortened(message, LONGEST_MESSAGE - KEPT_END);
+    let end: String = message.chars().skip(count - KEPT_END).collect();
+    format!("{begin} …{end}")
 }
 
 /// Whether a terminal may take the character for an order.
@@ -154,14 +135,9 @@ pub struct Shown<W>(W);
 impl<W: Write> Write for Shown<W> {
     /// Takes whole pieces of text, as `write!` hands them over.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let text = String::from_utf8_lossy(bytes);
         let is_hidden = |c: char| c != '\n' && is_hidden(c);
-        if text.contains(is_hidden) {
-            self.0
-                .write_all(text.replace(is_hidden, REPLACEMENT).as_bytes())?;
-        } else {
-            self.0.write_all(text.as_bytes())?;
-        }
+        let text = String::from_utf8_lossy(bytes).replace(is_hidden, REPLACEMENT);
+        self.0.write_all(text.as_bytes())?;
         Ok(bytes.len())
     }
 

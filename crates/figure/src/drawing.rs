@@ -272,14 +272,16 @@ fn tenths(length: f64) -> f64 {
     (10.0 * length).round() / 10.0 + 0.0
 }
 
-/// Text for XML; characters that XML 1.0 does not know become a replacement mark.
-fn escaped(text: &str) -> String {
+/// Text for SVG and HTML, in elements and in attributes; characters that have no place in a text become a replacement mark.
+pub fn escaped(text: &str) -> String {
     let unknown = |letter: char| letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}');
-    let known = text.replace(unknown, "\u{fffd}");
-    known
+    text.replace(['\n', '\t'], " ")
+        .replace(unknown, "\u{fffd}")
         .replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace('\'', "&apos;")
 }
 
 /// An error where `text` needs more than its room \[px\].

@@ -16,7 +16,7 @@ mod series;
 
 pub use axis::Axis;
 pub use chart::Chart;
-pub use drawing::{Anchor, Drawing, Ink};
+pub use drawing::{Anchor, Drawing, Ink, escaped};
 pub use error::FigureError;
 pub use palette::dark_style;
 pub use panels::Panels;

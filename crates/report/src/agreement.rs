@@ -38,26 +38,27 @@ impl Agreement {
         let mut located = located.collect::<Result<Vec<(Reading, Measured)>, Error>>()?;
         located.retain(|(_, measured)| *measured == Measured::Force(Place::End(end)));
         let readings: Vec<Reading> = located.into_iter().map(|(reading, _)| reading).collect();
-        let computed = |reading: &Reading| Some((*reading, force_at(&run.passes, end, reading.passes)?));
-        let compared: Vec<(Reading, f64)> = readings.iter().filter_map(computed).collect();
-        let differences: Vec<f64> = compared.iter().map(|(read, force)| read.value - force).collect();
-        // The zero reading has no sign and no size.
-        let loaded = compared.iter().filter(|(reading, _)| reading.passes > 0);
-        let both: Vec<(f64, f64)> = loaded.map(|(read, force)| (read.value, *force)).collect();
-        let mistakes = of_forces(end.name(), &both).into_iter().chain(beyond).collect();
-        let mean = |of: fn(f64) -> f64| {
-            differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
+        let computed = |reading: &Reading| {
+            let force = force_at(&run.passes, end, reading.passes)?;
+            Some((reading.passes, (reading.value, force)))
         };
+        let compared: Vec<_> = readings.iter().filter_map(computed).collect();
+        // The zero reading has no sign and no size.
+        let loaded = compared.iter().filter(|(passes, _)| *passes > 0);
+        let loaded: Vec<(f64, f64)> = loaded.map(|(_, both)| *both).collect();
+        let mean = |of: fn(f64) -> f64| {
+            let differences = compared.iter().map(|(_, (measured, force))| of(measured - force));
+            differences.sum::<f64>() / compared.len().max(1) as f64
+        };
+        let sizes = readings.iter().map(|reading| reading.value.abs());
+        let mistakes = of_forces(end.name(), &loaded);
         Ok(Self {
             end,
-            compared: differences.len(),
+            compared: compared.len(),
             rms_n: mean(|d| d * d).sqrt(),
             mean_n: mean(|d| d),
-            largest_n: readings
-                .iter()
-                .map(|reading| reading.value.abs())
-                .fold(0.0, f64::max),
-            mistakes,
+            largest_n: sizes.fold(0.0, f64::max),
+            mistakes: mistakes.into_iter().chain(beyond).collect(),
             readings,
         })
     }

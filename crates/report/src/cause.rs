@@ -16,35 +16,40 @@ pub fn cause(html: &mut Html, report: &Report) {
          vehicle than against it.",
     );
     html.raw("<div class=\"figures\">");
-    let caption = format!(
-        "Displacement of a point of the duct as the {}vehicle drives by, by the ground model {}; along the axis positive toward growing x.",
+    let (which, ground) = (
         words_if(report.scene.vehicles.len() > 1, "first "),
-        report.motion.ground
+        &report.motion.ground,
+    );
+    let caption = format!(
+        "Displacement of a point of the duct as the {which}vehicle drives by, by the ground model {ground}; along the axis positive toward \
+         growing x."
     );
     figure(html, STACKED, motion(report), &caption);
-    let [forward, backward] = ways(report).map(|way| MICRO * way);
+    let ways = ways(report).map(|way| MICRO * way);
+    let [forward, backward] = ways;
     let caption = format!(
         "Velocity of that point. The areas are how far it moves: {forward:.1} µm with the vehicle and {backward:.1} µm against it within \
          this figure; they are equal when the vehicle is far away.",
     );
-    figure(html, ALONE, [velocity(report)], &caption);
+    figure(html, ALONE, [velocity(report, ways)], &caption);
     let passes = friction_of_passes(report);
-    let charts = passes
-        .iter()
-        .map(|(pass, friction)| friction_chart(report, *pass, friction));
-    let words = passes
-        .iter()
-        .map(|(pass, friction)| areas(report, *pass, friction));
-    if let Some(words) = words.reduce(|one, other| format!("{one} {other}")) {
+    if !passes.is_empty() {
+        let charts = passes
+            .iter()
+            .map(|(pass, friction)| friction_chart(report, *pass, friction));
+        let words = passes
+            .iter()
+            .map(|(pass, friction)| areas(report, *pass, friction));
+        let words = words.collect::<Vec<_>>().join(" ");
+        let is_pair = passes.len() > 1;
         let which = words_if(
-            passes.len() > 1,
+            is_pair,
             ", in the first pass and the last one above that was simulated",
         );
         let caption = format!(
             "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x{which}. {words}"
         );
-        let height = if passes.len() > 1 { STACKED } else { ALONE };
-        figure(html, height, charts, &caption);
+        figure(html, if is_pair { STACKED } else { ALONE }, charts, &caption);
     }
     html.raw("</div>");
     if report.scene.friction_limit() == 0.0 {
@@ -55,10 +60,9 @@ pub fn cause(html: &mut Html, report: &Report) {
 /// The first and the last pass of which the run shows friction; none without any, and none of a heated cable.
 fn friction_of_passes(report: &Report) -> Vec<(u64, &FrictionProfile)> {
     let stages = report.run.stages.iter();
-    let mut passes: Vec<_> = stages
-        .filter_map(|stage| Some((stage.pass, stage.friction.as_ref()?)))
-        .filter(|_| report.scene.friction_limit() > 0.0)
-        .collect();
+    let stages = stages.filter(|_| report.scene.friction_limit() > 0.0);
+    let passes = stages.filter_map(|stage| Some((stage.pass, stage.friction.as_ref()?)));
+    let mut passes: Vec<_> = passes.collect();
     if passes.len() > 2 {
         passes.drain(1..passes.len() - 1);
     }
@@ -101,25 +105,19 @@ fn position(report: &Report) -> Axis {
 /// The displacement of a point of the duct, as the vehicle drives by.
 fn motion(report: &Report) -> [Chart; 2] {
     let motion = &report.motion;
-    let chart = |title, label, values: &[f64], look| {
+    let chart = |title, values: &[f64], look| {
         let line = Series::line("", past(report, values, |value| MICRO * value));
-        Chart::new(title, position(report), Axis::linear(label)).with(line.look(look).solid())
+        Chart::new(title, position(report), Axis::linear("displacement, µm")).with(line.look(look).solid())
     };
-    let along = "Motion of the duct along its axis";
     [
-        chart(along, "displacement, µm", &motion.longitudinal_m, 0),
-        chart(
-            "Motion of the duct down",
-            "displacement, µm",
-            &motion.vertical_m,
-            1,
-        ),
+        chart("Motion of the duct along its axis", &motion.longitudinal_m, 0),
+        chart("Motion of the duct down", &motion.vertical_m, 1),
     ]
 }
 
-fn velocity(report: &Report) -> Chart {
+/// The velocity of that point, in the direction of the vehicle and against it, with both ways \[µm\].
+fn velocity(report: &Report, [forward, backward]: [f64; 2]) -> Chart {
     let velocity = &report.motion.longitudinal_velocity_m_per_s;
-    let [forward, backward] = ways(report).map(|way| MICRO * way);
     let sign = report.scene.vehicles[0].direction.sign();
     let part = |name: String, sign: f64| {
         let points = past(report, velocity, |v| MILLI * sign * (sign * v).max(0.0));
@@ -165,12 +163,10 @@ fn areas(report: &Report, pass: u64, friction: &FrictionProfile) -> String {
         report.reader.force(positive_area(&friction.positions_m, values))
     });
     let (lengths, unit) = (&friction.slip_lengths, report.reader.units.length);
+    let [ahead, back] = [lengths.forward, lengths.backward].map(|length| unit.of_si(length));
+    let (pass, metres) = (count(pass), unit.symbol());
     format!(
-        "Pass {}: at its limit over {:.1} {metres} forward and {:.1} {metres} backward; in total over the whole cable {forward} forward and \
-         {backward} backward.",
-        count(pass),
-        unit.of_si(lengths.forward),
-        unit.of_si(lengths.backward),
-        metres = unit.symbol(),
+        "Pass {pass}: at its limit over {ahead:.1} {metres} forward and {back:.1} {metres} backward; in total over the whole cable {forward} \
+         forward and {backward} backward."
     )
 }

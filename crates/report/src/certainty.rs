@@ -4,9 +4,10 @@ use super::chart::{ALONE, OTHER, axis, figure, over};
 use super::content::Report;
 use super::html::Html;
 use crate::words::measures::{failures, interval, measures, recommendation, uncertain};
+use crate::words::range;
 use creepage_run::Verdict;
 use creepage_scene::Uncertain;
-use creepage_study::measures::{Combination, Comparison, FRICTION_KEY, Nearest, Outcome};
+use creepage_study::measures::{Comparison, FRICTION_KEY, Nearest, Outcome};
 use plain_figure::{Axis, Chart, Reference, Series};
 
 pub fn certainty(html: &mut Html, report: &Report) {
@@ -27,16 +28,15 @@ pub fn certainty(html: &mut Html, report: &Report) {
     html.table(&measures(comparison, reader));
     html.raw("</div>");
     html.list(&failures(comparison));
-    let as_it_is = &comparison.measures[0];
-    let Some(worst) = &as_it_is.worst else { return };
+    let Some(worst) = &comparison.measures[0].worst else {
+        return;
+    };
     let of_worst = OfWorst {
         report,
         comparison,
         worst,
-        middle: comparison.middle(),
-        outcomes: &as_it_is.outcomes,
     };
-    if of_worst.middle.contains_key(FRICTION_KEY) {
+    if comparison.middle().contains_key(FRICTION_KEY) {
         let caption = "The scene as it is against friction, over all values of the other unknowns. Such curves are hills: neither end of an \
                        interval is the safe one.";
         figure(html, ALONE, [of_worst.hill()], caption);
@@ -48,21 +48,11 @@ pub fn certainty(html: &mut Html, report: &Report) {
 /// What is not known, what is limited there, and whether all else has its middle.
 type Point = (f64, f64, bool);
 
-/// The least and the largest value of some points.
-fn range(points: &[Point]) -> [f64; 2] {
-    let values = points.iter().map(|point| point.1);
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
-        [least.min(value), most.max(value)]
-    })
-}
-
 /// What the scene as it is comes to in all combinations, at the limit of its worst, in units of the reader.
 struct OfWorst<'a> {
     report: &'a Report,
     comparison: &'a Comparison,
     worst: &'a Nearest,
-    middle: Combination,
-    outcomes: &'a [Outcome],
 }
 
 impl OfWorst<'_> {
@@ -72,14 +62,16 @@ impl OfWorst<'_> {
 
     /// All combinations by the value of a key, ascending.
     fn points(&self, key: &str) -> Vec<Point> {
+        let middle = self.comparison.middle();
         let point = |outcome: &Outcome| {
             let is_same =
                 |other: &&Verdict| (other.end, other.quantity) == (self.worst.end, self.worst.quantity);
             let value = outcome.verdicts.iter().find(is_same)?.largest;
-            let is_middle = outcome.differs_only_in(key, &self.middle);
+            let is_middle = outcome.differs_only_in(key, &middle);
             Some((outcome.at[key], self.in_unit(value), is_middle))
         };
-        let mut points: Vec<Point> = self.outcomes.iter().filter_map(point).collect();
+        let outcomes = self.comparison.measures[0].outcomes.iter();
+        let mut points: Vec<Point> = outcomes.filter_map(point).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points
     }
@@ -90,7 +82,7 @@ impl OfWorst<'_> {
         // Friction at which several combinations are known, and the least and the largest value there.
         let groups = points.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
         let band = groups.map(|group| {
-            let [least, most] = range(group);
+            let [least, most] = range(group.iter().map(|point| point.1));
             ((group[0].0, least), (group[0].0, most))
         });
         let (least, most): (Vec<_>, Vec<_>) = band.unzip();
@@ -103,15 +95,13 @@ impl OfWorst<'_> {
             chart = chart.with(Series::line("highest of the others", most).look(1).solid());
             chart = chart.with(Series::line("lowest of the others", least).look(1).dashed());
         }
-        let in_middle = points
-            .iter()
-            .filter(|point| point.2)
-            .map(|point| (point.0, point.1));
+        let in_middle = points.iter().filter(|point| point.2);
+        let in_middle = in_middle.map(|point| (point.0, point.1));
         let own = self.report.run.largest(self.worst.end, self.worst.quantity);
         let own = [(self.report.scene.friction.dynamic_coefficient, self.in_unit(own))];
         chart
             .with(Series::line_points("the others in the middle", in_middle).look(0))
-            .with(Series::points("the scene", own).look(OTHER).marker(5))
+            .with(Series::points("the scene", own).look(OTHER).marker(3))
     }
 
     /// What each unknown alone does, the others in their middle: the widest bar on top.
@@ -119,7 +109,7 @@ impl OfWorst<'_> {
         let bar = |unknown: &Uncertain| {
             let mut alone = self.points(&unknown.key);
             alone.retain(|point| point.2);
-            (interval(unknown), range(&alone))
+            (interval(unknown), range(alone.iter().map(|point| point.1)))
         };
         let mut bars: Vec<_> = self.comparison.uncertain.iter().map(bar).collect();
         bars.sort_by(|(_, [a, b]), (_, [c, d])| (b - a).total_cmp(&(d - c)));

@@ -2,7 +2,7 @@
 
 use super::agreement::Agreement;
 use super::source::Source;
-use crate::words::{Answer, Reader, SceneWords, round_below};
+use crate::words::{Answer, Reader, round_below};
 use creepage_fit::{held_end, readings::Readings};
 use creepage_run::{
     Error, Limits, PastPass, PlanReport, Profile, Progress, Run, RunOptions, SavedState, Units, Verdict,
@@ -76,20 +76,17 @@ impl Report {
         }
         let mut plan = creepage_run::plan(scene)?;
         plan.start = options.start;
-        let stages = stages(scene.traffic.passes);
         let options_of_run = RunOptions {
             start: options.start,
             progress: options.progress,
-            stages: &stages,
+            stages: &stages(scene.traffic.passes),
             ..RunOptions::default()
         };
         let run = creepage_run::run_plan(&plan, &options_of_run)?;
-        let agreement = options.readings;
-        let agreement = agreement.map(|readings| Agreement::new(scene, &run, readings));
-        let agreement = agreement.transpose()?;
-        let mistakes = agreement
-            .as_ref()
-            .map_or(&[][..], |agreement| &agreement.mistakes);
+        let compare = |readings: &Readings| Agreement::new(scene, &run, readings);
+        let agreement = options.readings.map(compare).transpose()?;
+        let mistakes = agreement.iter().flat_map(|agreement| &agreement.mistakes);
+        let warnings = options.warnings.iter().chain(&run.warnings).chain(mistakes);
         Ok(Self {
             reader: Reader::new(options.units, scene),
             plan: plan.report(),
@@ -104,26 +101,18 @@ impl Report {
             is_from_file: !options.sources.is_empty(),
             overrides: options.overrides.to_vec(),
             date: options.date.map(str::to_owned),
-            warnings: [options.warnings, &run.warnings, mistakes].concat(),
+            warnings: warnings.cloned().collect(),
             agreement,
             run,
             scene: scene.clone(),
         })
     }
 
-    /// The run in words.
+    /// Run and scene in words.
     pub(super) fn answer(&self) -> Answer<'_> {
         Answer {
             scene: &self.scene,
             run: &self.run,
-            reader: self.reader,
-        }
-    }
-
-    /// The scene in words.
-    pub(super) fn scene_words(&self) -> SceneWords<'_> {
-        SceneWords {
-            scene: &self.scene,
             reader: self.reader,
         }
     }
@@ -163,13 +152,10 @@ fn positions(scene: &Scene, unit: Unit) -> Vec<f64> {
 
 /// The first pass, the last, and round numbers between them.
 fn stages(count: u64) -> Vec<u64> {
-    let between =
-        |k: u32| round_below((count as f64).powf(f64::from(k) / f64::from(STAGES - 1))).round() as u64;
-    let mut stages: Vec<u64> = (0..STAGES - 1)
-        .map(between)
-        .filter(|&pass| pass < count)
-        .collect();
-    stages.push(count);
+    let share = |k: u32| f64::from(k) / f64::from(STAGES - 1);
+    let between = |k: u32| round_below((count as f64).powf(share(k))).round() as u64;
+    let before = (0..STAGES - 1).map(between).filter(|&pass| pass < count);
+    let mut stages: Vec<u64> = before.chain([count]).collect();
     stages.dedup();
     stages
 }

@@ -4,7 +4,7 @@ use super::agreement::Agreement;
 use super::chart::{ALONE, OTHER, along_cable, figure, held, lines, over};
 use super::content::Report;
 use super::html::Html;
-use super::pass_axis::{PassAxis, left};
+use super::pass_axis::PassAxis;
 use crate::words::{after_pass, count};
 use creepage_plan::shown::words_if;
 use creepage_run::{Limited, PassRecord};
@@ -70,7 +70,7 @@ fn after_passes(
     let chart = lines(chart, ends, Some(""), |end| {
         along.series(passes, |record| unit.of_si(after_pass(record, end, quantity)))
     });
-    along.with_history(chart, ends, |past, end| unit.of_si(left(past, end, quantity)))
+    along.with_history(chart, ends, quantity, unit)
 }
 
 /// Force on the ends, the saturated force, and readings.

@@ -4,7 +4,7 @@ use super::chart::{ALONE, OTHER, WITH_LEGENDS, along_cable, figure, held, lines,
 use super::content::Report;
 use super::html::Html;
 use super::pass_axis::PassAxis;
-use crate::words::{count, over_day, significant};
+use crate::words::{count, over_day, range, significant};
 use creepage_plan::shown::words_if;
 use creepage_run::{
     Limited,
@@ -55,9 +55,7 @@ pub fn heat(html: &mut Html, report: &Report) {
 /// How warm the cable is.
 fn course(heat: &Heat) -> String {
     let warming = if let Some(points) = &heat.profile {
-        let kelvin = || points.iter().map(|(_, kelvin)| *kelvin);
-        let least = significant(kelvin().fold(f64::INFINITY, f64::min));
-        let most = significant(kelvin().fold(f64::NEG_INFINITY, f64::max));
+        let [least, most] = range(points.iter().map(|(_, kelvin)| *kelvin)).map(significant);
         let count = points.len();
         format!("follows a profile of {count} points, from {least} to {most} K")
     } else {

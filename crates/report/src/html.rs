@@ -1,6 +1,8 @@
 //! Elements of the page. Every text is escaped here and nowhere else.
 
 use crate::words::Table;
+use creepage_plan::shown::words_if;
+use plain_figure::escaped;
 
 /// A page in the making, with the elements that a report needs.
 #[derive(Default)]
@@ -36,24 +38,16 @@ impl Html {
 
     /// A table as wide as its content.
     pub fn table(&mut self, table: &Table) {
-        let row = |tag: &str, row: &Vec<String>| {
+        let row = |tag: &str, row: &[String]| {
             let cell = |(column, text): (usize, &String)| {
-                let class = if column < table.words {
-                    ""
-                } else {
-                    " class=\"number\""
-                };
+                let class = words_if(column >= table.words, " class=\"number\"");
                 format!("<{tag}{class}>{}</{tag}>", escaped(text))
             };
-            format!(
-                "<tr>{}</tr>",
-                row.iter().enumerate().map(cell).collect::<String>()
-            )
+            let cells: String = row.iter().enumerate().map(cell).collect();
+            format!("<tr>{cells}</tr>")
         };
-        self.raw(&format!(
-            "<table>\n<thead>{}</thead>\n<tbody>",
-            row("th", &table.head)
-        ));
+        let head = row("th", &table.head);
+        self.raw(&format!("<table>\n<thead>{head}</thead>\n<tbody>"));
         table.rows.iter().for_each(|cells| self.raw(&row("td", cells)));
         self.raw("</tbody>\n</table>");
     }
@@ -76,18 +70,6 @@ impl Html {
     pub fn finish(self) -> String {
         self.0
     }
-}
-
-/// Text for HTML, in elements and in attributes; characters that have no place in a text become a replacement mark.
-pub fn escaped(text: &str) -> String {
-    let unknown = |letter: char| letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}');
-    text.replace(['\n', '\t'], " ")
-        .replace(unknown, "\u{fffd}")
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-        .replace('\'', "&apos;")
 }
 
 #[cfg(test)]

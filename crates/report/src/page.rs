@@ -5,7 +5,7 @@ use super::certainty::certainty;
 use super::content::Report;
 use super::force::force;
 use super::heat::heat;
-use super::html::{Html, escaped};
+use super::html::Html;
 use super::route::route;
 use super::section::section;
 use crate::words::measures::holds_for;
@@ -13,7 +13,7 @@ use crate::words::{Table, candidates, error_parts, solved};
 use creepage_plan::shown::{percent, words_if};
 use creepage_run::Verdict;
 use creepage_study::design::Place;
-use plain_figure::dark_style;
+use plain_figure::{dark_style, escaped};
 
 /// Writes a part of the page.
 type Section = fn(&mut Html, &Report);
@@ -56,10 +56,8 @@ impl Report {
         let answer = self.answer();
         html.element("h1", &self.scene.title);
         let warnings = words_if(self.warnings.is_empty(), " No warnings.");
-        let made = self.made();
-        html.paragraph(&format!(
-            "Creepage of the cable in its duct under traffic, {made}.{warnings}"
-        ));
+        let what = format!("Creepage of the cable in its duct under traffic, {}", self.made());
+        html.paragraph(&format!("{what}.{warnings}"));
         html.raw("<div class=\"answer\">");
         html.paragraph(&answer.sentences());
         html.raw("</div>");
@@ -122,15 +120,10 @@ fn scene(html: &mut Html, report: &Report) {
         html.figure(&svg, &caption);
     }
     html.raw("</div>");
-    let words = report.scene_words();
-    let compression = report.run.passes.iter().map(|pass| pass.max_compression_n.abs());
-    html.list(&words.points(compression.fold(0.0, f64::max)));
-    if let Some(ground) = words.ground() {
-        html.table(&ground);
-    }
-    if let Some(scaling) = words.scaling() {
-        html.paragraph(&scaling);
-    }
+    let words = report.answer();
+    html.list(&words.points());
+    words.ground().iter().for_each(|ground| html.table(ground));
+    words.scaling().iter().for_each(|scaling| html.paragraph(scaling));
     html.table(&words.vehicles());
 }
 
@@ -174,10 +167,6 @@ fn record(html: &mut Html, report: &Report) {
     let sources = report.sources.iter();
     let rows = sources.map(|source| vec![source.name.clone(), source.sha256.clone()]);
     html.raw("<div class=\"digests\">");
-    html.table(&Table {
-        head: ["read", "SHA-256"].map(str::to_owned).into(),
-        rows: rows.collect(),
-        words: 2,
-    });
+    html.table(&Table::new(["read", "SHA-256"], rows.collect(), 2));
     html.raw("</div>");
 }

@@ -3,7 +3,7 @@
 use super::chart::lines;
 use super::content::Report;
 use creepage_run::{Limited, PassRecord, PastPass, answer::listed};
-use creepage_scene::{CableEnd, DAYS_PER_YEAR};
+use creepage_scene::{CableEnd, DAYS_PER_YEAR, Unit};
 use plain_figure::{Axis, Chart, Reference};
 
 /// Passes beyond which their axis is logarithmic, but for a life in parts.
@@ -28,12 +28,14 @@ const TICKS: [(f64, &str); 8] = [
 ];
 
 pub struct PassAxis<'r> {
-    /// What the runs before have left, their passes and days.
+    /// What the runs before have left.
     history: &'r [PastPass],
-    before: (u64, f64),
+    /// Where the first pass begins, and how far a pass goes on, in the unit of the axis.
+    begin: f64,
+    each: f64,
     last: u64,
-    /// Days of one unit of the axis, and vehicles a day, where these are known.
-    time: Option<(f64, f64)>,
+    /// Days of that unit, where the vehicles a day are known.
+    unit: Option<f64>,
     name: &'static str,
     is_linear: bool,
 }
@@ -42,31 +44,41 @@ impl<'r> PassAxis<'r> {
     /// The axis of the passes of a report up to `last`.
     pub fn new(report: &'r Report, last: u64) -> Self {
         let history = &report.history[..];
-        let has_days = history.iter().all(|past| past.days.is_some());
-        let before = history
-            .last()
-            .map_or((0, 0.0), |past| (past.pass, past.days.unwrap_or(0.0)));
-        let is_linear = last <= MANY || !history.is_empty();
-        let per_day = report.scene.traffic.per_day.filter(|_| has_days);
-        let unit = per_day.map(|per_day| {
-            let days = before.1 + last as f64 / per_day;
-            let mut units = UNITS.into_iter().filter(|(unit, _)| days >= FEWEST * unit);
-            let linear = units.next().unwrap_or(UNITS[2]);
-            if is_linear { linear } else { (1.0, "time") }
-        });
-        Self {
+        let (before, is_linear) = (history.last(), last <= MANY || !history.is_empty());
+        let passes = Self {
             history,
-            before,
+            begin: before.map_or(0.0, |past| past.pass as f64),
+            each: 1.0,
             last,
-            time: unit.map(|(unit, _)| unit).zip(per_day),
-            name: unit.map_or("passes", |(_, name)| name),
+            unit: None,
+            name: "passes",
             is_linear,
+        };
+        let has_days = history.iter().all(|past| past.days.is_some());
+        let Some(per_day) = report.scene.traffic.per_day.filter(|_| has_days) else {
+            return passes;
+        };
+        let begin = before.and_then(|past| past.days).unwrap_or(0.0);
+        let days = begin + last as f64 / per_day;
+        let is_many = |(unit, _): &(f64, &str)| days >= FEWEST * unit;
+        let (unit, name) = if is_linear {
+            UNITS.into_iter().find(is_many).unwrap_or(UNITS[2])
+        } else {
+            (1.0, "time")
+        };
+        let (begin, each) = (begin / unit, 1.0 / (per_day * unit));
+        Self {
+            begin,
+            each,
+            unit: Some(unit),
+            name,
+            ..passes
         }
     }
 
     /// The title of a chart of `what` over this axis.
     pub fn title(&self, what: &str) -> String {
-        let along = self.time.map_or("passes", |_| "time");
+        let along = self.unit.map_or("passes", |_| "time");
         format!("{what} against {along}")
     }
 
@@ -76,17 +88,13 @@ impl<'r> PassAxis<'r> {
             return Axis::linear(self.name).range(0.0, self.place(self.last));
         }
         let axis = Axis::logarithmic(self.name);
-        if self.time.is_none() {
+        if self.unit.is_none() {
             return axis;
         }
         // Ticks of time, from the end on as many as have room.
-        let apart = (self.last as f64).powf(LABEL);
+        let (apart, end) = ((self.last as f64).powf(LABEL), self.place(self.last));
         let mut ticks: Vec<(f64, &str)> = Vec::new();
-        for (time, name) in TICKS
-            .into_iter()
-            .rev()
-            .filter(|(time, _)| *time <= self.place(self.last))
-        {
+        for (time, name) in TICKS.into_iter().rev().filter(|(time, _)| *time <= end) {
             if ticks.last().is_none_or(|(later, _)| later / time >= apart) {
                 ticks.push((time, name));
             }
@@ -97,32 +105,24 @@ impl<'r> PassAxis<'r> {
 
     /// Where a pass is on the axis.
     pub fn place(&self, pass: u64) -> f64 {
-        let (before, days) = self.before;
-        let time = self
-            .time
-            .map(|(unit, per_day)| (days + pass as f64 / per_day) / unit);
-        time.unwrap_or((before + pass) as f64)
+        self.begin + self.each * pass as f64
     }
 
     /// `chart` with what the runs before have left of each of `ends`, and a line where this one begins.
-    pub fn with_history(
-        &self,
-        chart: Chart,
-        ends: &[CableEnd],
-        value: impl Fn(&PastPass, CableEnd) -> f64,
-    ) -> Chart {
+    pub fn with_history(&self, chart: Chart, ends: &[CableEnd], quantity: Limited, unit: Unit) -> Chart {
         if self.history.is_empty() {
             return chart;
         }
-        let place = |past: &PastPass| {
-            let time = self.time.zip(past.days).map(|((unit, _), days)| days / unit);
-            time.unwrap_or(past.pass as f64)
+        let point = |past: &PastPass, end: CableEnd| {
+            let days = self.unit.zip(past.days);
+            let place = days.map_or(past.pass as f64, |(unit, days)| days / unit);
+            let left = end.of(quantity.of([past.force_n, past.displacement_m]));
+            (place, unit.of_si(left))
         };
         let chart = lines(chart, ends, None, |end| {
-            let history = self.history.iter().map(|past| (place(past), value(past, end)));
-            history.collect::<Vec<_>>()
+            self.history.iter().map(move |past| point(past, end))
         });
-        chart.refer(Reference::vertical(self.place(0), ""))
+        chart.refer(Reference::vertical(self.begin, ""))
     }
 
     /// A value after each pass.
@@ -130,13 +130,7 @@ impl<'r> PassAxis<'r> {
         let drawn = listed(passes.last().map_or(1, |record| record.pass));
         let is_drawn = |pass: u64| passes.len() <= ALL_DRAWN || drawn.binary_search(&pass).is_ok();
         let drawn = passes.iter().filter(|record| is_drawn(record.pass));
-        drawn
-            .map(|record| (self.place(record.pass), value(record)))
-            .collect()
+        let point = |record: &PassRecord| (self.place(record.pass), value(record));
+        drawn.map(point).collect()
     }
-}
-
-/// What a run before has left of an end.
-pub fn left(past: &PastPass, end: CableEnd, quantity: Limited) -> f64 {
-    end.of(quantity.of([past.force_n, past.displacement_m]))
 }

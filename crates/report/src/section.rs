@@ -4,7 +4,7 @@ use ground_field::{Base, Direction, Modulus, SoilLayer};
 
 use super::chart::WIDTH;
 use super::content::Report;
-use crate::words::middle;
+use crate::words::{middle, range};
 use creepage_plan::shown::words_if;
 use creepage_scene::{Scene, TrafficVehicle};
 use plain_figure::{Anchor, Drawing, Ink};
@@ -83,9 +83,7 @@ impl Across {
         let duct = &scene.duct;
         let sides = scene.vehicles.iter().flat_map(wheels);
         let sides = sides.flat_map(|(place, half)| [place - half, place + half]);
-        let [least, most] = sides.fold([duct.lateral_offset; 2], |[least, most], side| {
-            [least.min(side), most.max(side)]
-        });
+        let [least, most] = range(sides.chain([duct.lateral_offset]));
         let wide = most - least + 2.0 * BESIDE * duct.depth;
         Self {
             scale: ((RIGHT - LEFT) / wide).min(DEEPEST / (SHOWN * duct.depth)),
@@ -138,12 +136,10 @@ fn ground(drawing: &mut Drawing, scene: &Scene, scale: f64, high: f64) {
     if let Base::HalfSpace(soil) = profile.base() {
         layers.push((f64::INFINITY, soil.young_modulus().ln()));
     }
-    let moduli = || layers.iter().map(|(_, modulus)| *modulus);
-    let soft = moduli().fold(f64::INFINITY, f64::min);
-    let range = moduli().fold(f64::NEG_INFINITY, f64::max) - soft;
+    let [soft, stiff] = range(layers.iter().map(|(_, modulus)| *modulus));
     let shares = layers.iter().map(|(thickness, modulus)| {
-        let share = (modulus - soft) / range;
-        let share = if range > 0.0 { share } else { 0.3 };
+        let share = (modulus - soft) / (stiff - soft);
+        let share = if stiff > soft { share } else { 0.3 };
         (*thickness, OPACITY[0] + share * OPACITY[1])
     });
     let mut top = SURFACE;

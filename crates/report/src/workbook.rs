@@ -8,6 +8,7 @@ use std::io;
 use rust_xlsxwriter::XlsxError;
 use serde_json::{Value, json};
 
+use creepage_plan::shown::words_if;
 use creepage_run::{Limited, Place, Run, Units, Verdict};
 use creepage_scene::SceneFile;
 
@@ -27,11 +28,11 @@ const ANSWER: [&str; 10] = [
     "plan",
     "cost",
 ];
-/// Tables inside these.
-const TABLES: [&str; 4] = ["cycle", "hot_profile", "cold_profile", "parts"];
+/// Tables inside these, and another name of a part of the error for other programs.
+const LEFT_OUT: [&str; 4] = ["cycle", "hot_profile", "cold_profile", "law"];
 
-/// The file of a workbook: the answer, a row for each listed pass, the force along the cable, clamps, days where the cable is heated, the
-/// parts of the error, and the scene. Interpolated passes are marked.
+/// The file of a workbook: the answer, a row for each listed pass, the force along the cable, clamps, days where the cable is heated,
+/// and the scene. Interpolated passes are marked.
 ///
 /// # Errors
 ///
@@ -62,7 +63,6 @@ fn write(
     ] {
         table(&mut book, name, records, units)?;
     }
-    errors(&mut book, document)?;
     scene(&mut book, file)?;
     book.finish()
 }
@@ -102,28 +102,19 @@ type Entry<'d> = (String, &'d str, &'d Value);
 fn entries<'d>(name: &str, field: &'d str, value: &'d Value, units: &Units) -> Vec<Entry<'d>> {
     match value {
         Value::Object(fields) => {
-            let fields = fields
-                .iter()
-                .filter(|(field, _)| !TABLES.contains(&field.as_str()));
+            let fields = fields.iter().filter(|(field, _)| !LEFT_OUT.contains(&&***field));
             let inside = fields.flat_map(|(field, value)| {
-                let before = if name.is_empty() {
-                    String::new()
-                } else {
-                    format!("{name}: ")
-                };
-                let name = format!("{before}{}", named(field, units).0);
-                entries(&name, field, value, units)
+                let own = named(field, units).0;
+                let before = words_if(!name.is_empty(), ": ");
+                entries(&format!("{name}{before}{own}"), field, value, units)
             });
             inside.collect()
         }
         Value::Array(items) => {
             let items = (1..).zip(items).filter(|(_, item)| !item.is_number());
             let inside = items.flat_map(|(number, item)| {
-                let number = if item.is_object() {
-                    format!(" {number}")
-                } else {
-                    String::new()
-                };
+                let number = format!(" {number}");
+                let number = words_if(item.is_object(), &number);
                 entries(&format!("{name}{number}"), field, item, units)
             });
             inside.collect()
@@ -147,13 +138,10 @@ fn answer(
         book.row([text("limits"), text(verdict.shown(units))], false)?;
     }
     let last = document["passes"].as_array().and_then(|passes| passes.last());
-    let last = last
-        .map(|last| entries("last pass", "", last, units))
-        .unwrap_or_default();
-    let parts = ANSWER
-        .iter()
-        .flat_map(|part| entries(part, part, &document[*part], units));
-    for (name, field, value) in last.into_iter().chain(parts) {
+    let last = last.map(|last| ("last pass", "", last));
+    let parts = ANSWER.iter().map(|part| (*part, *part, &document[*part]));
+    let all = last.into_iter().chain(parts);
+    for (name, field, value) in all.flat_map(|(name, field, value)| entries(name, field, value, units)) {
         let row = match value {
             // It has its place, and says so.
             Value::Null if name == "saturation" => vec![text(name), text("none")],
@@ -210,23 +198,4 @@ fn along(profile: &Value) -> Value {
     places
         .map(|(place, force)| json!({ "position_m": place, "force_n": force }))
         .collect()
-}
-
-/// The parts of the error.
-fn errors(book: &mut Book, document: &Value) -> Result<(), XlsxError> {
-    book.sheet("error", &[("part", ""), ("share", ""), ("of", "")])?;
-    let estimate = &document["error_estimate"];
-    let share = |value: &Value| value.as_f64().map_or(Cell::Absent, Cell::Share);
-    let whole = [text("all"), share(&estimate["relative"]), text("a force")];
-    book.row(whole, false)?;
-    // Another name of `passes`, for other programs.
-    let parts = estimate["parts"].as_object().into_iter().flatten();
-    for (name, value) in parts.filter(|(name, _)| *name != "law") {
-        let of = match name.as_str() {
-            "movement" => "the largest movement; not in the sum",
-            _ => "a force",
-        };
-        book.row([text(name), share(value), text(of)], false)?;
-    }
-    Ok(())
 }

@@ -18,8 +18,6 @@ pub enum Cell {
     Absent,
     /// A number.
     Number(f64),
-    /// A share, shown as a percentage.
-    Share(f64),
     /// A text, never a formula.
     Text(String),
     /// True or false.
@@ -67,7 +65,6 @@ impl Book {
     pub fn row(&mut self, cells: impl IntoIterator<Item = Cell>, is_marked: bool) -> Result<(), XlsxError> {
         let plain = Format::new();
         let marked = Format::new().set_italic().set_font_color(GREY);
-        let share = Format::new().set_num_format("0.00 %");
         let (row, format) = (self.row, if is_marked { &marked } else { &plain });
         let Some(sheet) = self.workbook.worksheets_mut().last_mut() else {
             return Ok(());
@@ -76,7 +73,6 @@ impl Book {
             match cell {
                 Cell::Absent => continue,
                 Cell::Number(number) => sheet.write_number_with_format(row, place, number, format)?,
-                Cell::Share(number) => sheet.write_number_with_format(row, place, number, &share)?,
                 Cell::Text(text) => {
                     sheet.write_string_with_format(row, place, shortened(&text, LONGEST), format)?
                 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use creepage_plan::ground::KnownGrounds;
 
@@ -15,16 +15,7 @@ pub struct Bench {
     /// Of two layers and two lanes the ground takes longer than the passes of a draft.
     pub grounds: KnownGrounds,
     /// The scene that was run last, and the cable as that leaves it.
-    last: Option<(Scene, Arc<SavedState>)>,
-}
-
-impl Default for Bench {
-    fn default() -> Self {
-        Self {
-            grounds: KnownGrounds::new(GROUNDS),
-            last: None,
-        }
-    }
+    last: Option<(Scene, SavedState)>,
 }
 
 impl Bench {
@@ -35,28 +26,38 @@ impl Bench {
             ..RunOptions::default()
         };
         let run = creepage_run::run::run_over(scene, self.grounds.of(scene)?, &options)?;
-        self.last = run.state.clone().map(|state| (scene.clone(), Arc::new(state)));
+        self.last = run.state.clone().map(|state| (scene.clone(), state));
         Ok(run)
     }
 
     /// The cable as the passes of `scene` leave it, on whatever mesh.
-    pub fn state(&mut self, scene: &Scene, progress: Progress<'_>) -> Result<Option<Arc<SavedState>>, Error> {
-        let is_it = |last: &(Scene, _)| {
-            let mut last = last.0.clone();
+    pub fn state(&mut self, scene: &Scene, progress: Progress<'_>) -> Result<Option<SavedState>, Error> {
+        let is_it = |(last, _): &(Scene, _)| {
+            let mut last = last.clone();
             last.solver = scene.solver;
             last == *scene
         };
         if !self.last.as_ref().is_some_and(is_it) {
             self.run(scene, progress)?;
         }
-        Ok(self.last.as_ref().map(|(_, state)| Arc::clone(state)))
+        Ok(self.last.as_ref().map(|(_, state)| state.clone()))
     }
 }
 
-#[derive(Default)]
+/// Where questions wait for the bench.
 pub struct Desk {
     newest: AtomicU64,
     bench: Mutex<Bench>,
+}
+
+impl Default for Desk {
+    fn default() -> Self {
+        let grounds = KnownGrounds::new(GROUNDS);
+        Self {
+            newest: AtomicU64::new(0),
+            bench: Mutex::new(Bench { grounds, last: None }),
+        }
+    }
 }
 
 impl Desk {
@@ -71,9 +72,8 @@ impl Desk {
             _ => ControlFlow::Break(()),
         };
         let progress = Progress::new(&go_on);
-        let mut bench = self.bench.lock().unwrap_or_else(PoisonError::into_inner);
+        let bench = &mut *self.bench.lock().unwrap_or_else(PoisonError::into_inner);
         progress.report(0.0)?;
-        let bench = &mut *bench;
         rayon::scope(|_| work(bench, progress))
     }
 }

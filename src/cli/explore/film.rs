@@ -41,14 +41,13 @@ pub fn film(
     question: &Question,
     progress: Progress<'_>,
 ) -> Result<Value, Error> {
-    let start = if question.first {
-        None
-    } else {
-        bench.state(scene, progress)?
-    };
+    let mut start = None;
+    if !question.first {
+        start = bench.state(scene, progress)?;
+    }
     let ground = bench.grounds.of(scene)?;
     let mut plan = plan_over(scene, ground.clone())?;
-    plan.start = start.as_deref();
+    plan.start = start.as_ref();
     let index = question.vehicle.min(scene.vehicles.len() - 1);
     let (motion, vehicle, depth) = (&ground.motions[index], &scene.vehicles[index], scene.duct.depth);
     let mut levels = plan.levels.first..plan.levels.finest;

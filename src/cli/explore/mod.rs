@@ -4,7 +4,6 @@
 
 mod bench;
 mod controls;
-mod figures;
 mod film;
 mod question;
 mod server;

@@ -42,10 +42,10 @@ pub struct Server {
 impl Server {
     /// Listens on `port`, or on one that is free if it is 0.
     pub fn new(port: u16, token: String) -> Result<Self, Failure> {
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| Failure::Usage {
-            argument: "--port",
-            found: format!("{port}, which cannot be used: {error}"),
-            allowed: "a port of this machine that is free; without it a free one is taken".into(),
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| {
+            let found = format!("{port}, which cannot be used: {error}");
+            let allowed = "a port of this machine that is free; without it a free one is taken";
+            Failure::usage("--port", found, allowed)
         })?;
         let port = listener.local_addr()?.port();
         let http = tiny_http::Server::from_listener(listener, None).map_err(std::io::Error::other)?;
@@ -99,10 +99,8 @@ impl Server {
         }
         let (path, query) = request.url().split_once('?').unwrap_or_default();
         if !self.is_token(query.strip_prefix("token=").unwrap_or_default()) {
-            return Err(refusal(
-                403,
-                "no token, or a wrong one: take the address that was printed",
-            ));
+            let words = "no token, or a wrong one: take the address that was printed";
+            return Err(refusal(403, words));
         }
         let (method, path, mut body) = (request.method().to_string(), path.to_owned(), Vec::new());
         let is_large = |length: usize| length > LARGEST;

@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, Desk};
 use super::controls::sliders;
-use super::figures::figures;
 use super::film::film;
 use super::question::{Asked, Question, Refusal};
 use super::server::{LAST, Reply};
@@ -81,13 +80,12 @@ impl Session {
         let headline = headline(asked, &run, reader, judgement.as_ref());
         // Symbols, and how many of each are one in SI.
         let unit = |unit: Unit| json!([unit.symbol(), unit.of_si(1.0)]);
-        let [force, movement, length] =
-            [reader.units.force, reader.units.movement, reader.units.length].map(unit);
+        let units = reader.units;
         let mut answer = json!(Judged { run: &run, judgement });
-        answer["figures"] = figures(&run, &reader)?;
         answer["headline"] = headline;
         answer["sliders"] = json!(sliders(&asked.file));
-        answer["units"] = json!({ "force": force, "movement": movement, "length": length });
+        answer["units"] = json!({ "force": unit(units.force), "movement": unit(units.movement),
+            "length": unit(units.length) });
         Ok((200, JSON, answer.to_string().into()))
     }
 
@@ -101,11 +99,9 @@ impl Session {
     /// The scene as a file, with what was changed.
     fn scene(&self, asked: &Asked) -> Reply {
         let changes = self.overrides.iter().chain(&asked.overrides);
-        let changes: Vec<String> = changes
-            .map(|set| format!("#   {}\n", terminal::line(set)))
-            .collect();
-        let head = format!("# {} in SI units, with what `creepage explore` set:\n", self.name);
-        let text = [&head, &changes.concat(), "\n", &asked.scene.to_toml()].concat();
+        let changes = changes.map(|set| format!("#   {}\n", terminal::line(set)));
+        let (name, changes, scene) = (&self.name, changes.collect::<String>(), asked.scene.to_toml());
+        let text = format!("# {name} in SI units, with what `creepage explore` set:\n{changes}\n{scene}");
         (200, "application/toml", text.into())
     }
 

@@ -37,6 +37,10 @@ struct Load {
 }
 
 impl Load {
+    fn new(newtons: f64, end: Option<CableEnd>, when: &'static str) -> Self {
+        Self { newtons, end, when }
+    }
+
     fn place(&self) -> String {
         self.end
             .map_or("in the cable".into(), |end| format!("on the {} end", end.name()))
@@ -231,45 +235,33 @@ impl Answer<'_> {
         if let Some(hardest) = hardest.filter(|hardest| hardest.largest > 0.0) {
             let sign = if hardest.pulled { -1.0 } else { 1.0 };
             let moving = hardest.during_a_pass.then_some("during a pass");
-            return Load {
-                newtons: sign * hardest.largest,
-                end: hardest.end.end(),
-                when: moving.unwrap_or(at_rest),
-            };
+            let (end, when) = (hardest.end.end(), moving.unwrap_or(at_rest));
+            return Load::new(sign * hardest.largest, end, when);
         }
         let days = self.run.heat.iter().map(|heat| heat.all_days.max_compression_n);
         let inside = self.run.passes.iter().map(|record| record.max_compression_n);
-        Load {
-            newtons: inside.chain(days).fold(0.0, f64::max),
-            end: None,
-            when: at_rest,
-        }
+        Load::new(inside.chain(days).fold(0.0, f64::max), None, at_rest)
     }
 
     /// The force that matters most after the `last` pass, and why it does not level off.
     fn now(&self, last: &PassRecord) -> Load {
         let end = pressed_end(self.scene, |end| last.force_after(end));
-        Load {
-            newtons: end.map_or(last.max_compression_n, |end| last.force_after(end)),
-            end,
-            when: match self.run.range {
-                None => "where it has not levelled off",
-                Some(_) if end.is_none() && self.scene.restraints.is_empty() => "where nothing holds it",
-                Some(_) => "after a larger one before",
-            },
-        }
+        let newtons = end.map_or(last.max_compression_n, |end| last.force_after(end));
+        let when = match self.run.range {
+            None => "where it has not levelled off",
+            Some(_) if end.is_none() && self.scene.restraints.is_empty() => "where nothing holds it",
+            Some(_) => "after a larger one before",
+        };
+        Load::new(newtons, end, when)
     }
 
     /// The force that levels off, if one does.
     fn level(&self) -> Option<Load> {
         let level = self.run.saturation?;
         let force = |end: CableEnd| end.of([level.upstream_force_n, level.downstream_force_n]);
-        Some(Load {
-            newtons: level.force_n,
-            end: pressed_end(self.scene, force),
-            when: ["after a pass", "after a pass beyond those computed"]
-                [usize::from(level.is_beyond(&self.run.passes))],
-        })
+        let when = ["after a pass", "after a pass beyond those computed"];
+        let when = when[usize::from(level.is_beyond(&self.run.passes))];
+        Some(Load::new(level.force_n, pressed_end(self.scene, force), when))
     }
 
     /// What heat does in the end; nothing of a cable that is not heated.

@@ -96,40 +96,31 @@ fn row(
     let worst = measure.worst.as_ref();
     let outcome = worst.map(|worst| &worst.outcome);
     let exceeded = outcome.iter().flat_map(|outcome| &outcome.verdicts);
-    let first = exceeded
-        .filter_map(|verdict| verdict.reached_after)
-        .min_by_key(|first| first.pass);
+    let first = exceeded.filter_map(|verdict| verdict.reached_after);
+    let first = first.min_by_key(|first| first.pass);
+    let after = first.map(|first| first.years.map_or_else(|| passes(first.pass), after));
+    let of_limit = worst.map(|worst| format!("{} of {}", amount(worst), given(worst)));
+    let on_clamps = outcome.and_then(|outcome| outcome.clamp_force_n);
     let cost = measure.cost.as_ref().map(|cost| match cost {
         Cost::Number(cost) => significant(*cost),
         Cost::Text(text) => text.clone(),
     });
+    let nearest = worst.map(|worst| worst.quantity.at(worst.end));
     [
         // With a soft hyphen.
         ("measure", Some(measure.name.replace("stream", "\u{ad}stream"))),
         ("fitted", fitted(measure, &comparison.measures[0], reader)),
         ("holds for", Some(holds_for(measure, comparison.combinations))),
-        (
-            "nearest limit, or exceeded most",
-            worst.map(|worst| worst.quantity.at(worst.end)),
-        ),
-        (
-            "worst of limit",
-            worst.map(|worst| format!("{} of {}", amount(worst), given(worst))),
-        ),
+        ("nearest limit, or exceeded most", nearest),
+        ("worst of limit", of_limit),
         ("where", outcome.map(|outcome| combination(&outcome.at))),
         ("in the middle", measure.nominal.as_ref().map(amount)),
-        (
-            "on clamps",
-            outcome.and_then(|outcome| Some(reader.force(outcome.clamp_force_n?))),
-        ),
+        ("on clamps", on_clamps.map(|force| reader.force(force))),
         (
             "moved",
             outcome.map(|outcome| reader.movement(outcome.movement_m)),
         ),
-        (
-            "exceeded after",
-            first.map(|first| first.years.map_or_else(|| passes(first.pass), after)),
-        ),
+        ("exceeded after", after),
         ("cost", cost),
     ]
 }
@@ -143,10 +134,8 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
     };
     let names = cells(&comparison.measures[0]).map(|(name, _)| name.to_owned());
     let shown = |(_, cell): (_, Option<String>)| cell.unwrap_or_else(|| "–".to_owned());
-    let rows = comparison
-        .measures
-        .iter()
-        .map(|measure| cells(measure).map(shown).collect());
+    let rows = comparison.measures.iter();
+    let rows = rows.map(|measure| cells(measure).map(shown).collect());
     Table {
         head: names.collect(),
         rows: rows.collect(),
@@ -156,15 +145,14 @@ pub fn measures(comparison: &Comparison, reader: &Reader) -> Table {
 
 /// Runs that failed, each with its reason.
 pub fn failures(comparison: &Comparison) -> Vec<String> {
-    let measures = comparison.measures.iter();
-    let all = measures.flat_map(|measure| {
-        measure
-            .failures
-            .iter()
-            .map(move |failure| (&measure.name, failure))
-    });
-    all.map(|(name, (at, reason))| format!("failed: {name} with {}: {reason}", combination(at)))
-        .collect()
+    let of = |measure: &MeasureAnswer| {
+        let failed = |(at, reason): &(Combination, String)| {
+            let (name, at) = (&measure.name, combination(at));
+            format!("failed: {name} with {at}: {reason}")
+        };
+        measure.failures.iter().map(failed).collect::<Vec<_>>()
+    };
+    comparison.measures.iter().flat_map(of).collect()
 }
 
 /// What to take, or what comes nearest and what decides.
@@ -185,13 +173,13 @@ pub fn recommendation(comparison: &Comparison, reader: &Reader) -> String {
             "Recommended: {name}{fitted}: {why}; it holds in every combination, with at most {share} of a limit."
         );
     }
-    let decides = comparison.decides.as_ref();
-    let decides = decides.map(|key| {
+    let named = |key: &String| {
         format!(
             " What decides most is {}: measure it, or limit it.",
             key_name(key)
         )
-    });
+    };
+    let decides = comparison.decides.as_ref().map(named);
     format!(
         "No measure holds in every combination. {name}{fitted} comes nearest, with {share} of a limit in the worst.{}",
         decides.unwrap_or_default()

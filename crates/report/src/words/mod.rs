@@ -9,7 +9,7 @@ mod scene;
 mod table;
 
 pub use answer::{Answer, Fact};
-pub use number::{count, round_below, significant};
+pub use number::{count, range, round_below, significant};
 pub use reader::Reader;
-pub use scene::{SceneWords, held_by, middle};
+pub use scene::{held_by, middle};
 pub use table::{Table, after_pass, candidates, error_parts, over_day, solved};

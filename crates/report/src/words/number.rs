@@ -66,6 +66,13 @@ pub fn passes(number: u64) -> String {
     }
 }
 
+/// The least and the largest of some values; infinite without any.
+pub fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    let wider = |[least, most]: [f64; 2], value: f64| [least.min(value), most.max(value)];
+    values.into_iter().fold(none, wider)
+}
+
 /// The largest of …, 0.5, 1, 2, 5, 10, … that is not above `number`, which is positive.
 pub fn round_below(number: f64) -> f64 {
     // The cube root of a thousand comes out a little below ten.

@@ -1,25 +1,19 @@
-//! A scene in words.
+//! The scene of a run in words.
 
 use ground_field::{Base, Direction, Modulus};
 
-use super::number::{passes, power_of_ten, quantity, significant};
+use super::answer::Answer;
+use super::number::{passes, power_of_ten, quantity, range, significant};
 use super::reader::Reader;
 use super::table::Table;
 use creepage_plan::{ground::load_ratio, shown::words_if};
 use creepage_run::answer::after;
-use creepage_scene::{Arrangement, End, FrictionLaw, Order, RouteSection, Scene, TrafficVehicle};
+use creepage_scene::{Arrangement, End, FrictionLaw, Order, RouteSection, TrafficVehicle};
 
 /// Vehicles that differ by their load alone have one row where there are more than this.
 const MOST_ROWS: usize = 12;
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;
-
-/// What lies where and what holds it.
-#[derive(Clone, Copy)]
-pub struct SceneWords<'a> {
-    pub scene: &'a Scene,
-    pub reader: Reader,
-}
 
 /// What holds an end: "free", "fixed", "spring of 3000 kN/m".
 pub fn held_by(end: End, reader: &Reader) -> String {
@@ -38,17 +32,14 @@ fn sloping(slope: f64, along: &str) -> String {
 
 /// Middle between a vehicle's outer wheels, to the left of the line from which the scene measures \[m\].
 pub fn middle(vehicle: &TrafficVehicle) -> f64 {
-    let sides = vehicle.wheels().into_iter().map(|wheel| wheel.y);
-    let [right, left] = sides.fold([f64::INFINITY, f64::NEG_INFINITY], |[right, left], side| {
-        [right.min(side), left.max(side)]
-    });
+    let [right, left] = range(vehicle.wheels().into_iter().map(|wheel| wheel.y));
     0.5 * (right + left) + vehicle.lateral_offset
 }
 
-impl SceneWords<'_> {
-    /// A point for each part; `largest` is the largest compression in the cable \[N\], which bends make felt.
-    pub fn points(&self, largest: f64) -> Vec<String> {
-        let Self { scene, reader } = self;
+impl Answer<'_> {
+    /// What lies where and what holds it: a point for each part.
+    pub fn points(&self) -> Vec<String> {
+        let Self { scene, reader, .. } = self;
         let (long, deep) = (reader.length(scene.duct.length), reader.length(scene.duct.depth));
         let [upstream, downstream] =
             [scene.ends.upstream, scene.ends.downstream].map(|end| held_by(end, reader));
@@ -64,7 +55,7 @@ impl SceneWords<'_> {
         let mut begin = 0.0;
         for section in &scene.route {
             let end = begin + section.length.unwrap_or(0.0);
-            points.push(self.section(section, begin, end, largest));
+            points.push(self.section(section, begin, end));
             begin = end;
         }
         for (number, clamp) in (1..).zip(&scene.restraints) {
@@ -91,8 +82,10 @@ impl SceneWords<'_> {
     }
 
     /// A part of the route, and what its bend does.
-    fn section(&self, section: &RouteSection, begin: f64, end: f64, largest: f64) -> String {
-        let Self { scene, reader } = self;
+    fn section(&self, section: &RouteSection, begin: f64, end: f64) -> String {
+        let Self { scene, reader, run } = self;
+        let compressions = run.passes.iter().map(|pass| pass.max_compression_n.abs());
+        let largest = compressions.fold(0.0, f64::max);
         let slope = match section.slope {
             0.0 => "level".to_owned(),
             slope => sloping(slope, ""),
@@ -113,7 +106,7 @@ impl SceneWords<'_> {
     }
 
     fn cable(&self) -> String {
-        let Self { scene, reader } = self;
+        let Self { scene, reader, .. } = self;
         let cable = &scene.cable;
         let (under, place) = match cable.arrangement {
             Arrangement::TrefoilUpper => ("the two lower cables", "the upper one of three cables in trefoil"),
@@ -136,7 +129,7 @@ impl SceneWords<'_> {
     }
 
     fn friction(&self) -> String {
-        let Self { scene, reader } = self;
+        let Self { scene, reader, .. } = self;
         let shape = |b: f64| format!("shape factor {} 1/m", power_of_ten(b));
         let law = match scene.friction.law() {
             FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
@@ -179,7 +172,7 @@ impl SceneWords<'_> {
 
     /// The layers of the ground from the surface down; none of a ground that cannot be.
     pub fn ground(&self) -> Option<Table> {
-        let Self { scene, reader } = self;
+        let Self { scene, reader, .. } = self;
         let profile = scene.ground.profile().ok()?;
         let row = |depth: String, modulus: Modulus, ratio: f64| {
             vec![depth, reader.moduli(modulus), significant(ratio)]
@@ -202,12 +195,8 @@ impl SceneWords<'_> {
             }
             Base::Rigid => vec![below, "rock that does not move".into(), "–".into()],
         });
-        let head = ["ground at depth", "Young’s modulus", "Poisson’s ratio"].map(str::to_owned);
-        Some(Table {
-            head: head.into(),
-            rows,
-            words: 1,
-        })
+        let head = ["ground at depth", "Young’s modulus", "Poisson’s ratio"];
+        Some(Table::new(head, rows, 1))
     }
 
     /// How the ground was scaled to a measurement, if it was.
@@ -224,7 +213,7 @@ impl SceneWords<'_> {
 
     /// The vehicles, and where they drive.
     pub fn vehicles(&self) -> Table {
-        let Self { scene, reader } = self;
+        let Self { scene, reader, .. } = self;
         let first = &scene.vehicles[0];
         let alike = |other: &TrafficVehicle| load_ratio(other, first).is_some();
         let row = |(vehicle, share): (&TrafficVehicle, f64)| {
@@ -245,12 +234,7 @@ impl SceneWords<'_> {
             let name = format!("{} classes of axles", rows.len());
             rows = vec![vec![name, rows[0][1].clone(), self.loads(), "100 %".to_owned()]];
         }
-        let head = ["vehicle", "drives", "load", "share"].map(str::to_owned);
-        Table {
-            head: head.into(),
-            rows,
-            words: 3,
-        }
+        Table::new(["vehicle", "drives", "load", "share"], rows, 3)
     }
 
     /// The range of the vehicles' loads and their mean.
@@ -258,8 +242,7 @@ impl SceneWords<'_> {
         let weights = || self.scene.vehicles.iter().map(TrafficVehicle::weight);
         let shared = weights().zip(self.scene.shares());
         let mean: f64 = shared.map(|(weight, share)| share * weight).sum();
-        let least = weights().fold(f64::INFINITY, f64::min);
-        let most = weights().fold(0.0, f64::max);
+        let [least, most] = range(weights());
         let [least, most, mean] = [least, most, mean].map(|load| self.reader.load(load));
         format!("{least} to {most}, in the mean {mean}")
     }

@@ -18,6 +18,14 @@ pub struct Table {
     pub words: usize,
 }
 
+impl Table {
+    /// The `rows` below these heads.
+    pub fn new<const COLUMNS: usize>(head: [&str; COLUMNS], rows: Vec<Vec<String>>, words: usize) -> Self {
+        let head = head.map(str::to_owned).into();
+        Self { head, rows, words }
+    }
+}
+
 /// The force on an end or its movement, and what its column is called.
 type Column = (String, CableEnd, Limited);
 
@@ -65,26 +73,22 @@ impl Answer<'_> {
         let rows = table_rows(all, &scene.traffic);
         let a_day = run.heat.as_ref().map(|heat| heat.passes_per_day);
         let (kind, kinds) = in_rows(&rows, scene, a_day, run.random.is_some()).unzip();
+        let mut head = vec!["after pass".to_owned()];
+        head.extend(scene.traffic.per_day.map(|_| "time".to_owned()));
+        head.extend(columns.iter().map(|(name, ..)| name.clone()));
+        head.extend(has_room.then(|| reader.head("largest in cable", Limited::Force)));
+        head.extend(kind.map(str::to_owned));
         let mut kinds = kinds.into_iter().flatten();
         let row = |record: &PassRecord| {
-            let value =
-                |(_, end, quantity): &Column| reader.number(*quantity, after_pass(record, *end, *quantity));
-            let first = std::iter::once(count(record.pass)).chain(record.years.map(after));
-            let values = first.chain(columns.iter().map(value));
-            let inside = has_room.then(|| reader.number(Limited::Force, record.max_compression_n));
-            values.chain(inside).chain(kinds.next()).collect()
+            let value = |end, quantity| reader.number(quantity, after_pass(record, end, quantity));
+            let mut row = vec![count(record.pass)];
+            row.extend(record.years.map(after));
+            row.extend(columns.iter().map(|(_, end, quantity)| value(*end, *quantity)));
+            row.extend(has_room.then(|| reader.number(Limited::Force, record.max_compression_n)));
+            row.extend(kinds.next());
+            row
         };
         let rows = rows.into_iter().map(row).collect();
-        let first = ["after pass"]
-            .into_iter()
-            .chain(scene.traffic.per_day.map(|_| "time"));
-        let names = first.chain(columns.iter().map(|(name, ..)| name.as_str()));
-        let inside = has_room.then(|| reader.head("largest in cable", Limited::Force));
-        let head = names
-            .chain(inside.as_deref())
-            .chain(kind)
-            .map(str::to_owned)
-            .collect();
         Table { head, rows, words: 0 }
     }
 
@@ -93,9 +97,8 @@ impl Answer<'_> {
         let Self { run, reader, .. } = self;
         let heat = run.heat.as_ref()?;
         let columns = columns(reader, "place of the * end", |end, quantity| {
-            run.days
-                .iter()
-                .all(|day| over_day(day, end, quantity) == [0.0; 2])
+            let mut days = run.days.iter();
+            days.all(|day| over_day(day, end, quantity) == [0.0; 2])
         });
         let row = |name: String, day: &DayExtremes| {
             let ranges = columns.iter().map(|(_, end, quantity)| {
@@ -107,8 +110,8 @@ impl Answer<'_> {
         let days = table_days(&run.days, heat.periodic_from_day).into_iter();
         let mut rows: Vec<Vec<String>> = days.map(|day| row(count(day.day), day)).collect();
         rows.push(row("all days".into(), &heat.all_days));
-        let head = std::iter::once("day".to_owned()).chain(columns.iter().map(|(name, ..)| name.clone()));
-        let head = head.collect();
+        let mut head = vec!["day".to_owned()];
+        head.extend(columns.into_iter().map(|(name, ..)| name));
         Some(Table { head, rows, words: 0 })
     }
 
@@ -160,13 +163,8 @@ pub fn candidates(candidates: &[Candidate]) -> Table {
             candidate.reason.clone(),
         ]
     };
-    let head = ["model", "before the run: error, time", "why, or why not"].map(str::to_owned);
-    let rows = candidates.iter().map(row).collect();
-    Table {
-        head: head.into(),
-        rows,
-        words: 3,
-    }
+    let head = ["model", "before the run: error, time", "why, or why not"];
+    Table::new(head, candidates.iter().map(row).collect(), 3)
 }
 
 /// How a run was solved.
@@ -183,11 +181,6 @@ pub fn error_parts(run: &Run) -> Table {
     let row = |name: &str, share: f64| vec![name.to_owned(), percent(share)];
     let rows = ErrorSource::ALL.map(|source| row(source.name(), parts.of(source)));
     let movement = row("movement of the ends, all parts together", parts.movement);
-    let head = ["part", "error"].map(str::to_owned);
     let rows = rows.into_iter().chain([movement]).collect();
-    Table {
-        head: head.into(),
-        rows,
-        words: 1,
-    }
+    Table::new(["part", "error"], rows, 1)
 }
