@@ -5,7 +5,7 @@ mod common;
 use std::error::Error;
 
 use calibrate::{Calibration, CalibrationError, Loss, Model, ModelError, Parameter, Prior, Scale, Warning};
-use common::{noisy, options, passes, saturation, saturation_parameters};
+use common::{noisy, passes, saturation, saturation_parameters};
 use fastrand::Rng;
 
 #[test]
@@ -127,7 +127,7 @@ fn covariance_is_that_of_the_analytic_jacobian() {
             .unwrap()
             .with_sigmas(vec![sigma; n.len()])
             .unwrap()
-            .with_options(options(|options| options.relative_noise = relative_noise))
+            .with_relative_noise(relative_noise)
             .unwrap()
             .fit()
             .unwrap();
@@ -261,8 +261,7 @@ fn outliers_hardly_move_a_robust_fit() {
         let force = |data: &[f64], loss| {
             let fit = Calibration::new(&model, saturation_parameters(), data.to_vec())
                 .unwrap()
-                .with_options(options(|options| options.loss = loss))
-                .unwrap()
+                .with_loss(loss)
                 .fit()
                 .unwrap();
             (fit.estimates[0].value, fit.weights)
@@ -288,8 +287,7 @@ fn robust_intervals_cover_the_truth() {
         let data = noisy(&exact, 8.0, seeds.u64(..));
         let fit = Calibration::new(&model, saturation_parameters(), data)
             .unwrap()
-            .with_options(options(|options| options.loss = Loss::Tukey))
-            .unwrap()
+            .with_loss(Loss::Tukey)
             .fit()
             .unwrap();
         for (covered, (estimate, truth)) in covered.iter_mut().zip(fit.estimates.iter().zip(truth)) {
@@ -460,7 +458,7 @@ fn shift_is_that_of_a_refit() {
 }
 
 #[test]
-fn limits_are_kept() {
+fn runs_are_counted() {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     let runs = AtomicUsize::new(0);
@@ -470,26 +468,12 @@ fn limits_are_kept() {
         inner(p)
     };
     let data = noisy(&inner(&[550.0, 12.0]).unwrap(), 5.0, 21);
-    let calibration = |options| {
-        Calibration::new(&model, saturation_parameters(), data.clone())
-            .unwrap()
-            .with_options(options)
-            .unwrap()
-    };
-    let fit = calibration(options(|_| {})).fit().unwrap();
+    let calibration = Calibration::new(&model, saturation_parameters(), data).unwrap();
+    let fit = calibration.fit().unwrap();
     assert_eq!(fit.evaluations, runs.load(Ordering::Relaxed));
     assert!(fit.evaluations <= 120, "{}", fit.evaluations);
 
-    let limited = options(|options| options.max_evaluations = 30);
-    let error = calibration(limited).fit().unwrap_err();
-    assert!(
-        matches!(error, CalibrationError::EvaluationLimit { limit: 30 }),
-        "{error}"
-    );
-
-    let rough = calibration(options(|options| options.profiles = false))
-        .fit()
-        .unwrap();
+    let rough = calibration.without_profiles().fit().unwrap();
     assert!(rough.evaluations < fit.evaluations);
 }
 

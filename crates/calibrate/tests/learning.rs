@@ -5,7 +5,7 @@ mod common;
 use calibrate::{
     Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Parameter, Part, Prior, Scale,
 };
-use common::{noisy, options, passes, saturation, saturation_parameters};
+use common::{noisy, passes, saturation, saturation_parameters};
 
 /// Differences of two fits' values and closed ends, in standard errors; what is open in one is open in both.
 fn differences(one: &Fit, other: &Fit) -> Vec<f64> {
@@ -40,8 +40,7 @@ fn a_smooth_model_takes_few_runs() {
             if let Some(sigma) = sigmas {
                 calibration = calibration.with_sigmas(vec![sigma; 40]).unwrap();
             }
-            let options = options(|options| options.loss = loss);
-            let fit = calibration.with_options(options).unwrap().fit().unwrap();
+            let fit = calibration.with_loss(loss).fit().unwrap();
             for (estimate, truth) in fit.estimates.iter().zip(truth) {
                 let off = (estimate.value - truth) / estimate.standard_error.unwrap();
                 assert!(off.abs() < 3.0, "{estimate:?}");

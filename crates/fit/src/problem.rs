@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError, Options, Part};
+use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError, Part};
 use rayon::prelude::*;
 
 use crate::discrepancy::discrepancy;
@@ -86,12 +86,16 @@ impl Problem<'_> {
         let values = pairs.map(|(row, difference)| row.reading.value - difference);
         let fit = || {
             let mut calibration = Calibration::new(&model, parameters.collect(), values.collect())?
-                .with_options(self.statistics(&way))?
+                .with_loss(self.options.loss)
+                .with_relative_noise(self.ripple(way.mesh))?
                 .with_discrepancy(&functions)?;
             if let Some(sigmas) = self.rows.iter().map(|row| row.reading.sigma).collect() {
                 calibration = calibration.with_sigmas(sigmas)?;
             } else if let Some(relative) = relative_sigmas(self.rows) {
                 calibration = calibration.with_relative_sigmas(relative)?;
+            }
+            if !way.profiles {
+                calibration = calibration.without_profiles();
             }
             if let Some(emulator) = known {
                 calibration = calibration.with_emulator(emulator);
@@ -101,16 +105,14 @@ impl Problem<'_> {
         fit().map_err(study)
     }
 
-    fn statistics(&self, way: &Way<'_>) -> Options {
-        let level = |model: &SeriesModel| model.levels.fineness(model.level(way.mesh));
-        let models = self.models.iter();
-        let errors = models.map(|model| Levels::typical_error(level(model)));
-        let mut options = Options::default();
-        options.loss = self.options.loss;
-        options.max_evaluations = MOST_RUNS;
-        options.relative_noise = RIPPLE * errors.fold(0.0, f64::max);
-        options.profiles = way.profiles;
-        options
+    /// Noise of the predictions on a mesh, as a share of them.
+    fn ripple(&self, mesh: MeshOf) -> f64 {
+        let level = |model: &SeriesModel| model.levels.fineness(model.level(mesh));
+        let errors = self
+            .models
+            .iter()
+            .map(|model| Levels::typical_error(level(model)));
+        RIPPLE * errors.fold(0.0, f64::max)
     }
 
     /// What the scenes say.

@@ -1,6 +1,6 @@
 //! A closed-form model whose covariance is known exactly, and seeded noise.
 
-use calibrate::{ModelError, Options, Parameter, Scale};
+use calibrate::{ModelError, Parameter, Scale};
 use fastrand::Rng;
 
 /// F = F_s (1 − e^(−n/τ)) after passes n, with parameters F_s and τ.
@@ -12,14 +12,6 @@ pub fn saturation(passes: &[f64]) -> impl Fn(&[f64]) -> Result<Vec<f64>, ModelEr
             .map(|n: &f64| p[0] * (1.0 - (-n / p[1]).exp()))
             .collect())
     }
-}
-
-/// The usual options but for a change.
-#[allow(dead_code, reason = "not every test binary changes options")]
-pub fn options(change: impl FnOnce(&mut Options)) -> Options {
-    let mut options = Options::default();
-    change(&mut options);
-    options
 }
 
 /// Its parameters.
