@@ -16,7 +16,7 @@ const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
 /// What looks mistaken beside what the scenes' own values predict.
 pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
-    let expected = problem.predict(MeshOf::Guess, 1.0, &problem.scene_values())?;
+    let expected = problem.predict(MeshOf::Guess, 1.0, &[])?;
     let mut mistakes = Vec::new();
     for instrument in instruments(problem.rows) {
         if let Measured::Force(Place::End(end)) = instrument.1 {

@@ -42,15 +42,6 @@ pub struct Runs {
     stopped: AtomicBool,
 }
 
-/// How to fit.
-#[derive(Clone, Copy)]
-pub struct Way<'a> {
-    pub mesh: MeshOf,
-    /// Added to what the mesh predicts, without the errors of the cells.
-    pub difference: &'a [f64],
-    pub profiles: bool,
-}
-
 impl Problem<'_> {
     /// What is fitted of friction and ground.
     pub fn of_model(&self) -> &[Fitted] {
@@ -59,10 +50,10 @@ impl Problem<'_> {
         &self.fitted[..count.unwrap_or(self.fitted.len())]
     }
 
-    /// What a mesh predicts with these values of all parameters, on ground of this stiffness.
+    /// What a mesh predicts with these values of all parameters, or with those of the scenes if there are
+    /// none, on ground of this stiffness.
     pub fn predict(&self, mesh: MeshOf, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, Error> {
-        let model = OnMesh(self, mesh, stiffness);
-        let predicted = model.predict(&values[..self.of_model().len()]);
+        let predicted = OnMesh(self, mesh, stiffness).predict(values);
         let mut predicted =
             predicted.map_err(|source| study(CalibrationError::NoAnswer { places: 1, source }))?;
         for (fitted, size) in self.fitted.iter().zip(values) {
@@ -74,27 +65,34 @@ impl Problem<'_> {
         Ok(predicted)
     }
 
-    /// Fits, with what is known of the model before.
-    pub fn fit(&self, way: Way<'_>, known: Option<Emulator>) -> Result<Fit, Error> {
+    /// Fits to a mesh and what is to be added to its predictions, without the errors of the cells, with
+    /// profiles or without, and with what is `known` of the model before.
+    pub fn fit(
+        &self,
+        mesh: MeshOf,
+        difference: &[f64],
+        has_profiles: bool,
+        known: Option<Emulator>,
+    ) -> Result<Fit, Error> {
         let functions = match self.options.discrepancy {
             Some(share) => discrepancy(self.rows, share)?,
             None => Vec::new(),
         };
-        let model = OnMesh(self, way.mesh, 1.0);
+        let model = OnMesh(self, mesh, 1.0);
         let parameters = self.fitted.iter().map(|fitted| fitted.parameter.clone());
-        let pairs = self.rows.iter().zip(way.difference);
+        let pairs = self.rows.iter().zip(difference);
         let values = pairs.map(|(row, difference)| row.reading.value - difference);
         let fit = || {
             let mut calibration = Calibration::new(&model, parameters.collect(), values.collect())?
                 .with_loss(self.options.loss)
-                .with_relative_noise(self.ripple(way.mesh))?
+                .with_relative_noise(self.ripple(mesh))?
                 .with_discrepancy(&functions)?;
             if let Some(sigmas) = self.rows.iter().map(|row| row.reading.sigma).collect() {
                 calibration = calibration.with_sigmas(sigmas)?;
             } else if let Some(relative) = relative_sigmas(self.rows) {
                 calibration = calibration.with_relative_sigmas(relative)?;
             }
-            if !way.profiles {
+            if !has_profiles {
                 calibration = calibration.without_profiles();
             }
             if let Some(emulator) = known {
@@ -113,16 +111,6 @@ impl Problem<'_> {
             .iter()
             .map(|model| Levels::typical_error(level(model)));
         RIPPLE * errors.fold(0.0, f64::max)
-    }
-
-    /// What the scenes say.
-    pub fn scene_values(&self) -> Vec<f64> {
-        let value = |Fitted { unknown, .. }: &Fitted| {
-            let (lower, upper) = unknown.quantity.bounds();
-            let scene = self.series[unknown.series.unwrap_or(0)].scene;
-            unknown.quantity.value(scene).clamp(lower, upper)
-        };
-        self.fitted.iter().map(value).collect()
     }
 
     /// Counts a model run. Once the caller has stopped the calibration every further run fails at
