@@ -34,13 +34,13 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
             warnings.push(format!("the mesh may move {name} by {error:.1} {words}"));
         }
     }
-    warnings.extend(series.iter().flat_map(|one| one.readings.notes()).cloned());
+    warnings.extend(series.iter().flat_map(|one| &one.readings.notes).cloned());
     let parameters = fit.estimates.iter().zip(problem.fitted);
     let parameter = |(estimate, fitted): (&Estimate, _)| parameter(estimate, fitted, lack_of_fit.suspicious);
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
     // Where readings have their own sigmas, there is no single noise.
-    let own_sigmas = series.iter().all(|one| one.readings.sigmas().is_some());
+    let own_sigmas = problem.rows.iter().all(|row| row.reading.sigma.is_some());
     let answer = Calibrated {
         titles: series.iter().map(|one| one.scene.title.clone()).collect(),
         parameters: parameters.map(parameter).collect(),
@@ -128,7 +128,7 @@ fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
             fitted_n: force(fitted),
             residual_n: force(residual),
             weight: fit.weights[k],
-            run: problem.series[row.series].readings.runs()[reading.run].clone(),
+            run: problem.series[row.series].readings.runs[reading.run].clone(),
             line: reading.line,
             measured: measured.name(),
             at: measured.place(),

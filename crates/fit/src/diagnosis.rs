@@ -129,7 +129,7 @@ fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -
     match error {
         _ if has_outliers => "try --robust first, which leaves the outliers out".into(),
         Some(quantity) => format!("try --fit {}", fit_it(quantity)),
-        None if series.iter().any(|one| one.readings.runs().len() > 1) => {
+        None if series.iter().any(|one| one.readings.runs.len() > 1) => {
             "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of \
              the scene"
                 .into()

@@ -78,7 +78,7 @@ impl SeriesModel {
                 reading,
             })
         };
-        let rows = series.readings.readings().iter().map(row);
+        let rows = series.readings.list.iter().map(row);
         let rows = rows.collect::<Result<Vec<_>, Error>>()?;
         let mut scene = series.scene.clone();
         scene.traffic.passes = series.readings.last_pass();
