@@ -121,13 +121,18 @@ impl Row {
     }
 }
 
-/// All instruments, each once.
+/// All instruments, in the order of the readings.
 pub fn instruments(rows: &[Row]) -> Vec<Instrument> {
-    let mut instruments = Vec::new();
-    for row in rows {
-        if !instruments.contains(&row.instrument()) {
-            instruments.push(row.instrument());
+    each_once(rows.iter().map(Row::instrument))
+}
+
+/// Items without those that came before.
+pub fn each_once<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut once = Vec::new();
+    for item in items {
+        if !once.contains(&item) {
+            once.push(item);
         }
     }
-    instruments
+    once
 }

@@ -79,10 +79,9 @@ fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrat
     let models = models.collect::<Result<Vec<_>, _>>()?;
     let rows: Vec<Row> = models.iter().flat_map(|model| model.rows.clone()).collect();
     let problem = Problem {
-        series,
         models: &models,
         rows: &rows,
-        fitted: &parameters::parameters(series, &models, &rows, options)?,
+        fitted: &parameters::parameters(&models, &rows, options)?,
         options,
         runs: &Runs::default(),
     };

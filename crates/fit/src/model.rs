@@ -12,7 +12,7 @@ use ground_field::DuctMotion;
 
 use crate::instrument::{Row, located, shown};
 use crate::options::Series;
-use crate::readings::{Measured, Place, Reading};
+use crate::readings::{Measured, Place, Reading, Readings};
 use creepage_plan::ground::Ground;
 use creepage_plan::{Levels, Period, plan};
 use creepage_run::{
@@ -49,8 +49,9 @@ pub enum MeshOf {
 }
 
 /// One series, ready to be predicted.
-pub struct SeriesModel {
+pub struct SeriesModel<'a> {
     pub scene: Scene,
+    pub readings: &'a Readings,
     pub ground: Arc<Ground>,
     method: SolverMethod,
     pub levels: Levels,
@@ -63,9 +64,9 @@ pub struct SeriesModel {
     wanted: Vec<u64>,
 }
 
-impl SeriesModel {
+impl<'a> SeriesModel<'a> {
     /// Of the series with this index.
-    pub fn new(index: usize, series: &Series<'_>) -> Result<Self, Error> {
+    pub fn new(index: usize, series: &Series<'a>) -> Result<Self, Error> {
         if series.scene.warming().is_some() {
             let reason = "a fit follows passes, not days of heat: leave [heat] out, and readings at which the cable was warm";
             return Err(Error::unfit("heat", "a heated cable", reason));
@@ -89,6 +90,7 @@ impl SeriesModel {
         };
         let mut model = Self {
             scene,
+            readings: series.readings,
             ground,
             method,
             levels,

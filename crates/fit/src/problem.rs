@@ -10,7 +10,7 @@ use crate::error::study;
 use crate::instrument::Row;
 use crate::model::{MeshOf, SeriesModel};
 use crate::noise::relative_sigmas;
-use crate::options::{CalibrateOptions, Series};
+use crate::options::CalibrateOptions;
 use crate::parameters::Fitted;
 use crate::unknown::Quantity;
 use creepage_plan::Levels;
@@ -25,8 +25,7 @@ pub const MOST_RUNS: usize = 2000;
 
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
-    pub series: &'a [Series<'a>],
-    pub models: &'a [SeriesModel],
+    pub models: &'a [SeriesModel<'a>],
     /// All readings.
     pub rows: &'a [Row],
     /// What is fitted: of friction and ground first, then of the load cells.
@@ -105,7 +104,7 @@ impl Problem<'_> {
 
     /// Noise of the predictions on a mesh, as a share of them.
     fn ripple(&self, mesh: MeshOf) -> f64 {
-        let level = |model: &SeriesModel| model.levels.fineness(model.level(mesh));
+        let level = |model: &SeriesModel<'_>| model.levels.fineness(model.level(mesh));
         let errors = self
             .models
             .iter()
@@ -138,7 +137,7 @@ struct OnMesh<'a>(&'a Problem<'a>, MeshOf, f64);
 impl Model for OnMesh<'_> {
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
         let &Self(problem, mesh, stiffness) = self;
-        let of_series = |(index, series): (usize, &SeriesModel)| {
+        let of_series = |(index, series): (usize, &SeriesModel<'_>)| {
             let (mut scene, mut stiffness) = (series.scene.clone(), stiffness);
             for (Fitted { unknown, .. }, &value) in problem.fitted.iter().zip(parameters) {
                 if unknown.acts_on(index) {
@@ -158,7 +157,7 @@ impl Model for OnMesh<'_> {
 
     fn parts(&self) -> Vec<Part> {
         let fitted = self.0.of_model();
-        let of_series = |(index, series): (usize, &SeriesModel)| {
+        let of_series = |(index, series): (usize, &SeriesModel<'_>)| {
             let acts = |&k: &usize| fitted[k].unknown.acts_on(index);
             Part {
                 predictions: series.rows.len(),
