@@ -5,12 +5,12 @@ use calibrate::{Estimate, Fit, Loss};
 
 use crate::diagnosis::{LEFT_OUT, diagnose};
 use crate::ground;
-use crate::instrument::{Row, each_once};
+use crate::instrument::each_once;
 use crate::meshes::Final;
 use crate::model::{MeshOf, SeriesModel};
 use crate::parameters::Fitted;
 use crate::problem::Problem;
-use crate::readings::Measured;
+use crate::readings::{Measured, Reading};
 use crate::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
@@ -40,7 +40,7 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
     // Where readings have their own sigmas, there is no single noise.
-    let own_sigmas = problem.rows.iter().all(|row| row.reading.sigma.is_some());
+    let own_sigmas = problem.rows.iter().all(|row| row.sigma.is_some());
     let answer = Calibrated {
         titles: models.iter().map(|model| model.scene.title.clone()).collect(),
         parameters: parameters.map(parameter).collect(),
@@ -91,7 +91,7 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
     let (models, options) = (problem.models, problem.options);
     let mesh = |model: &SeriesModel<'_>| model.levels.mesh(model.level(MeshOf::Answer));
     let meshes = models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
-    let places = models.iter().map(|model| model.rows[0].reading.measured.place());
+    let places = models.iter().map(|model| model.rows[0].measured.place());
     let freedom = four_digits(fit.degrees_of_freedom);
     let noise = if fit.noise_estimated {
         format!(", Student's t with {freedom} degrees of freedom")
@@ -117,18 +117,18 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
 
 fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
     let fit = &found.fit;
-    let fitted = |(k, row): (usize, &Row)| {
-        let (reading, measured) = (row.reading, row.reading.measured);
+    let fitted = |(k, reading): (usize, &Reading)| {
+        let measured = reading.measured;
         let force = |value: f64| matches!(measured, Measured::Force(_)).then_some(value);
         let (fitted, residual) = (fit.fitted[k] + found.difference[k], fit.residuals[k]);
         FittedReading {
-            series: row.series + 1,
+            series: reading.series + 1,
             pass: reading.pass,
             force_n: force(reading.value),
             fitted_n: force(fitted),
             residual_n: force(residual),
             weight: fit.weights[k],
-            run: problem.models[row.series].readings.runs[reading.run].clone(),
+            run: problem.models[reading.series].readings.runs[reading.run].clone(),
             line: reading.line,
             measured: measured.name(),
             at: measured.place(),

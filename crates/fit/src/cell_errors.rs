@@ -5,11 +5,11 @@
 
 use calibrate::{Fit, probability_of_gain};
 
-use crate::instrument::Instrument;
 use crate::meshes::Final;
 use crate::model::MeshOf;
 use crate::parameters::{Fitted, cells, error_of};
 use crate::problem::Problem;
+use crate::readings::Instrument;
 use crate::unknown::Quantity;
 use creepage_run::Error;
 

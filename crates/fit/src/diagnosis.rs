@@ -7,10 +7,11 @@
 use calibrate::{Loss, probability_of_scatter, probability_of_signs, probability_of_size};
 
 use crate::cell_errors::{CellError, cell_error};
-use crate::instrument::{Row, each_once};
+use crate::instrument::each_once;
 use crate::meshes::Final;
 use crate::noise::{MEDIAN_TO_SIGMA, median};
 use crate::problem::Problem;
+use crate::readings::Reading;
 use crate::result::{LackOfFit, misses_by};
 use crate::unknown::Quantity;
 use creepage_plan::shown::words_if;
@@ -155,8 +156,8 @@ fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
 
 /// Residuals of each run and instrument, or of all that have one reading, in the order of the
 /// passes.
-fn sequences(rows: &[Row], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
-    let key = |row: usize| (rows[row].instrument(), rows[row].reading.run);
+fn sequences(rows: &[Reading], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
+    let key = |row: usize| (rows[row].instrument(), rows[row].run);
     let group = |of| judged.iter().copied().filter(|&row| key(row) == of).collect();
     let groups = each_once(judged.iter().map(|&row| key(row)))
         .into_iter()
@@ -166,18 +167,24 @@ fn sequences(rows: &[Row], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
         groups.partition(|group: &Vec<usize>| group.len() > 1);
     groups.push(alone.concat());
     for group in &mut groups {
-        group.sort_by_key(|&row| rows[row].reading.passes);
+        group.sort_by_key(|&row| rows[row].passes);
     }
     let residuals = |group: &Vec<usize>| group.iter().map(|&row| noise[row]).collect();
     groups.iter().map(residuals).collect()
 }
 
 /// The outliers by pass and line.
-fn outlier_words(rows: &[Row], outliers: &[usize], is_robust: bool) -> String {
+fn outlier_words(rows: &[Reading], outliers: &[usize], is_robust: bool) -> String {
     let several = rows.iter().any(|row| row.series > 0);
     let one = |&row: &usize| {
-        let (reading, of_series) = (rows[row].reading, format!(" of series {}", rows[row].series + 1));
-        let (pass, of, line) = (reading.pass, words_if(several, &of_series), reading.line);
+        let Reading {
+            series, pass, line, ..
+        } = rows[row];
+        let of = if several {
+            format!(" of series {}", series + 1)
+        } else {
+            String::new()
+        };
         format!("pass {pass}{of} (line {line})")
     };
     let passes: Vec<String> = outliers.iter().map(one).collect();

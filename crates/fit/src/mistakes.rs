@@ -22,8 +22,8 @@ pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
         if let Measured::Force(Place::End(end)) = instrument.1 {
             // The zero reading has no sign and no size.
             let pairs = problem.rows.iter().zip(&expected);
-            let own = pairs.filter(|(row, _)| row.instrument() == instrument && row.reading.passes > 0);
-            let both: Vec<(f64, f64)> = own.map(|(row, force)| (row.reading.value, *force)).collect();
+            let own = pairs.filter(|(row, _)| row.instrument() == instrument && row.passes > 0);
+            let both: Vec<(f64, f64)> = own.map(|(row, force)| (row.value, *force)).collect();
             mistakes.extend(of_forces(end.name(), &both));
         }
     }

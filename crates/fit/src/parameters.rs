@@ -5,11 +5,11 @@
 
 use calibrate::{Loss, Parameter, Prior, Scale};
 
-use crate::error::study;
-use crate::instrument::{Instrument, Row, instruments};
+use crate::instrument::instruments;
 use crate::model::SeriesModel;
 use crate::options::{CalibrateOptions, Deflection};
-use crate::readings::Measured;
+use crate::problem::study;
+use crate::readings::{Instrument, Measured, Reading};
 use crate::unknown::{Quantity, Unknown};
 use creepage_plan::shown::words_if;
 use creepage_run::Error;
@@ -84,7 +84,7 @@ fn check(unknown: Unknown, models: &[SeriesModel<'_>]) -> Result<(), Error> {
 /// The parameters that are asked for: those of friction and ground, then an error of each cell.
 pub fn parameters(
     models: &[SeriesModel<'_>],
-    rows: &[Row],
+    rows: &[Reading],
     options: &CalibrateOptions<'_>,
 ) -> Result<Vec<Fitted>, Error> {
     let mut fitted = Vec::new();
@@ -127,7 +127,7 @@ fn of_model(
 }
 
 /// The load cells of all series.
-pub fn cells(rows: &[Row]) -> Vec<Instrument> {
+pub fn cells(rows: &[Reading]) -> Vec<Instrument> {
     let mut cells = instruments(rows);
     cells.retain(|(_, measured)| matches!(measured, Measured::Force(_)));
     cells
@@ -138,19 +138,19 @@ pub fn cells(rows: &[Row]) -> Vec<Instrument> {
 pub fn error_of(
     cell: Instrument,
     quantity: Quantity,
-    rows: &[Row],
+    rows: &[Reading],
     options: &CalibrateOptions<'_>,
 ) -> Result<Fitted, Error> {
     let own = || rows.iter().filter(|row| row.instrument() == cell);
-    let largest = own().fold(f64::MIN_POSITIVE, |most, row| most.max(row.reading.value.abs()));
-    let last = own().fold(1.0_f64, |most, row| most.max(row.reading.passes as f64));
+    let largest = own().fold(f64::MIN_POSITIVE, |most, row| most.max(row.value.abs()));
+    let last = own().fold(1.0_f64, |most, row| most.max(row.passes as f64));
     let is_drift = quantity == Quantity::Drift;
     let (told, natural) = if is_drift {
         (options.drift_sigma, ERROR * largest / last)
     } else {
         (options.zero_offset_sigma, ERROR * largest)
     };
-    let entry = |row: &Row| match row.reading.passes {
+    let entry = |row: &Reading| match row.passes {
         _ if row.instrument() != cell => 0.0,
         passes if is_drift => passes as f64,
         _ => 1.0,

@@ -6,12 +6,11 @@ use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError,
 use rayon::prelude::*;
 
 use crate::discrepancy::discrepancy;
-use crate::error::study;
-use crate::instrument::Row;
 use crate::model::{MeshOf, SeriesModel};
 use crate::noise::relative_sigmas;
 use crate::options::CalibrateOptions;
 use crate::parameters::Fitted;
+use crate::readings::Reading;
 use crate::unknown::Quantity;
 use creepage_plan::Levels;
 use creepage_run::Error;
@@ -23,11 +22,19 @@ const RIPPLE: f64 = 0.02;
 /// Most model runs of a fit on one mesh: it takes some fifty.
 pub const MOST_RUNS: usize = 2000;
 
+/// What the statistics cannot do.
+pub fn study(error: CalibrationError) -> Error {
+    Error::Study {
+        is_bad_input: error.is_bad_input(),
+        error: error.into(),
+    }
+}
+
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
     pub models: &'a [SeriesModel<'a>],
     /// All readings.
-    pub rows: &'a [Row],
+    pub rows: &'a [Reading],
     /// What is fitted: of friction and ground first, then of the load cells.
     pub fitted: &'a [Fitted],
     pub options: &'a CalibrateOptions<'a>,
@@ -80,13 +87,13 @@ impl Problem<'_> {
         let model = OnMesh(self, mesh, 1.0);
         let parameters = self.fitted.iter().map(|fitted| fitted.parameter.clone());
         let pairs = self.rows.iter().zip(difference);
-        let values = pairs.map(|(row, difference)| row.reading.value - difference);
+        let values = pairs.map(|(row, difference)| row.value - difference);
         let fit = || {
             let mut calibration = Calibration::new(&model, parameters.collect(), values.collect())?
                 .with_loss(self.options.loss)
                 .with_relative_noise(self.ripple(mesh))?
                 .with_discrepancy(&functions)?;
-            if let Some(sigmas) = self.rows.iter().map(|row| row.reading.sigma).collect() {
+            if let Some(sigmas) = self.rows.iter().map(|row| row.sigma).collect() {
                 calibration = calibration.with_sigmas(sigmas)?;
             } else if let Some(relative) = relative_sigmas(self.rows) {
                 calibration = calibration.with_relative_sigmas(relative)?;

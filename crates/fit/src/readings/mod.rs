@@ -23,6 +23,7 @@ use creepage_tables::Table;
 
 pub use creepage_tables::{Options as TableOptions, TableError as DataError};
 pub use options::{ReadOptions, RunStart};
+pub(crate) use reading::Instrument;
 pub use reading::{Measured, Place, Reading};
 
 /// Readings of one scene.
