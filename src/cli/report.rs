@@ -65,7 +65,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .as_deref()
         .map(|file| arguments.reading.read(file))
         .transpose()?;
-    for note in readings.iter().flat_map(crate::Readings::notes) {
+    for note in readings.iter().flat_map(|readings| &readings.notes) {
         terminal::warn(note);
     }
     let table = input.table();
