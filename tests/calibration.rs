@@ -150,7 +150,7 @@ fn a_steep_law_is_called_not_identifiable() {
 #[test]
 fn an_overload_is_no_reading() {
     let clean = readings(&noisy(series(), 3.0, 1)[..12]);
-    let mut list = clean.readings().to_vec();
+    let mut list = clean.list.clone();
     list.insert(7, Reading::force(8, -9.9e37));
     let options = CalibrateOptions {
         unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
@@ -169,7 +169,7 @@ fn an_overload_is_no_reading() {
 /// A cell whose forces are all beyond reach is no exception among those of another: something is wrong with it.
 #[test]
 fn a_cell_in_another_unit_is_no_overload() {
-    let mut list = readings(&noisy(series(), 3.0, 1)[..30]).readings().to_vec();
+    let mut list = readings(&noisy(series(), 3.0, 1)[..30]).list;
     let inside = |pass: u64| Reading {
         measured: Measured::Force(Place::At(20.0)),
         ..Reading::force(pass, 2e5 + 1e3 * pass as f64)

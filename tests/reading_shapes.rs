@@ -201,7 +201,7 @@ fn every_shape_of_the_series_is_read_right() {
         let data = Readings::from_bytes("cell.csv", &bytes, &options(words))
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         let mut found: Vec<(u64, f64)> = data
-            .readings()
+            .list
             .iter()
             .map(|reading| (reading.pass, reading.value))
             .collect();
@@ -214,12 +214,12 @@ fn every_shape_of_the_series_is_read_right() {
             );
         }
         assert!(
-            data.notes().is_empty() && data.runs().len() == 1,
+            data.notes.is_empty() && data.runs.len() == 1,
             "{name}: {:?}",
-            data.notes()
+            data.notes
         );
         assert!(
-            data.readings()
+            data.list
                 .iter()
                 .all(|reading| reading.measured == Measured::Force(Place::Natural)),
             "{name}"
@@ -232,8 +232,12 @@ fn read(text: &str, words: &str) -> Readings {
         .unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
+fn values(data: &Readings) -> Vec<f64> {
+    data.list.iter().map(|reading| reading.value).collect()
+}
+
 fn series(data: &Readings, run: usize) -> Vec<(u64, f64)> {
-    let of_run = data.readings().iter().filter(|reading| reading.run == run);
+    let of_run = data.list.iter().filter(|reading| reading.run == run);
     of_run.map(|reading| (reading.passes, reading.value)).collect()
 }
 
@@ -248,15 +252,15 @@ fn cells_without_a_number_are_told_with_their_lines() {
         &format!("pass,force_n\n1,94\n{}4,170\n", rows.collect::<String>()),
         "",
     );
-    assert_eq!(data.values(), [94.0, 170.0]);
+    assert_eq!(values(&data), [94.0, 170.0]);
     assert!(
-        data.notes()[0].starts_with("7 cells without a number"),
+        data.notes[0].starts_with("7 cells without a number"),
         "{:?}",
-        data.notes()
+        data.notes
     );
     let data = read("pass,force_n\n1,94\n2,\n3,#N/A\n4,170\n5,---\n", "");
     assert_eq!(series(&data, 0), [(1, 94.0), (4, 170.0)]);
-    let notes = data.notes().join("\n");
+    let notes = data.notes.join("\n");
     for part in [
         "1 rows without a force",
         "2 cells without a number",
@@ -284,7 +288,7 @@ fn two_cells_and_a_transducer_in_one_file() {
         "pass;Kraft upstream [kN];Kraft downstream [kN];movement [mm]\n1;0,05;0,094;0,3\n2;0,07;0,136;0,5\n";
     let data = read(text, "");
     let found: Vec<(Measured, f64)> = data
-        .readings()
+        .list
         .iter()
         .map(|reading| (reading.measured, reading.value))
         .collect();
@@ -303,18 +307,18 @@ fn two_cells_and_a_transducer_in_one_file() {
     // Names that say nothing of the end.
     let data = read("pass,A,B\n1,50,94\n", "force=upstream=A force=downstream=B");
     assert_eq!(
-        data.readings()[0].measured,
+        data.list[0].measured,
         Measured::Force(Place::End(CableEnd::Upstream))
     );
     // A table of this program's own runs: forces after the pass, not the peaks during it.
     let own = "pass,downstream_force_n,downstream_peak_n,upstream_force_n,upstream_peak_n,downstream_displacement_m\n1,94,99,0,2,0.001\n";
-    assert_eq!(read(own, "").values(), [94.0, 0.0]);
+    assert_eq!(values(&read(own, "")), [94.0, 0.0]);
 }
 
 #[test]
 fn places_along_the_cable() {
     let data = read("pass,force_n,position [m]\n1,94,10\n1,120,0\n", "");
-    let places: Vec<Measured> = data.readings().iter().map(|reading| reading.measured).collect();
+    let places: Vec<Measured> = data.list.iter().map(|reading| reading.measured).collect();
     assert_eq!(
         places,
         [Measured::Force(Place::At(10.0)), Measured::Force(Place::At(0.0))]
@@ -324,14 +328,14 @@ fn places_along_the_cable() {
         "pass;force;Ort\n-;N;cm\n1;94;1000\n",
     ] {
         assert_eq!(
-            read(text, "").readings()[0].measured,
+            read(text, "").list[0].measured,
             Measured::Force(Place::At(10.0)),
             "{text}"
         );
     }
     let strain = read("pass,strain [µm/m]\n1,12\n", "");
     assert_eq!(
-        (strain.readings()[0].measured, strain.values()[0]),
+        (strain.list[0].measured, values(&strain)[0]),
         (Measured::Strain(Place::Natural), 12e-6)
     );
 }
@@ -340,12 +344,12 @@ fn places_along_the_cable() {
 fn runs_begin_at_rest_or_go_on() {
     let anew = "pass,force_n,run\n1,94,A\n2,135,A\n1,95,B\n2,136,B\n";
     let data = read(anew, "");
-    assert_eq!(data.runs(), ["A", "B"]);
+    assert_eq!(data.runs, ["A", "B"]);
     assert_eq!(series(&data, 1), [(1, 95.0), (2, 136.0)]);
     assert!(
-        data.notes()[0].contains("2 runs, each from a cable at rest"),
+        data.notes[0].contains("2 runs, each from a cable at rest"),
         "{:?}",
-        data.notes()
+        data.notes
     );
     let data = read(anew, "start=continue");
     assert_eq!(series(&data, 1), [(3, 95.0), (4, 136.0)]);
@@ -358,11 +362,7 @@ fn runs_begin_at_rest_or_go_on() {
     let appended = "pass,force_n\n1,94\n2,135\n3,150\n1,95\n2,136\n3,151\n";
     let data = read(appended, "");
     assert_eq!(series(&data, 1), [(1, 95.0), (2, 136.0), (3, 151.0)]);
-    assert!(
-        data.notes()[0].contains("begin anew on line 5"),
-        "{:?}",
-        data.notes()
-    );
+    assert!(data.notes[0].contains("begin anew on line 5"), "{:?}", data.notes);
     assert_eq!(series(&read(appended, "start=continue"), 1)[0], (4, 95.0));
 }
 
@@ -390,16 +390,12 @@ fn forces_a_thousand_times_too_small_are_told_with_the_option_that_reads_them() 
 fn a_workbook_is_read() {
     let data = Readings::from_file("tests/data/readings.xlsx", &ReadOptions::default()).unwrap();
     let found: Vec<(u64, f64, u64)> = data
-        .readings()
+        .list
         .iter()
         .map(|r: &Reading| (r.pass, (1e6 * r.value).round() / 1e6, r.line))
         .collect();
     assert_eq!(found, [(0, 0.3, 4), (1, 94.1, 5), (2, 135.8, 6), (4, 170.0, 8)]);
-    assert!(
-        data.notes()[0].contains("line 7 (\"#N/A\")"),
-        "{:?}",
-        data.notes()
-    );
+    assert!(data.notes[0].contains("line 7 (\"#N/A\")"), "{:?}", data.notes);
 }
 
 /// Rows of a workbook, with these of their cells merged: first row and column, last row and column.
@@ -473,7 +469,7 @@ fn a_header_of_merged_cells_is_read() {
         let read = Readings::from_bytes("cell.xlsx", &book, &ReadOptions::default());
         let read = read.unwrap_or_else(|error| panic!("{name}: {error}"));
         let found: Vec<(Measured, f64)> = read
-            .readings()
+            .list
             .iter()
             .map(|reading| (reading.measured, reading.value))
             .collect();

@@ -61,7 +61,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let limits = arguments.limits.limits(&input.scene)?;
     let readings = arguments.data.as_deref().map(|file| arguments.reading.read(file));
     let readings = readings.transpose()?;
-    for note in readings.iter().flat_map(crate::Readings::notes) {
+    for note in readings.iter().flat_map(|readings| &readings.notes) {
         terminal::warn(note);
     }
     let table = input.table();

@@ -14,7 +14,7 @@
 
 use std::fmt;
 
-use calibrate::{Calibration, ModelError, Options, Parameter, Scale};
+use calibrate::{Calibration, ModelError, Parameter, Scale};
 use creepage_validation::passes::{Solver, half_space_motion};
 use creepage_validation::{passes, upper};
 use nalgebra::{DMatrix, DVector};
@@ -313,11 +313,9 @@ fn repeat(table: &Table, (friction, shape_factor): (f64, f64), [truth, solver]: 
             Parameter::new("friction", 0.14, 0.7, Scale::Logarithmic).unwrap(),
             Parameter::new("shape_factor", 3e5, 1e9, Scale::Logarithmic).unwrap(),
         ];
-        let mut options = Options::default();
-        options.relative_noise = 1e-4;
         let calibration = Calibration::new(&model, parameters, data)
             .unwrap()
-            .with_options(options)
+            .with_relative_noise(1e-4)
             .unwrap();
         let Ok(fit) = calibration.fit() else {
             count.failed += 1;

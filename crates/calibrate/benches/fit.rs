@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use calibrate::{Calibration, Model, ModelError, Options, Parameter, Scale};
+use calibrate::{Calibration, Model, ModelError, Parameter, Scale};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 const PASSES: u32 = 40;
@@ -31,16 +31,10 @@ fn observations() -> Vec<f64> {
 fn bench(criterion: &mut Criterion) {
     let model = |parameters: &[f64]| Ok::<_, ModelError>(force(parameters));
     let model: &dyn Model = &model;
-    let calibration = |profiles| {
-        let mut options = Options::default();
-        options.profiles = profiles;
-        Calibration::new(model, parameters(), observations())
-            .and_then(|calibration| calibration.with_options(options))
-            .expect("a calibration")
-    };
+    let profiled = Calibration::new(model, parameters(), observations()).expect("a calibration");
+    let plain = profiled.clone().without_profiles();
     let mut group = criterion.benchmark_group("two parameters, 40 readings");
-    for (name, profiles) in [("optimum", false), ("optimum and profiles", true)] {
-        let calibration = calibration(profiles);
+    for (name, calibration) in [("optimum", plain), ("optimum and profiles", profiled)] {
         group.bench_function(name, |bencher| {
             bencher.iter(|| black_box(&calibration).fit().expect("a fit"));
         });

@@ -4,7 +4,7 @@
 //! cargo run -p calibrate --example saturating_force
 //! ```
 
-use calibrate::{Calibration, Loss, Model, ModelError, Options, Parameter, Scale};
+use calibrate::{Calibration, Loss, Model, ModelError, Parameter, Scale};
 
 /// F = F_s (1 − e^(−n/τ)), a force that levels off after n passes.
 struct Saturating {
@@ -42,10 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Parameter::new("saturated_force", 50.0, 5000.0, Scale::Logarithmic)?,
         Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
     ];
-    let mut options = Options::default();
-    options.loss = Loss::Tukey;
     let fit = Calibration::new(&model, parameters, forces)?
-        .with_options(options)?
+        .with_loss(Loss::Tukey)
         .fit()?;
     for estimate in &fit.estimates {
         println!(

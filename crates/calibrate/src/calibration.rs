@@ -1,18 +1,33 @@
-//! What is given, and the front door: a calibration is put together, then fitted.
+//! What is given: a model, its parameters, and the observations that they are fitted to.
 
-use crate::learning;
-use crate::problem::Problem;
-use crate::{CalibrationError, Emulator, Estimate, Fit, Model, Options, Parameter, Prior};
+use std::iter::zip;
+
+use crate::{CalibrationError, Emulator, Loss, Model, Parameter, Prior};
 
 /// Bounds of a coefficient of the discrepancy, in its standard deviations.
 const FARTHEST: f64 = 10.0;
+/// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
+const RESOLUTION: f64 = 1e-7;
 
 /// A model to be fitted to observations.
 #[derive(Debug, Clone)]
 pub struct Calibration<'a> {
-    problem: Problem<'a>,
+    pub(crate) model: &'a dyn Model,
+    /// Those asked for, and while a discrepancy is fitted its coefficients.
+    pub(crate) parameters: Vec<Parameter>,
+    /// How many are asked for.
+    pub(crate) asked: usize,
+    pub(crate) observations: Vec<f64>,
+    /// 1 where the noise is to be estimated.
+    pub(crate) sigmas: Vec<f64>,
+    pub(crate) knows_noise: bool,
+    pub(crate) loss: Loss,
+    pub(crate) relative_noise: f64,
+    pub(crate) has_profiles: bool,
+    /// What is known of the model beforehand.
+    pub(crate) emulator: Option<Emulator>,
     /// Coefficients of the functions by which the model may be off.
-    discrepancy: Vec<Parameter>,
+    pub(crate) discrepancy: Vec<Parameter>,
 }
 
 impl<'a> Calibration<'a> {
@@ -42,16 +57,16 @@ impl<'a> Calibration<'a> {
         }
         check_each("value", &observations, "finite", f64::is_finite)?;
         Ok(Self {
-            problem: Problem {
-                model,
-                asked: parameters.len(),
-                parameters,
-                sigmas: vec![1.0; observations.len()],
-                observations,
-                knows_noise: false,
-                options: Options::default(),
-                emulator: None,
-            },
+            model,
+            asked: parameters.len(),
+            parameters,
+            sigmas: vec![1.0; observations.len()],
+            observations,
+            knows_noise: false,
+            loss: Loss::Squares,
+            relative_noise: 1e-9,
+            has_profiles: true,
+            emulator: None,
             discrepancy: Vec::new(),
         })
     }
@@ -73,7 +88,7 @@ impl<'a> Calibration<'a> {
         };
         self.discrepancy.clear();
         for function in functions {
-            let count = self.problem.observations.len();
+            let count = self.observations.len();
             CalibrationError::check_count("values of a function", function.len(), count)?;
             let term = Parameter::term("discrepancy", -FARTHEST, FARTHEST, function)?;
             self.discrepancy.push(term.with_prior(prior)?);
@@ -87,10 +102,10 @@ impl<'a> Calibration<'a> {
     ///
     /// [`CalibrationError::Invalid`] unless there is a finite and positive one for each observation.
     pub fn with_sigmas(mut self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
-        CalibrationError::check_count("sigmas", sigmas.len(), self.problem.observations.len())?;
+        CalibrationError::check_count("sigmas", sigmas.len(), self.observations.len())?;
         let is_sigma = |sigma: f64| sigma.is_finite() && sigma > 0.0;
         check_each("sigma", &sigmas, "finite and positive", is_sigma)?;
-        (self.problem.sigmas, self.problem.knows_noise) = (sigmas, true);
+        (self.sigmas, self.knows_noise) = (sigmas, true);
         Ok(self)
     }
 
@@ -102,65 +117,89 @@ impl<'a> Calibration<'a> {
     /// As for [`with_sigmas`](Self::with_sigmas).
     pub fn with_relative_sigmas(self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
         let mut known = self.with_sigmas(sigmas)?;
-        known.problem.knows_noise = false;
+        known.knows_noise = false;
         Ok(known)
     }
 
-    /// How to fit.
+    /// How much residuals count; least squares if left out.
+    #[must_use]
+    pub fn with_loss(self, loss: Loss) -> Self {
+        Self { loss, ..self }
+    }
+
+    /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh; 1e-9 if left
+    /// out.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::Invalid`].
-    pub fn with_options(mut self, options: Options) -> Result<Self, CalibrationError> {
-        let (noise, runs) = (options.relative_noise, options.max_evaluations);
-        let invalid = |what: &str, value, allowed| Err(CalibrationError::invalid(what, value, allowed));
-        if !(0.0..=0.1).contains(&noise) {
-            return invalid("relative noise of the model", noise, "between 0 and 0.1");
+    /// [`CalibrationError::Invalid`] unless it is between 0 and 0.1.
+    pub fn with_relative_noise(self, relative_noise: f64) -> Result<Self, CalibrationError> {
+        if !(0.0..=0.1).contains(&relative_noise) {
+            let (what, allowed) = ("relative noise of the model", "between 0 and 0.1");
+            return Err(CalibrationError::invalid(what, relative_noise, allowed));
         }
-        if runs == 0 {
-            return invalid("largest number of model runs", 0.0, "at least 1");
+        Ok(Self {
+            relative_noise,
+            ..self
+        })
+    }
+
+    /// The same without profiles: all intervals stay open, and a fit takes fewer runs.
+    #[must_use]
+    pub fn without_profiles(self) -> Self {
+        Self {
+            has_profiles: false,
+            ..self
         }
-        self.problem.options = options;
-        Ok(self)
     }
 
     /// What an earlier fit of the same parameters learned of the same model, to other observations or with
     /// other terms: this one begins with its runs.
     #[must_use]
     pub fn with_emulator(mut self, emulator: Emulator) -> Self {
-        self.problem.emulator = Some(emulator);
+        self.emulator = Some(emulator);
         self
     }
 
-    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was
-    /// learned of it, [`Fit::emulator`], serves other fits.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError`] if there are too few observations, the model has no answer anywhere, the fit
-    /// does not converge or needs more model runs than allowed.
-    pub fn fit(&self) -> Result<Fit, CalibrationError> {
-        let problem = &self.problem;
-        problem.check()?;
-        let mut emulator = learning::begin(problem)?;
-        let solution = learning::converge(problem, &mut emulator)?;
-        let mut estimates = solution.estimates(problem);
-        if self.discrepancy.is_empty() {
-            return Ok(Fit::new(problem, emulator, solution, estimates));
+    /// Refuses too few observations: priors count as one; noise to be estimated needs one more, and at least
+    /// two of the data.
+    pub(crate) fn check(&self) -> Result<(), CalibrationError> {
+        let (observations, parameters) = (self.observations.len(), self.parameters.len());
+        let unknown = parameters - self.priors();
+        let needed = if self.knows_noise {
+            unknown.max(1)
+        } else {
+            (unknown + 1).max(2)
+        };
+        if parameters > 0 && observations >= needed {
+            return Ok(());
         }
-        let mut wider = problem.clone();
-        wider.parameters.extend_from_slice(&self.discrepancy);
-        let solution = learning::converge(&wider, &mut emulator)?;
-        for (plain, estimate) in estimates.iter_mut().zip(solution.estimates(&wider)) {
-            // A model that may be wrong knows no more than one that may not.
-            let interval = estimate.interval.with(&plain.interval);
-            *plain = Estimate {
-                identifiable: interval.is_closed(),
-                interval,
-                ..estimate
-            };
-        }
-        Ok(Fit::new(&wider, emulator, solution, estimates))
+        let allowed = format!(
+            "{needed} or more to determine {parameters} parameters: one more than parameters without prior knowledge \
+             if the noise is to be estimated as well"
+        );
+        Err(CalibrationError::invalid(
+            "number of observations",
+            observations as f64,
+            allowed,
+        ))
+    }
+
+    /// The indices of the parameters that the model takes.
+    pub(crate) fn of_model(&self) -> Vec<usize> {
+        let of_model = |&k: &usize| self.parameters[k].column().is_none();
+        (0..self.parameters.len()).filter(of_model).collect()
+    }
+
+    /// Number of parameters with prior knowledge.
+    pub(crate) fn priors(&self) -> usize {
+        self.parameters.iter().filter(|p| p.prior.is_some()).count()
+    }
+
+    /// Noise of each prediction of the model itself, in units of the sigmas.
+    pub(crate) fn model_noise(&self) -> impl Iterator<Item = f64> {
+        let share = self.relative_noise.max(RESOLUTION);
+        zip(&self.observations, &self.sigmas).map(move |(value, sigma)| share * value.abs() / sigma)
     }
 }
 

@@ -36,12 +36,13 @@ pub struct Emulator {
 }
 
 impl Emulator {
-    /// One that has seen no run of a model with these `parameters` and `parts`.
-    pub(crate) fn new(parameters: Vec<Parameter>, parts: Vec<Part>) -> Self {
+    /// One that has seen no run of a model with these `parameters` and `parts`, whose own noise is the share
+    /// `relative_noise` of its predictions.
+    pub(crate) fn new(parameters: Vec<Parameter>, parts: Vec<Part>, relative_noise: f64) -> Self {
         Self {
             parameters,
             parts,
-            nugget: NUGGETS.0,
+            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
             trend: Vec::new(),
             krigings: Vec::new(),
             runs: Vec::new(),
@@ -58,21 +59,18 @@ impl Emulator {
         Self {
             trend: [self.trend, self.krigings].concat(),
             coarse_optimum: self.optimum,
-            ..Self::new(self.parameters, self.parts)
+            ..Self::new(self.parameters, self.parts, 0.0)
         }
     }
 
-    /// The same for a model whose own noise is the share `relative_noise` of its predictions.
-    pub(crate) fn with_noise(self, relative_noise: f64) -> Self {
-        Self {
-            nugget: relative_noise.powi(2).clamp(NUGGETS.0, NUGGETS.1),
-            ..self
-        }
-    }
-
-    /// Whether it is of a model with the same parameters and parts.
-    pub(crate) fn is_like(&self, other: &Self) -> bool {
-        self.parameters == other.parameters && self.parts == other.parts
+    /// The same for the model of `other`, which has seen no run of it; `None` if it has other parameters or
+    /// parts.
+    pub(crate) fn taken_for(&self, other: &Self) -> Option<Self> {
+        let is_like = self.parameters == other.parameters && self.parts == other.parts;
+        is_like.then(|| Self {
+            nugget: other.nugget,
+            ..self.clone()
+        })
     }
 
     /// Runs of the model that it rests on, without those of a coarser model.

@@ -31,12 +31,6 @@ pub enum CalibrationError {
         "the fit did not converge: the model jumps, or its predictions are noisier than they are said to be"
     )]
     NotConverged,
-    /// The model runs that were allowed are spent.
-    #[error("{limit} model runs are not enough")]
-    EvaluationLimit {
-        /// Largest number of model runs.
-        limit: usize,
-    },
 }
 
 impl CalibrationError {

@@ -3,10 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::parameter::FARTHEST;
-use crate::problem::Problem;
 use crate::search::{freedom, misfit};
 use crate::solution::Solution;
-use crate::{Emulator, Estimate, Warning};
+use crate::{Calibration, Emulator, Estimate, Warning};
 
 /// A calibrated model.
 #[derive(Debug, Clone)]
@@ -50,7 +49,7 @@ pub struct Fit {
 impl Fit {
     /// The answer of a solution at whose optimum the model ran.
     pub(crate) fn new(
-        problem: &Problem<'_>,
+        problem: &Calibration<'_>,
         emulator: Emulator,
         solution: Solution,
         estimates: Vec<Estimate>,
@@ -132,11 +131,11 @@ impl Fit {
 }
 
 /// What is to be said of a solution.
-fn warnings(problem: &Problem<'_>, solution: &Solution, estimates: &[Estimate]) -> Vec<Warning> {
+fn warnings(problem: &Calibration<'_>, solution: &Solution, estimates: &[Estimate]) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = misfit(problem, &solution.optimum).into_iter().collect();
     for (estimate, free) in estimates.iter().zip(&solution.optimum.point.free) {
         let (name, interval, value) = (estimate.name.clone(), estimate.interval, estimate.value);
-        if !estimate.identifiable && problem.options.profiles {
+        if !estimate.identifiable && problem.has_profiles {
             warnings.push(Warning::NotIdentifiable { name, interval });
         } else if free.abs() >= FARTHEST {
             warnings.push(Warning::AtBound { name, value });

@@ -15,9 +15,7 @@ mod learning;
 mod likelihood;
 mod loss;
 mod model;
-mod options;
 mod parameter;
-mod problem;
 mod profile;
 mod search;
 mod solution;
@@ -35,6 +33,5 @@ pub use lack_of_fit::{
 };
 pub use loss::Loss;
 pub use model::{Model, ModelError, Part};
-pub use options::Options;
 pub use parameter::{Parameter, Prior, Scale};
 pub use warning::Warning;

@@ -5,9 +5,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::Emulator;
 use crate::parameter::{share, share_slope};
-use crate::problem::Problem;
+use crate::{Calibration, Emulator};
 
 /// Free variables of all parameters and the residuals there.
 #[derive(Debug, Clone)]
@@ -18,14 +17,14 @@ pub(crate) struct Point {
 
 /// What is compared with the observations.
 pub(crate) struct Likelihood<'a> {
-    pub problem: &'a Problem<'a>,
+    pub problem: &'a Calibration<'a>,
     pub emulator: &'a Emulator,
     /// Indices of the model's parameters.
     pub of_model: Vec<usize>,
 }
 
 impl<'a> Likelihood<'a> {
-    pub fn new(problem: &'a Problem<'a>, emulator: &'a Emulator) -> Self {
+    pub fn new(problem: &'a Calibration<'a>, emulator: &'a Emulator) -> Self {
         Self {
             problem,
             emulator,

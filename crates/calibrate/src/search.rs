@@ -7,9 +7,8 @@ use crate::covariance::parameters_from_data;
 use crate::descent::{Optimum, descend};
 use crate::deviance::Deviance;
 use crate::likelihood::{Likelihood, Point};
-use crate::problem::Problem;
 use crate::tuning::{BETTER, FAR, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
-use crate::{CalibrationError, Loss, Warning, parameter};
+use crate::{Calibration, CalibrationError, Loss, Warning, parameter};
 
 /// Repeats after which a loop is taken to go in a circle: those that end need half as many.
 const MAX_ROUNDS: usize = 24;
@@ -65,13 +64,13 @@ pub(crate) fn optimum(
 
 /// Gain of the deviance from which on an optimum moves: of the ripple between runs, the parameters follow
 /// their share, up to a small part of a standard error.
-pub(crate) fn settled(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
+pub(crate) fn settled(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
     let share = problem.asked as f64 / problem.observations.len() as f64;
     (share * noise(problem, optimum)).clamp(SETTLED * SETTLED, FAR * FAR)
 }
 
 /// Variance of the model's own noise, in squared standard errors of all readings together.
-pub(crate) fn noise(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
+pub(crate) fn noise(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
     let weights = optimum.deviance.weights(&optimum.point.residuals);
     let squares = problem.model_noise().zip(&weights);
     squares.map(|(noise, weight)| weight * noise * noise).sum()
@@ -111,7 +110,7 @@ fn refine(
     let least = problem.model_noise().fold(f64::MIN_POSITIVE, f64::max);
     let freedom = (data as f64 - problem.asked as f64).max(1.0);
     let residuals = likelihood.point(start.clone()).residuals;
-    let first = Deviance::new(problem.options.loss, data);
+    let first = Deviance::new(problem.loss, data);
     let mut deviance = first.scaled(&residuals, known_noise, freedom, least);
     for round in 0..MAX_ROUNDS {
         let point = descend(likelihood, deviance, start, None)?;
@@ -132,13 +131,13 @@ fn refine(
 }
 
 /// Observations less the parameters that they determine.
-pub(crate) fn freedom(problem: &Problem<'_>, optimum: &Optimum) -> f64 {
+pub(crate) fn freedom(problem: &Calibration<'_>, optimum: &Optimum) -> f64 {
     (problem.observations.len() as f64 - parameters_from_data(optimum)).max(0.0)
 }
 
 /// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
-pub(crate) fn misfit(problem: &Problem<'_>, optimum: &Optimum) -> Option<Warning> {
-    if !problem.knows_noise || problem.options.loss != Loss::Squares {
+pub(crate) fn misfit(problem: &Calibration<'_>, optimum: &Optimum) -> Option<Warning> {
+    if !problem.knows_noise || problem.loss != Loss::Squares {
         return None;
     }
     let residuals = optimum.point.residuals.iter().take(optimum.deviance.data);

@@ -6,11 +6,10 @@ use crate::covariance::{Covariance, quantile};
 use crate::descent::Optimum;
 use crate::estimate::{Estimate, Interval};
 use crate::likelihood::{Likelihood, Point};
-use crate::problem::Problem;
 use crate::profile::{EXCLUSION, Profile, ProfilePoint, Profiler};
 use crate::search::{freedom, misfit, noise, settled};
 use crate::tuning::{BETTER, HIDDEN, HIGH, SURE};
-use crate::{CalibrationError, Parameter};
+use crate::{Calibration, CalibrationError, Parameter};
 
 /// Probability that an interval leaves out the true value on a side.
 const TAIL: f64 = 0.025;
@@ -34,7 +33,7 @@ impl Solution {
         others: &[Point],
     ) -> Result<Self, CalibrationError> {
         let problem = likelihood.problem;
-        let is_robust = problem.options.loss.is_robust();
+        let is_robust = problem.loss.is_robust();
         let noise_estimated = !problem.knows_noise || is_robust || misfit(problem, &optimum).is_some();
         let covariance = Covariance::of(&optimum);
         let wanted = quantile(TAIL, noise_estimated.then(|| freedom(problem, &optimum)));
@@ -45,7 +44,7 @@ impl Solution {
             others,
             wanted,
         };
-        let count = Some(problem.asked).filter(|_| problem.options.profiles);
+        let count = Some(problem.asked).filter(|_| problem.has_profiles);
         let profiles = profiler.profiles(count.unwrap_or(0))?;
         Ok(Self {
             optimum,
@@ -57,7 +56,7 @@ impl Solution {
     }
 
     /// A place of a profile that is a better optimum.
-    pub fn lower(&self, problem: &Problem<'_>) -> Option<&DVector<f64>> {
+    pub fn lower(&self, problem: &Calibration<'_>) -> Option<&DVector<f64>> {
         let points = self.profiles.iter().flat_map(|profile| &profile.points);
         let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
         let is_lower = lowest.rise < -settled(problem, &self.optimum).max(BETTER);
@@ -103,7 +102,7 @@ impl Solution {
     }
 
     /// Of all parameters that are asked for.
-    pub fn estimates(&self, problem: &Problem<'_>) -> Vec<Estimate> {
+    pub fn estimates(&self, problem: &Calibration<'_>) -> Vec<Estimate> {
         let asked = problem.parameters.iter().take(problem.asked).enumerate();
         asked.map(|(k, parameter)| self.estimate(k, parameter)).collect()
     }

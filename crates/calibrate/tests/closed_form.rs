@@ -7,8 +7,7 @@ use calibrate::{Calibration, CalibrationError, Loss, Model, ModelError, Paramete
 use fastrand::Rng;
 
 use super::common::{
-    answering, fitted, fitted_with, linear, logarithmic, noisy, options, passes, saturation,
-    saturation_parameters,
+    answering, fitted, fitted_with, linear, logarithmic, noisy, passes, saturation, saturation_parameters,
 };
 
 #[test]
@@ -108,9 +107,7 @@ fn covariance_is_that_of_the_analytic_jacobian() {
             saturation_parameters(),
             data.clone(),
             Some(sigma),
-            |options| {
-                options.relative_noise = relative_noise;
-            },
+            |calibration| calibration.with_relative_noise(relative_noise).unwrap(),
         );
         let (force, tau) = (fit.estimates[0].value, fit.estimates[1].value);
         let (mut a, mut b, mut c) = (0.0, 0.0, 0.0);
@@ -146,8 +143,8 @@ fn intervals_cover_the_truth() {
         let mut seeds = Rng::with_seed(first);
         for _ in 0..cases {
             let data = noisy(&exact, 8.0, seeds.u64(..));
-            let fit = fitted_with(&model, saturation_parameters(), data, sigma, |options| {
-                options.loss = loss;
+            let fit = fitted_with(&model, saturation_parameters(), data, sigma, |calibration| {
+                calibration.with_loss(loss)
             });
             for (covered, (estimate, truth)) in covered.iter_mut().zip(fit.estimates.iter().zip(truth)) {
                 *covered += usize::from(estimate.interval.contains(truth));
@@ -225,8 +222,8 @@ fn outliers_hardly_move_a_robust_fit() {
         }
         let force = |data: &[f64], loss| {
             let data = data.to_vec();
-            let fit = fitted_with(&model, saturation_parameters(), data, None, |options| {
-                options.loss = loss;
+            let fit = fitted_with(&model, saturation_parameters(), data, None, |calibration| {
+                calibration.with_loss(loss)
             });
             (fit.estimates[0].value, fit.weights)
         };
@@ -358,7 +355,7 @@ fn shift_is_that_of_a_refit() {
 }
 
 #[test]
-fn limits_are_kept() {
+fn runs_are_counted() {
     let runs = AtomicUsize::new(0);
     let inner = saturation(&passes(30));
     let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
@@ -366,26 +363,12 @@ fn limits_are_kept() {
         inner(p)
     };
     let data = noisy(&inner(&[550.0, 12.0]).unwrap(), 5.0, 21);
-    let calibration = |options| {
-        Calibration::new(&model, saturation_parameters(), data.clone())
-            .unwrap()
-            .with_options(options)
-            .unwrap()
-    };
-    let fit = calibration(options(|_| {})).fit().unwrap();
+    let calibration = Calibration::new(&model, saturation_parameters(), data).unwrap();
+    let fit = calibration.fit().unwrap();
     assert_eq!(fit.evaluations, runs.load(Ordering::Relaxed));
     assert!(fit.evaluations <= 120, "{}", fit.evaluations);
 
-    let limited = options(|options| options.max_evaluations = 30);
-    let error = calibration(limited).fit().unwrap_err();
-    assert!(
-        matches!(error, CalibrationError::EvaluationLimit { limit: 30 }),
-        "{error}"
-    );
-
-    let rough = calibration(options(|options| options.profiles = false))
-        .fit()
-        .unwrap();
+    let rough = calibration.without_profiles().fit().unwrap();
     assert!(rough.evaluations < fit.evaluations);
 }
 

@@ -37,9 +37,13 @@ fn a_smooth_model_takes_few_runs() {
             (Loss::Squares, Some(0.01 * truth[0])),
             (Loss::Tukey, None),
         ] {
-            let fit = fitted_with(&model, saturation_parameters(), data.clone(), sigma, |options| {
-                options.loss = loss;
-            });
+            let fit = fitted_with(
+                &model,
+                saturation_parameters(),
+                data.clone(),
+                sigma,
+                |calibration| calibration.with_loss(loss),
+            );
             for (estimate, truth) in fit.estimates.iter().zip(truth) {
                 let off = (estimate.value - truth) / estimate.standard_error.unwrap();
                 assert!(off.abs() < 3.0, "{estimate:?}");

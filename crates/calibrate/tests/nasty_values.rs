@@ -1,6 +1,6 @@
 //! Whatever the numbers and the model: a fit or an error, never a panic.
 
-use calibrate::{Calibration, Loss, ModelError, Options, Parameter, Prior, Scale};
+use calibrate::{Calibration, Loss, ModelError, Parameter, Prior, Scale};
 use proptest::prelude::*;
 
 fn any_number() -> impl Strategy<Value = f64> {
@@ -70,7 +70,6 @@ proptest! {
         sigmas in prop::option::of(any_number()),
         (answer, profiles, robust) in (answers(), any::<bool>(), any::<bool>()),
         noise in any_number(),
-        evaluations in 0_usize..150,
     ) {
         let scale = |logarithmic| if logarithmic { Scale::Logarithmic } else { Scale::Linear };
         let mut parameters = Vec::new();
@@ -87,18 +86,15 @@ proptest! {
             let Ok(known) = calibration.with_sigmas(vec![sigma; count]) else { return Ok(()); };
             calibration = known;
         }
-        let default = Options::default();
-        let mut hostile = Options::default();
-        hostile.loss = if robust { Loss::Tukey } else { Loss::Squares };
-        hostile.max_evaluations = evaluations;
-        hostile.relative_noise = if ordinary { default.relative_noise } else { noise };
-        hostile.profiles = profiles;
-        let mut few = default;
-        few.max_evaluations = evaluations.max(1);
-        let calibration = match calibration.clone().with_options(hostile) {
-            Ok(calibration) => calibration,
-            Err(_) => calibration.with_options(few).expect("options"),
-        };
+        if robust {
+            calibration = calibration.with_loss(Loss::Tukey);
+        }
+        if !profiles {
+            calibration = calibration.without_profiles();
+        }
+        if !ordinary {
+            calibration = calibration.clone().with_relative_noise(noise).unwrap_or(calibration);
+        }
         if let Ok(fit) = calibration.fit() {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()), "{:?}", fit.values());
             fit.shift(&[f64::NAN; 9]);

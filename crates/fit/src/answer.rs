@@ -5,12 +5,12 @@ use calibrate::{Estimate, Fit, Loss};
 
 use crate::diagnosis::{LEFT_OUT, diagnose};
 use crate::ground;
-use crate::instrument::Row;
+use crate::instrument::each_once;
 use crate::meshes::Final;
 use crate::model::{MeshOf, SeriesModel};
 use crate::parameters::Fitted;
 use crate::problem::Problem;
-use crate::readings::Measured;
+use crate::readings::{Measured, Reading};
 use crate::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
@@ -22,7 +22,7 @@ use creepage_scene::four_digits;
 const MESH_SHIFT: f64 = 0.8;
 
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
-    let (fit, series) = (&found.fit, problem.series);
+    let (fit, models) = (&found.fit, problem.models);
     let readings = readings(problem, found);
     let r_squared = explained(&readings);
     let (lack_of_fit, mut warnings) = diagnose(problem, found, mistakes, r_squared)?;
@@ -34,15 +34,15 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
             warnings.push(format!("the mesh may move {name} by {error:.1} {words}"));
         }
     }
-    warnings.extend(series.iter().flat_map(|one| one.readings.notes()).cloned());
+    warnings.extend(models.iter().flat_map(|model| &model.readings.notes).cloned());
     let parameters = fit.estimates.iter().zip(problem.fitted);
     let parameter = |(estimate, fitted): (&Estimate, _)| parameter(estimate, fitted, lack_of_fit.suspicious);
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
     // Where readings have their own sigmas, there is no single noise.
-    let own_sigmas = series.iter().all(|one| one.readings.sigmas().is_some());
+    let own_sigmas = problem.rows.iter().all(|row| row.sigma.is_some());
     let answer = Calibrated {
-        titles: series.iter().map(|one| one.scene.title.clone()).collect(),
+        titles: models.iter().map(|model| model.scene.title.clone()).collect(),
         parameters: parameters.map(parameter).collect(),
         correlation: fit.correlation.clone(),
         residual_rms_n: forces.map_or(0.0, |forces| forces.rms),
@@ -89,9 +89,9 @@ fn parameter(estimate: &Estimate, fitted: &Fitted, suspicious: bool) -> FittedPa
 
 fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
     let (models, options) = (problem.models, problem.options);
-    let mesh = |model: &SeriesModel| model.levels.mesh(model.level(MeshOf::Answer));
+    let mesh = |model: &SeriesModel<'_>| model.levels.mesh(model.level(MeshOf::Answer));
     let meshes = models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
-    let places = models.iter().map(|model| model.rows[0].reading.measured.place());
+    let places = models.iter().map(|model| model.rows[0].measured.place());
     let freedom = four_digits(fit.degrees_of_freedom);
     let noise = if fit.noise_estimated {
         format!(", Student's t with {freedom} degrees of freedom")
@@ -117,18 +117,18 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
 
 fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
     let fit = &found.fit;
-    let fitted = |(k, row): (usize, &Row)| {
-        let (reading, measured) = (row.reading, row.reading.measured);
+    let fitted = |(k, reading): (usize, &Reading)| {
+        let measured = reading.measured;
         let force = |value: f64| matches!(measured, Measured::Force(_)).then_some(value);
         let (fitted, residual) = (fit.fitted[k] + found.difference[k], fit.residuals[k]);
         FittedReading {
-            series: row.series + 1,
+            series: reading.series + 1,
             pass: reading.pass,
             force_n: force(reading.value),
             fitted_n: force(fitted),
             residual_n: force(residual),
             weight: fit.weights[k],
-            run: problem.series[row.series].readings.runs()[reading.run].clone(),
+            run: problem.models[reading.series].readings.runs[reading.run].clone(),
             line: reading.line,
             measured: measured.name(),
             at: measured.place(),
@@ -153,21 +153,21 @@ fn explained(readings: &[FittedReading]) -> Option<f64> {
 
 /// By kind of reading, in the order of the file.
 fn residuals(readings: &[FittedReading]) -> Vec<ResidualSize> {
-    let mut sizes: Vec<ResidualSize> = Vec::new();
-    for &FittedReading { measured, unit, .. } in readings {
-        if sizes.iter().any(|size| size.measured == measured) {
-            continue;
-        }
-        let all = readings.iter().filter(|other| other.measured == measured);
-        let (kept, left): (Vec<_>, Vec<_>) = all.partition(|other| other.weight >= LEFT_OUT);
-        let squares: f64 = kept.iter().map(|other| other.residual * other.residual).sum();
-        sizes.push(ResidualSize {
+    let size = |(measured, unit)| {
+        let all = readings.iter().filter(|reading| reading.measured == measured);
+        let (kept, left): (Vec<_>, Vec<_>) = all.partition(|reading| reading.weight >= LEFT_OUT);
+        let squares: f64 = kept
+            .iter()
+            .map(|reading| reading.residual * reading.residual)
+            .sum();
+        ResidualSize {
             measured,
             rms: (squares / kept.len().max(1) as f64).sqrt(),
             unit,
             readings: kept.len(),
             left_out: left.len(),
-        });
-    }
-    sizes
+        }
+    };
+    let kinds = readings.iter().map(|reading| (reading.measured, reading.unit));
+    each_once(kinds).into_iter().map(size).collect()
 }

@@ -5,11 +5,11 @@
 
 use calibrate::{Fit, probability_of_gain};
 
-use crate::instrument::Instrument;
 use crate::meshes::Final;
 use crate::model::MeshOf;
 use crate::parameters::{Fitted, cells, error_of};
-use crate::problem::{Problem, Way};
+use crate::problem::Problem;
+use crate::readings::Instrument;
 use crate::unknown::Quantity;
 use creepage_run::Error;
 
@@ -36,11 +36,6 @@ pub fn cell_error(
     };
     let known = (!last.noise_estimated).then_some(1.0);
     let freedom = last.degrees_of_freedom - 1.0 - (last.residuals.len() - judged.len()) as f64;
-    let way = Way {
-        mesh: MeshOf::Answer,
-        difference: &found.difference,
-        profiles: false,
-    };
     let mut open = Vec::new();
     for cell in cells(problem.rows) {
         let error = error_of(cell, quantity, problem.rows, problem.options)?;
@@ -55,7 +50,12 @@ pub fn cell_error(
             fitted: &fitted,
             ..*problem
         };
-        let fit = wider.fit(way, Some(last.emulator.clone()));
+        let fit = wider.fit(
+            MeshOf::Answer,
+            &found.difference,
+            false,
+            Some(last.emulator.clone()),
+        );
         problem.check_stopped()?;
         let Ok(fit) = fit else { continue };
         if let Some(chance) = probability_of_gain(square(last), square(&fit), freedom, known) {

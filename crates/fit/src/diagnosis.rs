@@ -7,10 +7,11 @@
 use calibrate::{Loss, probability_of_scatter, probability_of_signs, probability_of_size};
 
 use crate::cell_errors::{CellError, cell_error};
-use crate::instrument::Row;
+use crate::instrument::each_once;
 use crate::meshes::Final;
 use crate::noise::{MEDIAN_TO_SIGMA, median};
 use crate::problem::Problem;
+use crate::readings::Reading;
 use crate::result::{LackOfFit, misses_by};
 use crate::unknown::Quantity;
 use creepage_plan::shown::words_if;
@@ -109,10 +110,10 @@ fn failed_tests(lack: &LackOfFit, errors: &[Option<CellError>; 2], r_squared: Op
 /// What to try where tests fail: to fit the `error` of a cell that would explain the residuals
 /// best, or what else.
 fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -> String {
-    let (of_model, series) = (problem.of_model().len(), problem.series);
+    let (of_model, models) = (problem.of_model().len(), problem.models);
     let mut fitted: Vec<Quantity> = problem.fitted.iter().map(|one| one.unknown.quantity).collect();
     // A wrong shape factor looks like an error of the cell.
-    let mut laws = series.iter().map(|one| one.scene.friction.law());
+    let mut laws = models.iter().map(|model| model.scene.friction.law());
     if laws.any(|law| law != FrictionLaw::Coulomb) && !fitted.contains(&Quantity::ShapeFactor) {
         fitted.insert(of_model, Quantity::ShapeFactor);
     }
@@ -129,7 +130,7 @@ fn way_out(problem: &Problem<'_>, error: Option<Quantity>, has_outliers: bool) -
     match error {
         _ if has_outliers => "try --robust first, which leaves the outliers out".into(),
         Some(quantity) => format!("try --fit {}", fit_it(quantity)),
-        None if series.iter().any(|one| one.readings.runs().len() > 1) => {
+        None if models.iter().any(|model| model.readings.runs.len() > 1) => {
             "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of \
              the scene"
                 .into()
@@ -155,32 +156,35 @@ fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
 
 /// Residuals of each run and instrument, or of all that have one reading, in the order of the
 /// passes.
-fn sequences(rows: &[Row], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
-    let group_of = |row: usize| (rows[row].instrument(), rows[row].reading.run);
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for &row in judged {
-        let mut known = groups.iter_mut();
-        match known.find(|group| group_of(group[0]) == group_of(row)) {
-            Some(group) => group.push(row),
-            None => groups.push(vec![row]),
-        }
-    }
+fn sequences(rows: &[Reading], noise: &[f64], judged: &[usize]) -> Vec<Vec<f64>> {
+    let key = |row: usize| (rows[row].instrument(), rows[row].run);
+    let group = |of| judged.iter().copied().filter(|&row| key(row) == of).collect();
+    let groups = each_once(judged.iter().map(|&row| key(row)))
+        .into_iter()
+        .map(group);
     // Readings that are each of a run or an instrument of their own are judged as one series.
-    let (mut groups, alone): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.len() > 1);
+    let (mut groups, alone): (Vec<Vec<usize>>, Vec<_>) =
+        groups.partition(|group: &Vec<usize>| group.len() > 1);
     groups.push(alone.concat());
     for group in &mut groups {
-        group.sort_by_key(|&row| rows[row].reading.passes);
+        group.sort_by_key(|&row| rows[row].passes);
     }
     let residuals = |group: &Vec<usize>| group.iter().map(|&row| noise[row]).collect();
     groups.iter().map(residuals).collect()
 }
 
 /// The outliers by pass and line.
-fn outlier_words(rows: &[Row], outliers: &[usize], is_robust: bool) -> String {
+fn outlier_words(rows: &[Reading], outliers: &[usize], is_robust: bool) -> String {
     let several = rows.iter().any(|row| row.series > 0);
     let one = |&row: &usize| {
-        let (reading, of_series) = (rows[row].reading, format!(" of series {}", rows[row].series + 1));
-        let (pass, of, line) = (reading.pass, words_if(several, &of_series), reading.line);
+        let Reading {
+            series, pass, line, ..
+        } = rows[row];
+        let of = if several {
+            format!(" of series {}", series + 1)
+        } else {
+            String::new()
+        };
         format!("pass {pass}{of} (line {line})")
     };
     let passes: Vec<String> = outliers.iter().map(one).collect();

@@ -10,8 +10,8 @@ use std::ops::RangeInclusive;
 use calibrate::{CalibrationError, smooth_functions};
 
 use crate::error::study;
-use crate::instrument::{Row, instruments};
-use crate::readings::Measured;
+use crate::instrument::instruments;
+use crate::readings::Reading;
 use creepage_run::Error;
 
 /// Length of correlation, in the logarithm of the passes: forces of a wrong law or ground miss the
@@ -24,7 +24,7 @@ const LENGTH: f64 = 2.0;
 pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
 
 /// Functions of all readings, by a sum of which the model may be off, of a `share` of the largest.
-pub fn discrepancy(rows: &[Row], share: f64) -> Result<Vec<Vec<f64>>, Error> {
+pub fn discrepancy(rows: &[Reading], share: f64) -> Result<Vec<Vec<f64>>, Error> {
     if !SHARES.contains(&share) {
         return Err(study(CalibrationError::Invalid {
             what: "option discrepancy".into(),
@@ -32,15 +32,14 @@ pub fn discrepancy(rows: &[Row], share: f64) -> Result<Vec<Vec<f64>>, Error> {
             allowed: "a share of 0.0001 to 10".into(),
         }));
     }
-    let place = |row: &Row| (row.reading.passes.max(1) as f64).ln();
+    let place = |row: &Reading| (row.passes.max(1) as f64).ln();
     let bells = smooth_functions(&rows.iter().map(place).collect::<Vec<_>>(), LENGTH);
     let mut functions: Vec<Vec<f64>> = Vec::new();
     for instrument in instruments(rows) {
         let own = rows.iter().filter(|row| row.instrument() == instrument);
-        let largest = own.fold(0.0_f64, |most, row| most.max(row.reading.value.abs()));
-        let size = |row: &Row| {
-            let is_exact = row.reading.passes == 0 && row.reading.measured != Measured::Deflection;
-            let is_wrong = row.instrument() == instrument && !is_exact;
+        let largest = own.fold(0.0_f64, |most, row| most.max(row.value.abs()));
+        let size = |row: &Reading| {
+            let is_wrong = row.instrument() == instrument && !row.is_at_rest();
             if is_wrong { share * largest } else { 0.0 }
         };
         let sizes: Vec<f64> = rows.iter().map(size).collect();

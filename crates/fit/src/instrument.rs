@@ -2,7 +2,7 @@
 
 use cable_dem::{End, PassOutcome};
 
-use crate::readings::{Measured, Place, Reading};
+use crate::readings::{Instrument, Measured, Place, Reading};
 use creepage_run::Error;
 use creepage_run::answer::{ForceProfile, Stage};
 use creepage_scene::{CableEnd, Scene};
@@ -104,30 +104,18 @@ fn force_at(profile: &ForceProfile, place: f64) -> f64 {
     }
 }
 
-/// A reading with the place that it has in the scene of its series.
-#[derive(Clone, Copy)]
-pub struct Row {
-    /// Index of its series.
-    pub series: usize,
-    pub reading: Reading,
+/// All instruments, in the order of the readings.
+pub fn instruments(rows: &[Reading]) -> Vec<Instrument> {
+    each_once(rows.iter().map(Reading::instrument))
 }
 
-/// What a reading of a series is of.
-pub type Instrument = (usize, Measured);
-
-impl Row {
-    pub fn instrument(&self) -> Instrument {
-        (self.series, self.reading.measured)
-    }
-}
-
-/// All instruments, each once.
-pub fn instruments(rows: &[Row]) -> Vec<Instrument> {
-    let mut instruments = Vec::new();
-    for row in rows {
-        if !instruments.contains(&row.instrument()) {
-            instruments.push(row.instrument());
+/// Items without those that came before.
+pub fn each_once<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut once = Vec::new();
+    for item in items {
+        if !once.contains(&item) {
+            once.push(item);
         }
     }
-    instruments
+    once
 }

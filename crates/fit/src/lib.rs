@@ -32,10 +32,9 @@ pub use result::{
 };
 pub use unknown::{Quantity, Unknown};
 
-use crate::instrument::Row;
 use crate::model::SeriesModel;
 use crate::problem::{Problem, Runs};
-use crate::readings::Readings;
+use crate::readings::{Reading, Readings};
 use creepage_run::Error;
 use creepage_scene::Scene;
 
@@ -59,36 +58,36 @@ pub fn calibrate(
 ///
 /// As for [`calibrate()`].
 pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
-    let mut unknowns = options.unknowns.iter();
-    if unknowns.any(|unknown| unknown.quantity.is_of_cell()) {
-        // What a cell reads too much of any force may be as large as it likes.
-        return fit(series, options);
-    }
-    let kept: Vec<(Readings, Option<String>)> = series.iter().map(within_reach).collect();
-    let within = series.iter().zip(&kept);
-    let within = within.map(|(one, (readings, _))| Series { readings, ..*one });
-    let mut answer = fit(&within.collect::<Vec<_>>(), options)?;
-    let words = kept.into_iter().filter_map(|(_, words)| words);
-    answer.warnings.splice(..0, words);
-    Ok(answer)
-}
-
-fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
-    let models = series.iter().enumerate();
-    let models = models.map(|(index, one)| SeriesModel::new(index, one));
+    // What a cell reads too much of any force may be as large as it likes.
+    let is_bounded = !options
+        .unknowns
+        .iter()
+        .any(|unknown| unknown.quantity.is_of_cell());
+    let kept = |one| {
+        if is_bounded {
+            within_reach(one)
+        } else {
+            (one.readings.clone(), None)
+        }
+    };
+    let kept: Vec<(Readings, Option<String>)> = series.iter().map(kept).collect();
+    let models = series.iter().zip(&kept).enumerate();
+    let models = models.map(|(index, (one, (readings, _)))| SeriesModel::new(index, one.scene, readings));
     let models = models.collect::<Result<Vec<_>, _>>()?;
-    let rows: Vec<Row> = models.iter().flat_map(|model| model.rows.clone()).collect();
+    let rows: Vec<Reading> = models.iter().flat_map(|model| model.rows.clone()).collect();
     let problem = Problem {
-        series,
         models: &models,
         rows: &rows,
-        fitted: &parameters::parameters(series, &models, &rows, options)?,
+        fitted: &parameters::parameters(&models, &rows, options)?,
         options,
         runs: &Runs::default(),
     };
     let answer = answer(&problem);
     problem.check_stopped()?;
-    answer
+    let mut answer = answer?;
+    let words = kept.into_iter().filter_map(|(_, words)| words);
+    answer.warnings.splice(..0, words);
+    Ok(answer)
 }
 
 fn answer(problem: &Problem<'_>) -> Result<Calibrated, Error> {

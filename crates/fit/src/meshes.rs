@@ -3,7 +3,7 @@
 use calibrate::Fit;
 
 use crate::model::MeshOf;
-use crate::problem::{Problem, Way};
+use crate::problem::Problem;
 use creepage_run::Error;
 
 pub struct Final {
@@ -20,26 +20,17 @@ pub struct Final {
 /// plan, then on the same with what a mesh twice as fine says more at the optimum.
 pub fn fit(problem: &Problem<'_>, profiles: bool) -> Result<Final, Error> {
     let none = vec![0.0; problem.rows.len()];
-    let way = |mesh, profiles| Way {
-        mesh,
-        difference: &none,
-        profiles,
-    };
     let (mut evaluations, mut coarse) = (1, None);
     if !problem.models.iter().any(|model| model.levels.named) {
-        let guess = problem.fit(way(MeshOf::Guess, profiles), None)?;
+        let guess = problem.fit(MeshOf::Guess, &none, profiles, None)?;
         evaluations += guess.evaluations;
         coarse = Some(guess.emulator.of_finer());
     }
-    let first = problem.fit(way(MeshOf::Answer, false), coarse)?;
+    let first = problem.fit(MeshOf::Answer, &none, false, coarse)?;
     let finer = problem.predict(MeshOf::Check, 1.0, &first.values())?;
     let difference: Vec<f64> = finer.iter().zip(&first.fitted).map(|(a, b)| a - b).collect();
     let (shift, _) = first.shift(&difference);
-    let last = Way {
-        difference: &difference,
-        ..way(MeshOf::Answer, profiles)
-    };
-    let fit = problem.fit(last, Some(first.emulator))?;
+    let fit = problem.fit(MeshOf::Answer, &difference, profiles, Some(first.emulator))?;
     Ok(Final {
         evaluations: evaluations + fit.evaluations,
         fit,

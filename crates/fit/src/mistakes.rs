@@ -16,14 +16,14 @@ const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
 /// What looks mistaken beside what the scenes' own values predict.
 pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
-    let expected = problem.predict(MeshOf::Guess, 1.0, &problem.scene_values())?;
+    let expected = problem.predict(MeshOf::Guess, 1.0, &[])?;
     let mut mistakes = Vec::new();
     for instrument in instruments(problem.rows) {
         if let Measured::Force(Place::End(end)) = instrument.1 {
             // The zero reading has no sign and no size.
             let pairs = problem.rows.iter().zip(&expected);
-            let own = pairs.filter(|(row, _)| row.instrument() == instrument && row.reading.passes > 0);
-            let both: Vec<(f64, f64)> = own.map(|(row, force)| (row.reading.value, *force)).collect();
+            let own = pairs.filter(|(row, _)| row.instrument() == instrument && row.passes > 0);
+            let both: Vec<(f64, f64)> = own.map(|(row, force)| (row.value, *force)).collect();
             mistakes.extend(of_forces(end.name(), &both));
         }
     }

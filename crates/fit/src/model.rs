@@ -10,9 +10,8 @@ use std::sync::Arc;
 use cycle_jump::Guide;
 use ground_field::DuctMotion;
 
-use crate::instrument::{Row, located, shown};
-use crate::options::Series;
-use crate::readings::{Measured, Place, Reading};
+use crate::instrument::{located, shown};
+use crate::readings::{Measured, Place, Reading, Readings};
 use creepage_plan::ground::Ground;
 use creepage_plan::{Levels, Period, plan};
 use creepage_run::{
@@ -49,39 +48,39 @@ pub enum MeshOf {
 }
 
 /// One series, ready to be predicted.
-pub struct SeriesModel {
+pub struct SeriesModel<'a> {
     pub scene: Scene,
+    pub readings: &'a Readings,
     pub ground: Arc<Ground>,
     method: SolverMethod,
     pub levels: Levels,
     /// The traffic's period and the jumps over it, where not every pass is simulated.
     jumps: Option<(Period, Vec<u64>)>,
     /// The readings, in their order.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Reading>,
     /// Passes at which the force along the cable is looked at, and all that are read.
     stages: Vec<u64>,
     wanted: Vec<u64>,
 }
 
-impl SeriesModel {
+impl<'a> SeriesModel<'a> {
     /// Of the series with this index.
-    pub fn new(index: usize, series: &Series<'_>) -> Result<Self, Error> {
-        if series.scene.warming().is_some() {
+    pub fn new(index: usize, scene: &Scene, readings: &'a Readings) -> Result<Self, Error> {
+        if scene.warming().is_some() {
             let reason = "a fit follows passes, not days of heat: leave [heat] out, and readings at which the cable was warm";
             return Err(Error::unfit("heat", "a heated cable", reason));
         }
         let row = |reading: &Reading| {
-            let measured = located(series.scene, reading.measured)?;
-            let reading = Reading { measured, ..*reading };
-            Ok(Row {
+            Ok(Reading {
+                measured: located(scene, reading.measured)?,
                 series: index,
-                reading,
+                ..*reading
             })
         };
-        let rows = series.readings.readings().iter().map(row);
+        let rows = readings.list.iter().map(row);
         let rows = rows.collect::<Result<Vec<_>, Error>>()?;
-        let mut scene = series.scene.clone();
-        scene.traffic.passes = series.readings.last_pass();
+        let mut scene = scene.clone();
+        scene.traffic.passes = readings.last_pass();
         scene.solver.tolerance = scene.solver.tolerance.min(TOLERANCE);
         let (method, levels, period, ground) = {
             let plan = plan(&scene)?;
@@ -89,12 +88,13 @@ impl SeriesModel {
         };
         let mut model = Self {
             scene,
+            readings,
             ground,
             method,
             levels,
             jumps: None,
             stages: passes(rows.iter().filter(|row| is_inside(row))),
-            wanted: passes(rows.iter().filter(|row| row.reading.passes > 0)),
+            wanted: passes(rows.iter().filter(|row| row.passes > 0)),
             rows,
         };
         if method != SolverMethod::Explicit && model.scene.traffic.passes > EVERY_PASS {
@@ -137,9 +137,8 @@ impl SeriesModel {
             None => task.every_pass()?,
         };
         let deflection = self.ground.motions[0].peak_vertical() / stiffness;
-        let value = |&Row { reading, .. }: &Row| {
-            if reading.passes == 0 && reading.measured != Measured::Deflection {
-                // At rest.
+        let value = |reading: &Reading| {
+            if reading.is_at_rest() {
                 return 0.0;
             }
             let records = &passes.records;
@@ -175,14 +174,14 @@ impl SeriesModel {
 }
 
 /// Whether it takes the force along the cable.
-fn is_inside(row: &Row) -> bool {
+fn is_inside(row: &Reading) -> bool {
     use Measured::{Force, Strain};
-    matches!(row.reading.measured, Force(Place::At(_)) | Strain(_))
+    matches!(row.measured, Force(Place::At(_)) | Strain(_))
 }
 
 /// The passes of these readings, each once, in order.
-fn passes<'r>(rows: impl Iterator<Item = &'r Row>) -> Vec<u64> {
-    let passes: BTreeSet<u64> = rows.map(|row| row.reading.passes).collect();
+fn passes<'r>(rows: impl Iterator<Item = &'r Reading>) -> Vec<u64> {
+    let passes: BTreeSet<u64> = rows.map(|row| row.passes).collect();
     passes.into_iter().collect()
 }
 

@@ -1,6 +1,6 @@
 //! Noise of readings by themselves, before any fit.
 
-use crate::instrument::Row;
+use crate::readings::Reading;
 
 /// Makes the median of |e| under Gaussian noise a standard deviation.
 pub const MEDIAN_TO_SIGMA: f64 = 1.4826;
@@ -9,8 +9,8 @@ const LEAST: f64 = 1e-3;
 
 /// Standard deviations that weigh readings of several kinds against each other; `None` where all
 /// are of one kind.
-pub fn relative_sigmas(rows: &[Row]) -> Option<Vec<f64>> {
-    let kinds = || rows.iter().map(|row| row.reading.measured.name());
+pub fn relative_sigmas(rows: &[Reading]) -> Option<Vec<f64>> {
+    let kinds = || rows.iter().map(|row| row.measured.name());
     let first = kinds().next()?;
     let noises = || kinds().map(|kind| noise(rows, kind)).collect();
     (!kinds().all(|kind| kind == first)).then(noises)
@@ -19,13 +19,13 @@ pub fn relative_sigmas(rows: &[Row]) -> Option<Vec<f64>> {
 /// Noise of readings of a kind: by how far each reading lies off the line between its
 /// neighbours (T. Gasser, L. Sroka, C. Jennen-Steinmetz, "Residual variance and residual pattern in
 /// nonlinear regression", Biometrika 73, 1986).
-fn noise(rows: &[Row], kind: &str) -> f64 {
-    let is_like = |row: &&Row| row.reading.measured.name() == kind;
-    let mut like: Vec<&Row> = rows.iter().filter(is_like).collect();
-    like.sort_by_key(|row| (row.series, row.reading.run, row.reading.passes));
-    let sizes = like.iter().map(|row| row.reading.value.abs());
+fn noise(rows: &[Reading], kind: &str) -> f64 {
+    let is_like = |row: &&Reading| row.measured.name() == kind;
+    let mut like: Vec<&Reading> = rows.iter().filter(is_like).collect();
+    like.sort_by_key(|row| (row.series, row.run, row.passes));
+    let sizes = like.iter().map(|row| row.value.abs());
     let largest = sizes.fold(0.0, f64::max);
-    let group = |row: &Row| (row.instrument(), row.reading.run);
+    let group = |row: &Reading| (row.instrument(), row.run);
     let threes = like.windows(3).filter(|three| group(three[0]) == group(three[2]));
     let least = (LEAST * largest).max(f64::MIN_POSITIVE);
     least.max(MEDIAN_TO_SIGMA * median(threes.map(off_line)))
@@ -40,8 +40,8 @@ pub fn median(numbers: impl Iterator<Item = f64>) -> f64 {
 
 /// How far the second of three readings lies off the line between the others, in standard
 /// deviations of that distance.
-fn off_line(three: &[&Row]) -> f64 {
-    let point = |k: usize| (three[k].reading.passes as f64, three[k].reading.value);
+fn off_line(three: &[&Reading]) -> f64 {
+    let point = |k: usize| (three[k].passes as f64, three[k].value);
     let [before, here, after] = [0, 1, 2].map(point);
     let width = after.0 - before.0;
     let share = if width > 0.0 {

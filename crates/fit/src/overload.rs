@@ -30,7 +30,7 @@ pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
         located.filter(|measured| matches!(measured, Measured::Force(_)))
     };
     let is_large = |reading: &Reading| reading.value.abs() > most;
-    let list = || one.readings.readings().iter();
+    let list = || one.readings.list.iter();
     // Among the forces of its instrument it is an exception.
     let is_exception = |reading: &Reading| {
         let cell = instrument(reading);
@@ -39,7 +39,8 @@ pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
         cell.is_some() && all.len() >= FEWEST && large as f64 <= FEW * all.len() as f64
     };
     let is_beyond = |reading: &Reading| is_large(reading) && is_exception(reading);
-    let kept = one.readings.keep(|reading| !is_beyond(reading));
+    let mut kept = one.readings.clone();
+    kept.list.retain(|reading| !is_beyond(reading));
     let beyond = list().filter(|reading| is_beyond(reading));
     let beyond = beyond.map(|reading| format!("pass {} (line {})", reading.pass, reading.line));
     let beyond: Vec<String> = beyond.collect();

@@ -6,14 +6,14 @@
 use calibrate::{Loss, Parameter, Prior, Scale};
 
 use crate::error::study;
-use crate::instrument::{Instrument, Row, instruments};
+use crate::instrument::instruments;
 use crate::model::SeriesModel;
-use crate::options::{CalibrateOptions, Deflection, Series};
-use crate::readings::Measured;
+use crate::options::{CalibrateOptions, Deflection};
+use crate::readings::{Instrument, Measured, Reading};
 use crate::unknown::{Quantity, Unknown};
 use creepage_plan::shown::words_if;
 use creepage_run::Error;
-use creepage_scene::{FrictionLaw, Scene};
+use creepage_scene::FrictionLaw;
 
 const GROUND: Unknown = Unknown::shared(Quantity::GroundStiffness);
 /// Standard deviation of a cell's error before the readings, as a share of its largest force: any
@@ -30,8 +30,8 @@ pub struct Fitted {
 }
 
 /// What is asked for, checked against the scenes, errors of cells last.
-fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
-    if series.is_empty() {
+fn unknowns(models: &[SeriesModel<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
+    if models.is_empty() {
         return Err(Error::unfit("series", "none", "there is nothing to fit"));
     }
     if options.discrepancy.is_some() && options.loss != Loss::Squares {
@@ -40,61 +40,55 @@ fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec
     }
     let mut unknowns = options.unknowns.clone();
     if unknowns.is_empty() {
-        let shape_factor = Unknown::shared(Quantity::ShapeFactor);
-        unknowns.push(Unknown::shared(Quantity::DynamicCoefficient));
-        unknowns.extend(Some(shape_factor).filter(|unknown| !is_coulomb(*unknown, series)));
+        let both = [Quantity::DynamicCoefficient, Quantity::ShapeFactor].map(Unknown::shared);
+        unknowns.extend(both);
+        unknowns.retain(|unknown| check(*unknown, models).is_ok());
     }
     if options.deflection.is_some() && !unknowns.contains(&GROUND) {
         unknowns.push(GROUND);
     }
     for unknown in &unknowns {
-        check(*unknown, series)?;
+        check(*unknown, models)?;
     }
     unknowns.sort_by_key(|unknown| unknown.quantity.is_of_cell());
     Ok(unknowns)
 }
 
 /// Refuses what a scene of the series that it acts on does not have.
-fn check(unknown: Unknown, series: &[Series<'_>]) -> Result<(), Error> {
-    if unknown.series.is_some_and(|index| index >= series.len()) {
+fn check(unknown: Unknown, models: &[SeriesModel<'_>]) -> Result<(), Error> {
+    if unknown.series.is_some_and(|index| index >= models.len()) {
         let found = "a series of a higher index than there are";
         let reason = "series are counted from 0, and in names from 1";
         return Err(Error::unfit("unknowns", found, reason));
     }
-    match unknown.quantity {
-        Quantity::ShapeFactor if is_coulomb(unknown, series) => {
-            let reason = "it has no shape factor to be fitted";
-            Err(Error::unfit("friction.law", "coulomb", reason))
+    let own = models
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| unknown.acts_on(*index));
+    for (_, SeriesModel { scene, .. }) in own {
+        match unknown.quantity {
+            Quantity::ShapeFactor if scene.friction.law() == FrictionLaw::Coulomb => {
+                let reason = "it has no shape factor to be fitted";
+                return Err(Error::unfit("friction.law", "coulomb", reason));
+            }
+            Quantity::SectionCoefficient(section) if section >= scene.route.len() => {
+                let reason = "sections of [[route]] are counted from 0";
+                return Err(Error::unfit("route", "no section of this number", reason));
+            }
+            _ => {}
         }
-        Quantity::SectionCoefficient(section)
-            if scenes_of(unknown, series).any(|scene| section >= scene.route.len()) =>
-        {
-            let reason = "sections of [[route]] are counted from 0";
-            Err(Error::unfit("route", "no section of this number", reason))
-        }
-        _ => Ok(()),
     }
-}
-
-/// The scenes that it acts on.
-fn scenes_of<'a>(unknown: Unknown, series: &'a [Series<'a>]) -> impl Iterator<Item = &'a Scene> {
-    let all = series.iter().enumerate();
-    all.filter_map(move |(index, one)| unknown.acts_on(index).then_some(one.scene))
-}
-
-fn is_coulomb(unknown: Unknown, series: &[Series<'_>]) -> bool {
-    scenes_of(unknown, series).any(|scene| scene.friction.law() == FrictionLaw::Coulomb)
+    Ok(())
 }
 
 /// The parameters that are asked for: those of friction and ground, then an error of each cell.
 pub fn parameters(
-    series: &[Series<'_>],
-    models: &[SeriesModel],
-    rows: &[Row],
+    models: &[SeriesModel<'_>],
+    rows: &[Reading],
     options: &CalibrateOptions<'_>,
 ) -> Result<Vec<Fitted>, Error> {
     let mut fitted = Vec::new();
-    for unknown in unknowns(series, options)? {
+    for unknown in unknowns(models, options)? {
         if !unknown.quantity.is_of_cell() {
             fitted.push(of_model(unknown, models, options)?);
             continue;
@@ -116,7 +110,7 @@ pub fn parameters(
 /// are inversely proportional.
 fn of_model(
     unknown: Unknown,
-    models: &[SeriesModel],
+    models: &[SeriesModel<'_>],
     options: &CalibrateOptions<'_>,
 ) -> Result<Fitted, Error> {
     let (lower, upper) = unknown.quantity.bounds();
@@ -133,7 +127,7 @@ fn of_model(
 }
 
 /// The load cells of all series.
-pub fn cells(rows: &[Row]) -> Vec<Instrument> {
+pub fn cells(rows: &[Reading]) -> Vec<Instrument> {
     let mut cells = instruments(rows);
     cells.retain(|(_, measured)| matches!(measured, Measured::Force(_)));
     cells
@@ -144,19 +138,19 @@ pub fn cells(rows: &[Row]) -> Vec<Instrument> {
 pub fn error_of(
     cell: Instrument,
     quantity: Quantity,
-    rows: &[Row],
+    rows: &[Reading],
     options: &CalibrateOptions<'_>,
 ) -> Result<Fitted, Error> {
     let own = || rows.iter().filter(|row| row.instrument() == cell);
-    let largest = own().fold(f64::MIN_POSITIVE, |most, row| most.max(row.reading.value.abs()));
-    let last = own().fold(1.0_f64, |most, row| most.max(row.reading.passes as f64));
+    let largest = own().fold(f64::MIN_POSITIVE, |most, row| most.max(row.value.abs()));
+    let last = own().fold(1.0_f64, |most, row| most.max(row.passes as f64));
     let is_drift = quantity == Quantity::Drift;
     let (told, natural) = if is_drift {
         (options.drift_sigma, ERROR * largest / last)
     } else {
         (options.zero_offset_sigma, ERROR * largest)
     };
-    let entry = |row: &Row| match row.reading.passes {
+    let entry = |row: &Reading| match row.passes {
         _ if row.instrument() != cell => 0.0,
         passes if is_drift => passes as f64,
         _ => 1.0,

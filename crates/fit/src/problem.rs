@@ -2,16 +2,16 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError, Options, Part};
+use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError, Part};
 use rayon::prelude::*;
 
 use crate::discrepancy::discrepancy;
 use crate::error::study;
-use crate::instrument::Row;
 use crate::model::{MeshOf, SeriesModel};
 use crate::noise::relative_sigmas;
-use crate::options::{CalibrateOptions, Series};
+use crate::options::CalibrateOptions;
 use crate::parameters::Fitted;
+use crate::readings::Reading;
 use crate::unknown::Quantity;
 use creepage_plan::Levels;
 use creepage_run::Error;
@@ -25,10 +25,9 @@ pub const MOST_RUNS: usize = 2000;
 
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
-    pub series: &'a [Series<'a>],
-    pub models: &'a [SeriesModel],
+    pub models: &'a [SeriesModel<'a>],
     /// All readings.
-    pub rows: &'a [Row],
+    pub rows: &'a [Reading],
     /// What is fitted: of friction and ground first, then of the load cells.
     pub fitted: &'a [Fitted],
     pub options: &'a CalibrateOptions<'a>,
@@ -42,15 +41,6 @@ pub struct Runs {
     stopped: AtomicBool,
 }
 
-/// How to fit.
-#[derive(Clone, Copy)]
-pub struct Way<'a> {
-    pub mesh: MeshOf,
-    /// Added to what the mesh predicts, without the errors of the cells.
-    pub difference: &'a [f64],
-    pub profiles: bool,
-}
-
 impl Problem<'_> {
     /// What is fitted of friction and ground.
     pub fn of_model(&self) -> &[Fitted] {
@@ -59,10 +49,10 @@ impl Problem<'_> {
         &self.fitted[..count.unwrap_or(self.fitted.len())]
     }
 
-    /// What a mesh predicts with these values of all parameters, on ground of this stiffness.
+    /// What a mesh predicts with these values of all parameters, or with those of the scenes if there are
+    /// none, on ground of this stiffness.
     pub fn predict(&self, mesh: MeshOf, stiffness: f64, values: &[f64]) -> Result<Vec<f64>, Error> {
-        let model = OnMesh(self, mesh, stiffness);
-        let predicted = model.predict(&values[..self.of_model().len()]);
+        let predicted = OnMesh(self, mesh, stiffness).predict(values);
         let mut predicted =
             predicted.map_err(|source| study(CalibrationError::NoAnswer { places: 1, source }))?;
         for (fitted, size) in self.fitted.iter().zip(values) {
@@ -74,24 +64,35 @@ impl Problem<'_> {
         Ok(predicted)
     }
 
-    /// Fits, with what is known of the model before.
-    pub fn fit(&self, way: Way<'_>, known: Option<Emulator>) -> Result<Fit, Error> {
+    /// Fits to a mesh and what is to be added to its predictions, without the errors of the cells, with
+    /// profiles or without, and with what is `known` of the model before.
+    pub fn fit(
+        &self,
+        mesh: MeshOf,
+        difference: &[f64],
+        has_profiles: bool,
+        known: Option<Emulator>,
+    ) -> Result<Fit, Error> {
         let functions = match self.options.discrepancy {
             Some(share) => discrepancy(self.rows, share)?,
             None => Vec::new(),
         };
-        let model = OnMesh(self, way.mesh, 1.0);
+        let model = OnMesh(self, mesh, 1.0);
         let parameters = self.fitted.iter().map(|fitted| fitted.parameter.clone());
-        let pairs = self.rows.iter().zip(way.difference);
-        let values = pairs.map(|(row, difference)| row.reading.value - difference);
+        let pairs = self.rows.iter().zip(difference);
+        let values = pairs.map(|(row, difference)| row.value - difference);
         let fit = || {
             let mut calibration = Calibration::new(&model, parameters.collect(), values.collect())?
-                .with_options(self.statistics(&way))?
+                .with_loss(self.options.loss)
+                .with_relative_noise(self.ripple(mesh))?
                 .with_discrepancy(&functions)?;
-            if let Some(sigmas) = self.rows.iter().map(|row| row.reading.sigma).collect() {
+            if let Some(sigmas) = self.rows.iter().map(|row| row.sigma).collect() {
                 calibration = calibration.with_sigmas(sigmas)?;
             } else if let Some(relative) = relative_sigmas(self.rows) {
                 calibration = calibration.with_relative_sigmas(relative)?;
+            }
+            if !has_profiles {
+                calibration = calibration.without_profiles();
             }
             if let Some(emulator) = known {
                 calibration = calibration.with_emulator(emulator);
@@ -101,26 +102,14 @@ impl Problem<'_> {
         fit().map_err(study)
     }
 
-    fn statistics(&self, way: &Way<'_>) -> Options {
-        let level = |model: &SeriesModel| model.levels.fineness(model.level(way.mesh));
-        let models = self.models.iter();
-        let errors = models.map(|model| Levels::typical_error(level(model)));
-        let mut options = Options::default();
-        options.loss = self.options.loss;
-        options.max_evaluations = MOST_RUNS;
-        options.relative_noise = RIPPLE * errors.fold(0.0, f64::max);
-        options.profiles = way.profiles;
-        options
-    }
-
-    /// What the scenes say.
-    pub fn scene_values(&self) -> Vec<f64> {
-        let value = |Fitted { unknown, .. }: &Fitted| {
-            let (lower, upper) = unknown.quantity.bounds();
-            let scene = self.series[unknown.series.unwrap_or(0)].scene;
-            unknown.quantity.value(scene).clamp(lower, upper)
-        };
-        self.fitted.iter().map(value).collect()
+    /// Noise of the predictions on a mesh, as a share of them.
+    fn ripple(&self, mesh: MeshOf) -> f64 {
+        let level = |model: &SeriesModel<'_>| model.levels.fineness(model.level(mesh));
+        let errors = self
+            .models
+            .iter()
+            .map(|model| Levels::typical_error(level(model)));
+        RIPPLE * errors.fold(0.0, f64::max)
     }
 
     /// Counts a model run. Once the caller has stopped the calibration every further run fails at
@@ -148,7 +137,7 @@ struct OnMesh<'a>(&'a Problem<'a>, MeshOf, f64);
 impl Model for OnMesh<'_> {
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
         let &Self(problem, mesh, stiffness) = self;
-        let of_series = |(index, series): (usize, &SeriesModel)| {
+        let of_series = |(index, series): (usize, &SeriesModel<'_>)| {
             let (mut scene, mut stiffness) = (series.scene.clone(), stiffness);
             for (Fitted { unknown, .. }, &value) in problem.fitted.iter().zip(parameters) {
                 if unknown.acts_on(index) {
@@ -168,7 +157,7 @@ impl Model for OnMesh<'_> {
 
     fn parts(&self) -> Vec<Part> {
         let fitted = self.0.of_model();
-        let of_series = |(index, series): (usize, &SeriesModel)| {
+        let of_series = |(index, series): (usize, &SeriesModel<'_>)| {
             let acts = |&k: &usize| fitted[k].unknown.acts_on(index);
             Part {
                 predictions: series.rows.len(),

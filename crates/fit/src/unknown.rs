@@ -24,12 +24,22 @@ pub enum Quantity {
     SectionCoefficient(usize),
 }
 
-const NAMES: [(&str, Quantity); 5] = [
-    ("dynamic_coefficient", Quantity::DynamicCoefficient),
-    ("shape_factor", Quantity::ShapeFactor),
-    ("ground_stiffness", Quantity::GroundStiffness),
-    ("zero_offset", Quantity::ZeroOffset),
-    ("drift", Quantity::Drift),
+/// Of what cannot be told beforehand.
+const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
+/// Names, units (1 for a number), and the least and the largest value that a fit considers; those of a cell's
+/// errors follow from the readings.
+const QUANTITIES: [(Quantity, &str, &str, (f64, f64)); 5] = [
+    (
+        Quantity::DynamicCoefficient,
+        "dynamic_coefficient",
+        "1",
+        (0.03, 1.0),
+    ),
+    (Quantity::ShapeFactor, "shape_factor", "1/m", (1e5, 1e9)),
+    (Quantity::GroundStiffness, "ground_stiffness", "1", (0.1, 10.0)),
+    (Quantity::ZeroOffset, "zero_offset", "N", ANY),
+    (Quantity::Drift, "drift", "N/pass", ANY),
 ];
 
 /// Its name; of a section its key, `route.1.dynamic_coefficient`.
@@ -38,8 +48,7 @@ impl fmt::Display for Quantity {
         if let Self::SectionCoefficient(index) = self {
             return write!(f, "route.{index}.dynamic_coefficient");
         }
-        let name = NAMES.iter().find(|(_, quantity)| quantity == self);
-        f.pad(name.map_or("", |(name, _)| name))
+        f.pad(self.row().1)
     }
 }
 
@@ -47,26 +56,27 @@ impl FromStr for Quantity {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let named = NAMES.iter().find(|(name, _)| *name == text);
+        let named = QUANTITIES.iter().find(|(_, name, ..)| *name == text);
         let section = || text.strip_prefix("route.")?.strip_suffix(".dynamic_coefficient");
         let section = || section()?.parse().ok().map(Self::SectionCoefficient);
-        let found = named.map(|(_, quantity)| *quantity).or_else(section);
+        let found = named.map(|(quantity, ..)| *quantity).or_else(section);
         found.ok_or_else(|| {
-            let names = NAMES.map(|(name, _)| name).join(", ");
+            let names = QUANTITIES.map(|(_, name, ..)| name).join(", ");
             format!("found \"{text}\"; allowed: {names}, route.1.dynamic_coefficient")
         })
     }
 }
 
 impl Quantity {
+    /// What is known of it: the coefficient of a section is one like any.
+    fn row(self) -> &'static (Self, &'static str, &'static str, (f64, f64)) {
+        let row = QUANTITIES.iter().find(|(quantity, ..)| *quantity == self);
+        row.unwrap_or(&QUANTITIES[0])
+    }
+
     /// Its unit; 1 for a number.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::ShapeFactor => "1/m",
-            Self::DynamicCoefficient | Self::SectionCoefficient(_) | Self::GroundStiffness => "1",
-            Self::ZeroOffset => "N",
-            Self::Drift => "N/pass",
-        }
+        self.row().2
     }
 
     /// Whether it is an error of a load cell, not a property of cable or ground.
@@ -74,29 +84,9 @@ impl Quantity {
         matches!(self, Self::ZeroOffset | Self::Drift)
     }
 
-    /// Least and largest value that a fit considers; of a cell's errors they follow from readings.
+    /// Least and largest value that a fit considers.
     pub(super) fn bounds(self) -> (f64, f64) {
-        match self {
-            Self::DynamicCoefficient | Self::SectionCoefficient(_) => (0.03, 1.0),
-            Self::ShapeFactor => (1e5, 1e9),
-            Self::GroundStiffness => (0.1, 10.0),
-            Self::ZeroOffset | Self::Drift => (f64::NEG_INFINITY, f64::INFINITY),
-        }
-    }
-
-    /// Its value in a scene.
-    pub(super) fn value(self, scene: &Scene) -> f64 {
-        match self {
-            Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
-            Self::ShapeFactor => scene.friction.law().shape_factor(),
-            Self::SectionCoefficient(index) => {
-                let section = scene.route.get(index);
-                let own = section.and_then(|section| section.dynamic_coefficient);
-                own.unwrap_or(scene.friction.dynamic_coefficient)
-            }
-            Self::GroundStiffness => 1.0,
-            Self::ZeroOffset | Self::Drift => 0.0,
-        }
+        self.row().3
     }
 
     /// Sets its value in a scene; the ground's stiffness acts on the motion instead.

@@ -34,7 +34,7 @@ impl Agreement {
         // One cell is drawn: of two, the one that the scene holds.
         let end = held_end(scene)?;
         let located = |reading: &Reading| Ok((*reading, located(scene, reading.measured)?));
-        let located = readings.readings().iter().map(located);
+        let located = readings.list.iter().map(located);
         let mut located = located.collect::<Result<Vec<(Reading, Measured)>, Error>>()?;
         located.retain(|(_, measured)| *measured == Measured::Force(Place::End(end)));
         let readings: Vec<Reading> = located.into_iter().map(|(reading, _)| reading).collect();

@@ -1,6 +1,6 @@
 //! A closed-form model whose covariance is known exactly, and seeded noise.
 
-use calibrate::{Calibration, Fit, Model, ModelError, Options, Parameter, Scale};
+use calibrate::{Calibration, Fit, Model, ModelError, Parameter, Scale};
 use fastrand::Rng;
 
 /// F = F_s (1 − e^(−n/τ)) after passes n, with parameters F_s and τ.
@@ -19,13 +19,6 @@ pub fn saturation_parameters() -> Vec<Parameter> {
     vec![linear("force", 10.0, 5000.0), logarithmic("passes", 0.5, 500.0)]
 }
 
-/// The usual options but for a change.
-pub fn options(change: impl FnOnce(&mut Options)) -> Options {
-    let mut options = Options::default();
-    change(&mut options);
-    options
-}
-
 /// A model of `predict` that always has an answer.
 pub fn answering(
     predict: impl Fn(&[f64]) -> Vec<f64> + Sync,
@@ -35,23 +28,23 @@ pub fn answering(
 
 /// Fitted to `data`, with a sigma of all of them that is known or not.
 pub fn fitted(model: &dyn Model, parameters: Vec<Parameter>, data: Vec<f64>, sigma: Option<f64>) -> Fit {
-    fitted_with(model, parameters, data, sigma, |_| {})
+    fitted_with(model, parameters, data, sigma, |calibration| calibration)
 }
 
-/// [`fitted`] with changed options.
-pub fn fitted_with(
-    model: &dyn Model,
+/// [`fitted`] after a change of the calibration.
+pub fn fitted_with<'a>(
+    model: &'a dyn Model,
     parameters: Vec<Parameter>,
     data: Vec<f64>,
     sigma: Option<f64>,
-    change: impl FnOnce(&mut Options),
+    change: impl FnOnce(Calibration<'a>) -> Calibration<'a>,
 ) -> Fit {
     let count = data.len();
     let mut calibration = Calibration::new(model, parameters, data).unwrap();
     if let Some(sigma) = sigma {
         calibration = calibration.with_sigmas(vec![sigma; count]).unwrap();
     }
-    calibration.with_options(options(change)).unwrap().fit().unwrap()
+    change(calibration).fit().unwrap()
 }
 
 pub fn linear(name: &str, lower: f64, upper: f64) -> Parameter {

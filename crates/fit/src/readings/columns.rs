@@ -2,9 +2,8 @@
 
 use creepage_tables::{Kind, Row, Table};
 
-use super::DataError;
 use super::kinds::{FORCE, LAYOUT, MEASURED, MOVEMENT, PASS, POSITION, RUN, SIGMA, TIME, VEHICLES, end, si};
-use super::options::ReadOptions;
+use super::{DataError, ReadOptions};
 use creepage_scene::CableEnd;
 
 const UNITS: &str =

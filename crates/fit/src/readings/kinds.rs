@@ -2,7 +2,7 @@
 
 use creepage_tables::{Kind, Layout, Name};
 
-use super::reading::{Measured, Place};
+use super::{Measured, Place};
 use creepage_scene::{CableEnd, Dimension};
 
 /// Not the value after a pass.

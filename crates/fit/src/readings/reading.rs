@@ -75,6 +75,8 @@ pub struct Reading {
     pub value: f64,
     /// Its standard deviation, where the file gives it.
     pub sigma: Option<f64>,
+    /// Index of its series among those that are fitted together; 0 as it is read.
+    pub series: usize,
     /// Index of the run, from 0.
     pub run: usize,
     /// Line of the file, from 1.
@@ -90,8 +92,22 @@ impl Reading {
             measured: Measured::Force(Place::Natural),
             value: force,
             sigma: None,
+            series: 0,
             run: 0,
             line: pass,
         }
     }
+
+    /// What it is of: a quantity at a place, in a series.
+    pub(crate) fn instrument(&self) -> Instrument {
+        (self.series, self.measured)
+    }
+
+    /// Whether the cable was at rest, so that it reads 0 of all but a deflection.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.passes == 0 && self.measured != Measured::Deflection
+    }
 }
+
+/// A series and what is measured in it.
+pub(crate) type Instrument = (usize, Measured);

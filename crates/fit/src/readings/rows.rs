@@ -1,57 +1,13 @@
 //! Rows as readings, each with its line.
 
-use std::path::Path;
+use creepage_tables::{Row, is_no_value};
 
-use creepage_tables::{Row, Table, is_no_value};
-
-use super::columns::{Columns, Values, columns};
+use super::columns::{Columns, Values};
 use super::kinds::{DEFLECTION, FORCE, LAYOUT, measured};
-use super::list::Readings;
-use super::options::ReadOptions;
-use super::reading::{Place, Reading};
-use super::{DataError, runs};
+use super::{DataError, Place, Reading, Readings, runs};
 
-/// Fewest rows of vehicles that only grow for a running total: by chance one file in 120.
-const TOTAL: usize = 5;
 /// Most lines that a note names.
 const MOST_LINES: usize = 8;
-
-impl Readings {
-    /// Reads the file at `path` as `options` say.
-    ///
-    /// # Errors
-    ///
-    /// [`DataError`] with the first thing that is wrong, and its line.
-    pub fn from_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, DataError> {
-        read(Table::from_file(path.as_ref(), &options.table, &LAYOUT)?, options)
-    }
-
-    /// Reads a table from `bytes`, recognising how it is written; `file` stands for it in errors.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Readings::from_file`].
-    pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, DataError> {
-        Self::from_bytes(file, bytes, &ReadOptions::default())
-    }
-
-    /// Reads a table or a workbook from `bytes` as `options` say; `file` stands for it in errors.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Readings::from_file`].
-    pub fn from_bytes(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, DataError> {
-        read(Table::read(file, bytes, &options.table, &LAYOUT)?, options)
-    }
-}
-
-/// The readings in `table`.
-fn read(table: Table, options: &ReadOptions) -> Result<Readings, DataError> {
-    let columns = columns(table, options)?;
-    columns.check_order_of_times()?;
-    columns.refuse_totals()?;
-    columns.readings()
-}
 
 /// The column, if the row has anything there.
 fn given(row: &Row, column: Option<usize>) -> Option<usize> {
@@ -59,7 +15,10 @@ fn given(row: &Row, column: Option<usize>) -> Option<usize> {
 }
 
 impl Columns<'_> {
-    fn readings(&self) -> Result<Readings, DataError> {
+    /// All readings of the table.
+    pub fn readings(&self) -> Result<Readings, DataError> {
+        self.refuse_disorder()?;
+        self.refuse_totals()?;
         let mut readings = Readings::default();
         // Vehicles of each run so far; rows without a value, and what stands there.
         let mut counted: Vec<u64> = Vec::new();
@@ -148,20 +107,6 @@ impl Columns<'_> {
             let found = "sigma_n is blank, but given for other readings";
             wrong(blank.line, found, "all or none")
         })
-    }
-
-    /// Refuses vehicles that may be a running total, unless their column was chosen.
-    fn refuse_totals(&self) -> Result<(), DataError> {
-        let (table, rows) = (&self.table, &self.table.rows);
-        let open = self.vehicles.filter(|&column| !table.names[column].chosen);
-        let count = |row| table.value(row, open?, open?).ok();
-        let counts: Vec<f64> = rows.iter().filter_map(count).collect();
-        if counts.len() < TOTAL || counts.windows(2).any(|pair| pair[1] <= pair[0]) {
-            return Ok(());
-        }
-        let found = "vehicles that grow from row to row: a running total, or vehicles since the row before";
-        let allowed = "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before";
-        Err(table.wrong(rows[0].line, found, allowed))
     }
 }
 

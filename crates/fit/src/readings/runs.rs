@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::list::Readings;
-use super::options::RunStart;
-use super::reading::Reading;
+use super::{Reading, Readings, RunStart};
 
 /// Fewest passes of a run that is recognised by them alone: rows in any order are no runs.
 const SHORTEST: usize = 3;

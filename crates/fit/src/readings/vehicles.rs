@@ -1,11 +1,14 @@
-//! Times, so far as their order goes.
+//! Vehicles that are counted from row to row: in the order of their times, and no running total.
 
 use super::DataError;
 use super::columns::Columns;
 
+/// Fewest rows of vehicles that only grow for a running total: by chance one file in 120.
+const TOTAL: usize = 5;
+
 impl Columns<'_> {
-    /// Refuses vehicles that are not in the order of their times: they are counted from row to row.
-    pub fn check_order_of_times(&self) -> Result<(), DataError> {
+    /// Refuses vehicles that are not in the order of their times.
+    pub fn refuse_disorder(&self) -> Result<(), DataError> {
         let Some(column) = self.time.filter(|_| self.vehicles.is_some()) else {
             return Ok(());
         };
@@ -18,6 +21,20 @@ impl Columns<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses vehicles that may be a running total, unless their column was chosen.
+    pub fn refuse_totals(&self) -> Result<(), DataError> {
+        let (table, rows) = (&self.table, &self.table.rows);
+        let open = self.vehicles.filter(|&column| !table.names[column].chosen);
+        let count = |row| table.value(row, open?, open?).ok();
+        let counts: Vec<f64> = rows.iter().filter_map(count).collect();
+        if counts.len() < TOTAL || counts.windows(2).any(|pair| pair[1] <= pair[0]) {
+            return Ok(());
+        }
+        let found = "vehicles that grow from row to row: a running total, or vehicles since the row before";
+        let allowed = "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before";
+        Err(table.wrong(rows[0].line, found, allowed))
     }
 }
 
