@@ -3,12 +3,12 @@
 use std::fs::File;
 use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use crate::content::{Content, Node, Place, Source, SourceKind, entries_of};
-use crate::error::{Result, SceneError, did_you_mean};
+use crate::content::{Content, Node, entries_of};
+use crate::error::{Result, SceneError};
 use crate::key::Form;
-use crate::location::Location;
-use crate::names::elsewhere;
+use crate::location::{Location, Source, SourceKind};
 use crate::scene::Scene;
 use crate::stored::{Given, Stored};
 use crate::units::{Dimension, Unit};
@@ -29,7 +29,7 @@ const SCENE: Form = Form::Table(Scene::KEYS);
 /// let file = SceneFile::from_toml("upper.toml", &text)?;
 /// let deeper = file.with(&["duct.depth=2 m"])?.scene()?;
 /// assert_eq!((file.scene()?.duct.depth, deeper.duct.depth), (1.2, 2.0));
-/// assert!(file.locate("duct.depth").unwrap().text.starts_with("depth = \"1.2 m\""));
+/// assert!(file.locate("duct.depth").unwrap().text().starts_with("depth = \"1.2 m\""));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -45,17 +45,20 @@ impl SceneFile {
     ///
     /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
-        let file = path.as_ref().display().to_string();
-        let bytes = bytes_of(path.as_ref()).map_err(|source| SceneError::Unreadable(file.clone(), source))?;
-        let text = String::from_utf8_lossy(&bytes);
-        if let Err(error) = std::str::from_utf8(&bytes) {
-            let valid = error.valid_up_to();
-            return Err(SceneError::Syntax {
-                location: Location::new(&file, &text, valid..valid, true),
-                message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
-            });
-        }
-        Self::from_toml(&file, &text)
+        let name = path.as_ref().display().to_string();
+        let bytes = match bytes_of(path.as_ref()) {
+            Ok(bytes) => bytes,
+            Err(why) => return Err(SceneError::Unreadable(name, why)),
+        };
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let Err(error) = std::str::from_utf8(&bytes) else {
+            return Self::from_toml(&name, &text);
+        };
+        let (start, kind) = (error.valid_up_to(), SourceKind::File);
+        Err(SceneError::Syntax {
+            location: Location::new(&Arc::new(Source { name, text, kind }), start..start),
+            message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
+        })
     }
 
     /// Takes `text` for the file; `name` stands for it in error messages.
@@ -64,10 +67,11 @@ impl SceneFile {
     ///
     /// As for [`SceneFile::read`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self> {
-        let end = text.trim_end().len();
-        let source = Source::new(SourceKind::File, name.to_owned(), text);
+        let [name, text] = [name, text].map(str::to_owned);
+        let kind = SourceKind::File;
+        let source = Arc::new(Source { name, text, kind });
         let content = Content::Table(entries_of(&source)?);
-        let mut root = Node::new(Place::new(&source, end..end), content);
+        let mut root = Node::new(Location { source, bytes: None }, content);
         preset::expand(&mut root)?;
         Ok(Self { root })
     }
@@ -108,15 +112,12 @@ impl SceneFile {
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
         let (node, _) = self.find(key);
-        (node.place != self.root.place).then(|| node.place.location())
+        (node.place != self.root.place).then(|| node.place.clone())
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
-        let slip = |(key, node): (String, &Node)| {
-            let words = unusual::slip(&key, node)?;
-            Some((node.place.location(), words))
-        };
+        let slip = |(key, node): (String, &Node)| Some((node.place.clone(), unusual::slip(&key, node)?));
         self.root.values("").into_iter().filter_map(slip).collect()
     }
 
@@ -170,28 +171,15 @@ impl SceneFile {
     }
 
     /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
-    fn located(&self, error: SceneError) -> SceneError {
-        let SceneError::Wrong(mut wrong) = error else {
-            return error;
-        };
-        let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
-        let (node, _) = self.find(&wrong.key);
-        let unknown = self.find(section).0.content.entry(key);
-        let unknown = unknown.filter(|_| wrong.is_unknown);
-        let mut location = unknown.map_or(&node.place, |node| &node.key_place).location();
-        // What the top level lacks would be added at the end, but is not on its last line.
-        if unknown.is_none() && node.place == self.root.place {
-            (location.text, location.marked) = (String::new(), 0..0);
+    fn located(&self, mut error: SceneError) -> SceneError {
+        if let SceneError::Wrong(wrong) = &mut error {
+            let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
+            let unknown = self.find(section).0.content.entry(key);
+            let unknown = unknown.filter(|_| wrong.is_unknown);
+            let place = || &self.find(&wrong.key).0.place;
+            wrong.location = Some(unknown.map_or_else(place, |node| &node.key_place).clone());
         }
-        wrong.location = Some(location);
-        if wrong.is_unknown {
-            let (other, words) = elsewhere(key);
-            if !wrong.found.ends_with("?)") {
-                wrong.found += &did_you_mean(other);
-            }
-            wrong.allowed += words;
-        }
-        SceneError::Wrong(wrong)
+        error
     }
 }
 

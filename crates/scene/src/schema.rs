@@ -65,7 +65,7 @@ fn form(form: &Form, path: &str) -> Value {
         Form::Name(_) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
         Form::Any(_) => json!({ "type": ["string", "number"] }),
-        Form::Intervals(..) => json!({ "type": "object" }),
+        Form::Intervals(_) => json!({ "type": "object" }),
         Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List([item], least, _) => {
