@@ -224,8 +224,11 @@ fn syntax_error(source: &Arc<Source>, error: &toml::de::Error) -> SceneError {
     let text = &source.text;
     // The parser does not say where keys are nested too deep.
     let deepest = || text.lines().max_by_key(|line| line.matches('.').count());
-    let start = error.span().map(|span| span.start);
-    let start = start.or_else(|| text.find(deepest()?)).unwrap_or(0).min(text.trim_end().len());
+    let start = error
+        .span()
+        .map(|span| span.start)
+        .or_else(|| text.find(deepest()?));
+    let start = start.unwrap_or(0).min(text.trim_end().len());
     let end = error.span().map_or(start, |span| span.end);
     SceneError::Syntax {
         location: Location::new(source, start..end),

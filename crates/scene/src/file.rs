@@ -3,7 +3,6 @@
 use std::fs::File;
 use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use crate::content::{Content, Node, entries_of};
 use crate::error::{Result, SceneError};
@@ -50,13 +49,13 @@ impl SceneFile {
             Ok(bytes) => bytes,
             Err(why) => return Err(SceneError::Unreadable(name, why)),
         };
-        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let text = String::from_utf8_lossy(&bytes);
         let Err(error) = std::str::from_utf8(&bytes) else {
             return Self::from_toml(&name, &text);
         };
-        let (start, kind) = (error.valid_up_to(), SourceKind::File);
+        let (source, start) = (Source::new(SourceKind::File, &name, &text), error.valid_up_to());
         Err(SceneError::Syntax {
-            location: Location::new(&Arc::new(Source { name, text, kind }), start..start),
+            location: Location::new(&source, start..start),
             message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
         })
     }
@@ -67,9 +66,7 @@ impl SceneFile {
     ///
     /// As for [`SceneFile::read`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self> {
-        let [name, text] = [name, text].map(str::to_owned);
-        let kind = SourceKind::File;
-        let source = Arc::new(Source { name, text, kind });
+        let source = Source::new(SourceKind::File, name, text);
         let content = Content::Table(entries_of(&source)?);
         let mut root = Node::new(Location { source, bytes: None }, content);
         preset::expand(&mut root)?;
@@ -102,8 +99,8 @@ impl SceneFile {
     /// [`SceneError`] with the first thing that is wrong, and where.
     pub fn scene(&self) -> Result<Scene> {
         let read = || {
-            let mut scene = read(&self.root)?;
-            scene.resolve(&self.root.place.source.name)?;
+            let mut scene = Scene::read(&Given::new(String::new(), &self.root, SCENE))?;
+            scene.resolve(self.root.place.file())?;
             rules::check(&scene).map(|()| scene)
         };
         read().map_err(|error| self.located(error))
@@ -132,7 +129,7 @@ impl SceneFile {
             return None;
         };
         let text = node.content.get("file").unwrap_or(node).content.as_text();
-        text.map(|text| histogram::beside(&self.root.place.source.name, text))
+        text.map(|text| histogram::beside(self.root.place.file(), text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
@@ -145,7 +142,7 @@ impl SceneFile {
                 key,
                 text: text.unwrap_or_else(|| node.written()),
                 is_number: number.is_some(),
-                source: node.place.source.name.clone(),
+                source: node.place.file().to_owned(),
             }
         };
         self.root.values("").into_iter().map(typed).collect()
@@ -196,25 +193,18 @@ pub struct Typed {
     pub source: String,
 }
 
-/// The scene of this tree, with each value in its own range.
-fn read(root: &Node) -> Result<Scene> {
-    Scene::read(&Given::new(String::new(), root, SCENE))
-}
-
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
     if path.is_dir() {
-        return Err(Error::other(
-            "this is a folder; a scene is a file, such as my-duct.toml",
-        ));
+        let found = "this is a folder; a scene is a file, such as my-duct.toml";
+        return Err(Error::other(found));
     }
     let mut bytes = Vec::new();
     let size = File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
-    if size as u64 > LARGEST_FILE {
-        let allowed =
-            format!("found more than {LARGEST_FILE} bytes; allowed: a scene file of at most so many");
-        return Err(Error::other(allowed));
+    if size as u64 <= LARGEST_FILE {
+        return Ok(bytes);
     }
-    Ok(bytes)
+    let allowed = format!("found more than {LARGEST_FILE} bytes; allowed: a scene file of at most so many");
+    Err(Error::other(allowed))
 }
 
 impl Scene {
@@ -238,37 +228,15 @@ impl Scene {
 
     /// Checks everything that reading a scene file checks. What computes with a scene does so first.
     ///
-    /// ```
-    /// use creepage_scene::Scene;
-    ///
-    /// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
-    /// scene.validate()?;
-    /// scene.duct.depth = -1.0;
-    /// let error = scene.validate().unwrap_err().to_string();
-    /// assert!(error.starts_with("`duct.depth`: found \"-1.0 m\"; allowed: a length greater than 0, from 1 cm to 1 km"));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
     /// # Errors
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
     pub fn validate(&self) -> Result<()> {
-        read(&self.node())?;
+        Self::read(&Given::new(String::new(), &self.node(), SCENE))?;
         rules::check(self)
     }
 
     /// The scene as a TOML file, all quantities in SI: [`Scene::from_toml`] reads the same scene from it.
-    ///
-    /// ```
-    /// use creepage_scene::Scene;
-    ///
-    /// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
-    /// scene.duct.depth = 1.5;
-    /// let text = scene.to_toml();
-    /// assert!(text.contains("depth = \"1.5 m\""));
-    /// assert_eq!(Scene::from_toml("deeper.toml", &text)?, scene);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn to_toml(&self) -> String {
         // Tables, lists, numbers and texts: there is nothing among them that TOML cannot write.
         toml::to_string(&self.node().content).unwrap_or_default()

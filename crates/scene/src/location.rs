@@ -19,6 +19,13 @@ pub struct Source {
     pub kind: SourceKind,
 }
 
+impl Source {
+    pub fn new(kind: SourceKind, name: &str, text: &str) -> Arc<Self> {
+        let [name, text] = [name, text].map(str::to_owned);
+        Arc::new(Self { name, text, kind })
+    }
+}
+
 #[derive(Debug, Default, PartialEq, Eq)]
 pub enum SourceKind {
     File,
@@ -84,7 +91,8 @@ impl Location {
         let first = text[start..].chars().next().map_or(0, char::len_utf8);
         let end = bytes.end.saturating_sub(begin).max(start + first);
         // Of a very long line the part around the mark is shown.
-        let skipped = text[..start].chars().count().saturating_sub(LONGEST_EXCERPT * 3 / 4);
+        let before = text[..start].chars().count();
+        let skipped = before.saturating_sub(LONGEST_EXCERPT * 3 / 4);
         let (mut shown, mut marks) = (String::new(), String::new());
         for (at, c) in text.char_indices().skip(skipped).take(LONGEST_EXCERPT) {
             shown.push(if c.is_control() { ' ' } else { c });
@@ -116,7 +124,12 @@ impl fmt::Display for Location {
 /// What stands behind a key with numbers from 0, counted from 1 as people do: ` (vehicle 1, wheel 2)` behind `vehicles.0.wheels.1.load`;
 /// nothing behind other keys.
 pub(crate) fn counted(key: &str) -> String {
-    let names = [("layers", "layer"), ("restraints", "clamp"), ("vehicles", "vehicle"), ("wheels", "wheel")];
+    let names = [
+        ("layers", "layer"),
+        ("restraints", "clamp"),
+        ("vehicles", "vehicle"),
+        ("wheels", "wheel"),
+    ];
     let parts: Vec<&str> = key.split('.').collect();
     let item = |pair: &[&str]| {
         let (_, name) = names.iter().find(|(list, _)| *list == pair[0])?;
@@ -124,7 +137,11 @@ pub(crate) fn counted(key: &str) -> String {
         Some(format!("{name} {number}"))
     };
     let items: Vec<String> = parts.windows(2).filter_map(item).collect();
-    if items.is_empty() { String::new() } else { format!(" ({})", items.join(", ")) }
+    if items.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", items.join(", "))
+    }
 }
 
 #[cfg(test)]
@@ -132,9 +149,7 @@ mod tests {
     use super::*;
 
     fn place(text: &str, bytes: Range<usize>) -> Location {
-        let (name, text) = ("f".to_owned(), text.to_owned());
-        let kind = SourceKind::File;
-        Location::new(&Arc::new(Source { name, text, kind }), bytes)
+        Location::new(&Source::new(SourceKind::File, "f", text), bytes)
     }
 
     #[test]

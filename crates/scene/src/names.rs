@@ -82,7 +82,8 @@ pub fn unknown_key(path: &str, name: &str, keys: &[Key]) -> SceneError {
     let meant = meant_by(name, keys.iter().map(|key| key.name)).or_else(elsewhere);
     let is_outermost = Scene::KEYS.iter().any(|other| other.name == last(name));
     let words = is_outermost.then_some("; it stands above the first section, or for itself");
-    SceneError::unknown(&joined(path, name), meant, names(keys) + words.unwrap_or_default())
+    let allowed = names(keys) + words.unwrap_or_default();
+    SceneError::unknown(&joined(path, name), meant, allowed)
 }
 
 /// The form of the number at a key of a scene, such as `vehicles.0.load`, which the table at `path` names.

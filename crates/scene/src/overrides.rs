@@ -17,10 +17,8 @@ type Refused = (String, String);
 
 /// Sets one key of a file's tree, or removes it if the value is empty.
 pub fn apply(root: &mut Node, text: &str) -> Result<()> {
-    let (name, kind) = (format!("--set {text}"), SourceKind::Override);
-    let text = text.to_owned();
-    let source = Arc::new(Source { name, text, kind });
-    let key = source.text.split('=').next().unwrap_or_default();
+    let source = Source::new(SourceKind::Override, &format!("--set {text}"), text);
+    let key = text.split('=').next().unwrap_or_default();
     let place = Location::new(&source, 0..key.len());
     let refused = |(found, allowed): Refused| SceneError::value(key.trim(), found, allowed);
     set_text(root, &place).map_err(|why| refused(why).at(place.clone(), true))

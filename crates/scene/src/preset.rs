@@ -33,7 +33,8 @@ pub fn expand(root: &mut Node) -> Result<()> {
 
 /// Puts the values of the preset that the table at `path` names into it: one of those of a section.
 fn fill(path: &str, section: &str, table: &mut Node) -> Result<()> {
-    let presets: Vec<(&str, &Preset)> = of_section(section).map(|preset| (&*preset.name, preset)).collect();
+    let presets = of_section(section).map(|preset| (&*preset.name, preset));
+    let presets: Vec<(&str, &Preset)> = presets.collect();
     let Content::Table(entries) = &mut table.content else {
         return Ok(());
     };
@@ -48,9 +49,8 @@ fn fill(path: &str, section: &str, table: &mut Node) -> Result<()> {
     let preset = preset.map_err(|error| error.at(named.place.clone(), false))?;
     // An earlier preset goes, and so does what was set before this one was named: in the file, or by another override.
     entries.retain(|node| node.place.source.kind != SourceKind::Preset);
-    let (text, kind) = (preset.toml.clone(), SourceKind::Preset);
     let name = format!("preset {}", preset.name);
-    for node in entries_of(&Arc::new(Source { name, text, kind }))? {
+    for node in entries_of(&Source::new(SourceKind::Preset, &name, &preset.toml))? {
         let excludes = |present: &Node| present.key == node.key || gives_way(path, present, &node);
         let is_beside = |present: &Node| Arc::ptr_eq(&present.key_place.source, &named.key_place.source);
         let mut present = entries.iter();

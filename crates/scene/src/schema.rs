@@ -13,13 +13,10 @@ use crate::stored::Stored;
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
 /// holds between several keys it says which of them exclude each other.
 pub fn schema() -> Value {
-    let Value::Object(mut root) = table(Scene::KEYS, "") else {
-        return Value::Null;
-    };
-    let draft = "https://json-schema.org/draft/2020-12/schema";
-    root.insert("$schema".into(), draft.into());
-    root.insert("title".into(), "Scene of creepage".into());
-    Value::Object(root)
+    let mut root = table(Scene::KEYS, "");
+    root["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
+    root["title"] = "Scene of creepage".into();
+    root
 }
 
 fn table(keys: &[Key], path: &str) -> Value {
@@ -32,15 +29,11 @@ fn table(keys: &[Key], path: &str) -> Value {
         let default = default.unwrap_or("required".to_owned());
         let words = format!("{} Allowed: {}; {default}.", key.meaning, key.form.allowed());
         property["description"] = words.into();
-        (key.name.to_owned(), property)
+        // Keys that have another name.
+        let names = std::iter::once(key.name).chain(other_name(key.name));
+        names.map(move |name| (name.to_owned(), property.clone()))
     };
-    let mut properties: Map<String, Value> = keys.iter().map(property).collect();
-    // Keys that have another name.
-    for key in keys {
-        if let (Some(other), Some(property)) = (other_name(key.name), properties.get(key.name).cloned()) {
-            properties.insert(other.to_owned(), property);
-        }
-    }
+    let properties: Map<String, Value> = keys.iter().flat_map(property).collect();
     let is_required = |key: &&Key| key.absent.is_none() && other_name(key.name).is_none();
     let required: Vec<&str> = keys.iter().filter(is_required).map(|key| key.name).collect();
     let mut table = json!({ "type": "object", "additionalProperties": false });
@@ -77,25 +70,27 @@ fn form(form: &Form, path: &str) -> Value {
 }
 
 fn number(quantity: Quantity) -> Value {
-    let Quantity {
-        least, most, whole, ..
-    } = quantity;
-    let limit = |value: f64| if whole { json!(value as u64) } else { json!(value) };
-    let kind = if whole { "integer" } else { "number" };
-    let mut number = json!({ "type": kind, "minimum": limit(least) });
-    if most < f64::MAX {
-        number["maximum"] = limit(most);
+    let limit = |value: f64| {
+        if quantity.whole {
+            json!(value as u64)
+        } else {
+            json!(value)
+        }
+    };
+    let kind = if quantity.whole { "integer" } else { "number" };
+    let mut number = json!({ "type": kind, "minimum": limit(quantity.least) });
+    if quantity.most < f64::MAX {
+        number["maximum"] = limit(quantity.most);
     }
     let Some(dimension) = quantity.dimension else {
         return number;
     };
-    let units: Vec<String> = dimension.units().map(unit).collect();
-    let digits = match least {
+    let digits = match quantity.least {
         ..0.0 => "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
         0.0 => "\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
         _ => "\\+?0*\\.?0*[1-9][0-9]*\\.?[0-9]*",
     };
-    let units = units.join("|");
+    let units = dimension.units().map(unit).collect::<Vec<_>>().join("|");
     let pattern = format!("^\\s*{digits}([eE][-+]?[0-9]+)?\\s*({units})\\s*$");
     json!({ "anyOf": [number, { "type": "string", "pattern": pattern }] })
 }

@@ -58,7 +58,10 @@ impl Stored for Vec<Uncertain> {
             let both = [uncertain.low, uncertain.high].map(|value| value.write(form).into());
             Some(Content::List(both.into()))
         };
-        Content::table(self.iter().map(|uncertain| (&*uncertain.key, interval(uncertain))))
+        let entries = self
+            .iter()
+            .map(|uncertain| (&*uncertain.key, interval(uncertain)));
+        Content::table(entries)
     }
 }
 
@@ -85,7 +88,8 @@ fn intervals(found: &mut Vec<Uncertain>, path: &str, key: &str, node: &Node) -> 
         return Ok(());
     }
     let values: Vec<String> = both.into_iter().map(shown).collect();
-    Err(SceneError::value(&own, format!("[{}]", values.join(", ")), INTERVAL))
+    let found = format!("[{}]", values.join(", "));
+    Err(SceneError::value(&own, found, INTERVAL))
 }
 
 /// What a measure costs.

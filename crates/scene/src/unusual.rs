@@ -72,7 +72,8 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
             let again = key.contains(".wheels.") && warnings.iter().any(|warning| warning.ends_with(words));
             let is_usual = (*least..=*most).contains(&value) || name == "friction.shape_factor" && forgets;
             if !is_usual && !again {
-                warnings.push(of(&key, &format!(" is {}{unit}{words}", four_digits(value / size))));
+                let value = four_digits(value / size);
+                warnings.push(of(&key, &format!(" is {value}{unit}{words}")));
             }
         }
     }
@@ -166,10 +167,10 @@ fn contrast(scene: &Scene) -> Option<String> {
         return Some(of(&format!("ground.layers.{below}.young_modulus"), &words));
     }
     let is_pavement = first.thickness.is_some_and(|thickness| thickness <= PAVEMENT);
+    let (times, last) = (base / top, four_digits(base / 1e6));
     let words = format!(
-        " is {:.0} times less than that of the last layer, {} MPa: layers stand from the top down, and the last one is rarely as stiff as rock",
-        base / top,
-        four_digits(base / 1e6),
+        " is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top down, and the last one is rarely as \
+         stiff as rock"
     );
     (is_pavement && base > INVERTED * top).then(|| of("ground.layers.0.young_modulus", &words))
 }
