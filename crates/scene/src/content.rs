@@ -223,15 +223,12 @@ pub fn node(value: &Spanned<DeValue>, source: &Arc<Source>) -> Node {
 fn syntax_error(source: &Arc<Source>, error: &toml::de::Error) -> SceneError {
     let text = &source.text;
     // The parser does not say where keys are nested too deep.
-    let deepest = || text.lines().max_by_key(|line| line.matches('.').count());
-    let start = error
-        .span()
-        .map(|span| span.start)
-        .or_else(|| text.find(deepest()?));
-    let start = start.unwrap_or(0).min(text.trim_end().len());
-    let end = error.span().map_or(start, |span| span.end);
+    let deepest = || text.find(text.lines().max_by_key(|line| line.matches('.').count())?);
+    let deepest = || deepest().unwrap_or_default();
+    let span = error.span().unwrap_or_else(|| deepest()..deepest());
+    let start = span.start.min(text.trim_end().len());
     SceneError::Syntax {
-        location: Location::new(source, start..end),
+        location: Location::new(source, start..span.end),
         message: error.message().to_owned(),
     }
 }

@@ -5,9 +5,10 @@ use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
 use crate::content::{Content, Node, entries_of};
-use crate::error::{Result, SceneError};
+use crate::error::{Result, SceneError, did_you_mean};
 use crate::key::Form;
 use crate::location::{Location, Source, SourceKind};
+use crate::names::elsewhere;
 use crate::scene::Scene;
 use crate::stored::{Given, Stored};
 use crate::units::{Dimension, Unit};
@@ -175,6 +176,13 @@ impl SceneFile {
             let unknown = unknown.filter(|_| wrong.is_unknown);
             let place = || &self.find(&wrong.key).0.place;
             wrong.location = Some(unknown.map_or_else(place, |node| &node.key_place).clone());
+            if wrong.is_unknown {
+                let (other, words) = elsewhere(key);
+                if !wrong.found.ends_with("?)") {
+                    wrong.found += &did_you_mean(other);
+                }
+                wrong.allowed += words;
+            }
         }
         error
     }

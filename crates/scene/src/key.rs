@@ -1,6 +1,8 @@
 //! Keys of the file: what they mean, and what may stand there.
 
-use crate::content::other_name;
+use crate::content::{joined, other_name};
+use crate::error::{Result, SceneError};
+use crate::nearest::meant_by;
 use crate::range::Quantity;
 use crate::shown::listed;
 
@@ -43,8 +45,8 @@ pub enum Form {
     Table(&'static [Key]),
     /// A list of so many items at least, all of one form or each of its own.
     List(&'static [Form], usize, &'static str),
-    /// A table of the lowest and the highest value of numbers of the scene by their keys.
-    Intervals(&'static str),
+    /// A table of the lowest and the highest value of numbers below these keys.
+    Intervals(fn() -> &'static [Key], &'static str),
     /// A value that is no table, or a table. A text stands for the first key of the table.
     Either(&'static Form, &'static [Key]),
 }
@@ -75,7 +77,7 @@ impl Form {
             Self::Text(allowed)
             | Self::Name(allowed)
             | Self::Any(allowed)
-            | Self::Intervals(allowed)
+            | Self::Intervals(_, allowed)
             | Self::List(_, _, allowed) => allowed.to_owned(),
             Self::Words(words, more) => listed(words.iter().copied()) + more,
             Self::Table(keys) => format!("a table with the keys {}", names(keys)),
@@ -84,8 +86,35 @@ impl Form {
     }
 }
 
-/// The names of keys, as messages list them.
-pub fn names(keys: &[Key]) -> String {
+fn names(keys: &[Key]) -> String {
     let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
     names.join(", ")
+}
+
+/// The error of a name that is none of these keys of the table at `path`.
+pub fn unknown_key(path: &str, name: &str, keys: &[Key]) -> SceneError {
+    let meant = meant_by(name, keys.iter().map(|key| key.name));
+    SceneError::unknown(&joined(path, name), meant, names(keys))
+}
+
+/// The form of the number at a key below these, such as `vehicles.0.load`, which the table at `path`
+/// names.
+pub fn number_at(keys: &'static [Key], path: &str, key: &str) -> Result<Form> {
+    const ALLOWED: &str = "a key of the scene that takes a number, such as \"friction.dynamic_coefficient\" (`creepage explain` lists \
+                           them)";
+    let (mut form, mut place) = (Form::Table(keys), path.to_owned());
+    for part in key.split('.') {
+        let keys = form.keys();
+        let known = keys.iter().find(|key| key.is_named(part));
+        form = match (form, known) {
+            (Form::List([item, ..], ..), _) if part.parse::<usize>().is_ok() => *item,
+            (Form::List(..), _) => break,
+            (_, Some(key)) => key.form,
+            _ if keys.is_empty() => break,
+            _ => return Err(unknown_key(&place, part, keys)),
+        };
+        place = joined(&place, part);
+    }
+    let wrong = || SceneError::value(&place, format!("`{key}`"), ALLOWED);
+    form.quantity().map(|_| form).ok_or_else(wrong)
 }

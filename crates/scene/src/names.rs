@@ -3,9 +3,8 @@
 use std::sync::LazyLock;
 
 use crate::content::joined;
-use crate::error::{Result, SceneError};
-use crate::key::{Form, Key, names};
-use crate::nearest::{meant_by, nearest};
+use crate::key::{Key, number_at};
+use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::scene::Scene;
 use crate::stored::Stored;
@@ -72,39 +71,15 @@ pub fn nearest_key(text: &str) -> Option<String> {
 
 /// The SI unit of a key, `vehicles.0.speed`; none for what is no number or has no unit.
 pub fn si_unit(key: &str) -> Option<&'static str> {
-    number_at("", key).ok()?.quantity()?.unit()
+    number_at(Scene::KEYS, "", key).ok()?.quantity()?.unit()
 }
 
-/// The error of a name that is none of these keys of the table at `path`: what it was meant to be among them, or a key of another
-/// section that is called so.
-pub fn unknown_key(path: &str, name: &str, keys: &[Key]) -> SceneError {
-    let elsewhere = || known().find(|other| last(other) == last(name));
-    let meant = meant_by(name, keys.iter().map(|key| key.name)).or_else(elsewhere);
-    let is_outermost = Scene::KEYS.iter().any(|other| other.name == last(name));
+/// A key of another section that is called like an unknown one; and words if it belongs above all sections.
+pub fn elsewhere(name: &str) -> (Option<&'static str>, &'static str) {
+    let is_outermost = Scene::KEYS.iter().any(|other| other.name == name);
     let words = is_outermost.then_some("; it stands above the first section, or for itself");
-    let allowed = names(keys) + words.unwrap_or_default();
-    SceneError::unknown(&joined(path, name), meant, allowed)
-}
-
-/// The form of the number at a key of a scene, such as `vehicles.0.load`, which the table at `path` names.
-pub fn number_at(path: &str, key: &str) -> Result<Form> {
-    const ALLOWED: &str = "a key of the scene that takes a number, such as \"friction.dynamic_coefficient\" (`creepage explain` lists \
-                           them)";
-    let (mut form, mut place) = (Form::Table(Scene::KEYS), path.to_owned());
-    for part in key.split('.') {
-        let keys = form.keys();
-        let known = keys.iter().find(|key| key.is_named(part));
-        form = match (form, known) {
-            (Form::List([item, ..], ..), _) if part.parse::<usize>().is_ok() => *item,
-            (Form::List(..), _) => break,
-            (_, Some(key)) => key.form,
-            _ if keys.is_empty() => break,
-            _ => return Err(unknown_key(&place, part, keys)),
-        };
-        place = joined(&place, part);
-    }
-    let wrong = || SceneError::value(&place, format!("`{key}`"), ALLOWED);
-    form.quantity().map(|_| form).ok_or_else(wrong)
+    let other = known().find(|other| last(other) == name);
+    (other, words.unwrap_or_default())
 }
 
 #[cfg(test)]

@@ -40,15 +40,17 @@ fn set_text(root: &mut Node, place: &Location) -> Result<(), Refused> {
         return refused("a key such as duct.length or vehicles.0.speed".to_owned());
     }
     if value.trim().is_empty() {
-        return set(root, "", &keys, None, place);
+        return set(root, "", &keys, None);
     }
     // The table of axles stands in place of `[[vehicles]]`.
     match &keys[..] {
-        ["vehicles"] => set(root, "", &["traffic", "histogram"], None, place).unwrap_or_default(),
-        ["traffic", "histogram"] => set(root, "", &["vehicles"], None, place).unwrap_or_default(),
+        ["vehicles"] => set(root, "", &["traffic", "histogram"], None).unwrap_or_default(),
+        ["traffic", "histogram"] => set(root, "", &["vehicles"], None).unwrap_or_default(),
         _ => (),
     }
-    set(root, "", &keys, Some(parsed(&place.source, key.len() + 1)), place)
+    let mut value = parsed(&place.source, key.len() + 1);
+    value.key_place = place.clone();
+    set(root, "", &keys, Some(value))
 }
 
 /// The value that begins at a byte of an override: TOML, or a text if it is not.
@@ -73,13 +75,7 @@ fn parsed(source: &Arc<Source>, start: usize) -> Node {
 }
 
 /// Sets what stands at these `keys` below the node at `path`, or removes it where there is no value.
-fn set(
-    node: &mut Node,
-    path: &str,
-    keys: &[&str],
-    value: Option<Node>,
-    place: &Location,
-) -> Result<(), Refused> {
+fn set(node: &mut Node, path: &str, keys: &[&str], value: Option<Node>) -> Result<(), Refused> {
     let Some((key, below)) = keys.split_first() else {
         let key = node.key.clone();
         *node = value.unwrap_or_else(|| node.clone()).named(&key);
@@ -87,7 +83,8 @@ fn set(
     };
     let path_of_key = joined(path, key);
     let is_removed = value.is_none() && below.is_empty();
-    let empty = || Node::new(place.clone(), Content::Table(Vec::new()));
+    let place = value.as_ref().map(|value| value.key_place.clone());
+    let empty = || Node::new(place.clone().unwrap_or_default(), Content::Table(Vec::new()));
     if let Content::List(items) = &mut node.content {
         let index = key.parse().ok().filter(|index| *index < items.len());
         let allowed = match items.len() {
@@ -99,7 +96,7 @@ fn set(
             items.remove(index);
             return Ok(());
         }
-        return set(&mut items[index], &path_of_key, below, value, place);
+        return set(&mut items[index], &path_of_key, below, value);
     }
     if !matches!(node.content, Content::Table(_)) {
         // `ends.downstream.spring=…` on `downstream = "fixed"`
@@ -121,9 +118,8 @@ fn set(
         entries.remove(at);
         return Ok(());
     }
-    set(&mut entries[at], &path_of_key, below, value, place)?;
+    set(&mut entries[at], &path_of_key, below, value)?;
     if below.is_empty() {
-        entries[at].key_place = place.clone();
         let node = entries[at].clone();
         entries.retain(|present| !gives_way(path, present, &node));
     }

@@ -171,7 +171,8 @@ fn slope(scene: &Scene) -> Result<()> {
     let key = if scene.route.is_empty() { "duct.slope" } else { "route" };
     rule(is_held || drawn == 0.0 || drawn.abs() < limit, key,
         format!("slopes between free ends that draw the cable with {} N: it slides out", four_digits(drawn.abs())),
-        format!("slopes that draw with less than friction and clamps hold, {} N, or an end that holds the cable", four_digits(limit)))
+        format!("slopes that draw with less than friction and clamps hold, {} N, or an end that holds the cable",
+            four_digits(limit)))
 }
 
 #[rustfmt::skip]

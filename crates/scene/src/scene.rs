@@ -49,7 +49,7 @@ keys! {
         /// How to compute.
         solver: Solver = Table(Solver::KEYS), "all is chosen";
         /// What is known only between two values: `creepage measures` and `report` compute all combinations.
-        uncertain: Vec<Uncertain> = Intervals(INTERVALS), "nothing";
+        uncertain: Vec<Uncertain> = Intervals(|| Scene::KEYS, INTERVALS), "nothing";
         /// Ways to hold the cable that `creepage measures` compares; a list built in if there are none.
         measures: Vec<Measure> = List(&[Table(Measure::KEYS)], 0, "a list of [[measures]]"), "none";
     }

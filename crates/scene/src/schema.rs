@@ -29,11 +29,15 @@ fn table(keys: &[Key], path: &str) -> Value {
         let default = default.unwrap_or("required".to_owned());
         let words = format!("{} Allowed: {}; {default}.", key.meaning, key.form.allowed());
         property["description"] = words.into();
-        // Keys that have another name.
-        let names = std::iter::once(key.name).chain(other_name(key.name));
-        names.map(move |name| (name.to_owned(), property.clone()))
+        (key.name.to_owned(), property)
     };
-    let properties: Map<String, Value> = keys.iter().flat_map(property).collect();
+    let mut properties: Map<String, Value> = keys.iter().map(property).collect();
+    // Keys that have another name.
+    for key in keys {
+        if let (Some(other), Some(property)) = (other_name(key.name), properties.get(key.name).cloned()) {
+            properties.insert(other.to_owned(), property);
+        }
+    }
     let is_required = |key: &&Key| key.absent.is_none() && other_name(key.name).is_none();
     let required: Vec<&str> = keys.iter().filter(is_required).map(|key| key.name).collect();
     let mut table = json!({ "type": "object", "additionalProperties": false });
@@ -58,7 +62,7 @@ fn form(form: &Form, path: &str) -> Value {
         Form::Name(_) => json!({ "type": "string", "pattern": "\\S" }),
         Form::Text(_) => json!({ "type": "string" }),
         Form::Any(_) => json!({ "type": ["string", "number"] }),
-        Form::Intervals(_) => json!({ "type": "object" }),
+        Form::Intervals(..) => json!({ "type": "object" }),
         Form::Words(words, _) => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List([item], least, _) => {

@@ -2,8 +2,7 @@
 
 use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError, did_you_mean};
-use crate::key::{Form, Key};
-use crate::names::unknown_key;
+use crate::key::{Form, Key, unknown_key};
 use crate::nearest::nearest;
 use crate::range::Quantity;
 use crate::rivals::contradiction;

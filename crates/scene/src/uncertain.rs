@@ -4,8 +4,7 @@ use serde::Serialize;
 
 use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError};
-use crate::key::Form;
-use crate::names::number_at;
+use crate::key::{Form, number_at};
 use crate::shown::shown;
 use crate::stored::{Given, Stored};
 
@@ -45,47 +44,50 @@ const INTERVAL: &str = "the lowest value and a greater one, such as [0.2, 0.5]";
 
 impl Stored for Vec<Uncertain> {
     fn read(given: &Given) -> Result<Self> {
-        let mut found = Self::new();
         match given.node.content {
-            Content::Table(_) => intervals(&mut found, &given.path, "", given.node).map(|()| found),
+            Content::Table(_) => intervals(given, "", given.node),
             _ => Err(given.of_other_kind()),
         }
     }
 
-    fn write(&self, _: Form) -> Content {
-        let interval = |uncertain: &Uncertain| {
-            let form = number_at("", &uncertain.key).ok()?;
-            let both = [uncertain.low, uncertain.high].map(|value| value.write(form).into());
-            Some(Content::List(both.into()))
+    fn write(&self, form: Form) -> Content {
+        let Form::Intervals(keys, _) = form else {
+            return Content::Other;
         };
-        let entries = self
-            .iter()
-            .map(|uncertain| (&*uncertain.key, interval(uncertain)));
-        Content::table(entries)
+        Content::table(self.iter().map(|uncertain| {
+            let form = number_at(keys(), "", &uncertain.key).ok();
+            let both = |form| [uncertain.low, uncertain.high].map(|value| value.write(form).into());
+            (&*uncertain.key, form.map(|form| Content::List(both(form).into())))
+        }))
     }
 }
 
-/// Reads what stands at a key of the table at `path`, or below it: `a.b = …` and `"a.b" = …` are the same.
-fn intervals(found: &mut Vec<Uncertain>, path: &str, key: &str, node: &Node) -> Result<()> {
-    let own = joined(path, key);
-    let both = match &node.content {
-        Content::Table(entries) => {
-            let mut entries = entries.iter();
-            return entries.try_for_each(|node| intervals(found, path, &joined(key, &node.key), node));
+/// What stands at a key of the table that is given, or below it: `a.b = …` and `"a.b" = …` are the same.
+fn intervals(given: &Given, key: &str, node: &Node) -> Result<Vec<Uncertain>> {
+    let own = joined(&given.path, key);
+    let both = match (&node.content, given.form) {
+        (Content::Table(entries), _) => {
+            let mut found = Vec::new();
+            for entry in entries {
+                for interval in intervals(given, &joined(key, &entry.key), entry)? {
+                    // What was set later counts.
+                    found.retain(|other: &Uncertain| other.key != interval.key);
+                    found.push(interval);
+                }
+            }
+            return Ok(found);
         }
-        Content::List(both) => both,
+        (Content::List(both), Form::Intervals(keys, _)) => {
+            let form = number_at(keys(), &given.path, key)?;
+            let read = |(index, node)| f64::read(&Given::new(joined(&own, index), node, form));
+            both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?
+        }
         _ => return Err(SceneError::value(&own, node.described(), INTERVAL)),
     };
-    let form = number_at(path, key)?;
-    let read = |(index, node)| f64::read(&Given::new(joined(&own, index), node, form));
-    let both = both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?;
     if let [low, high] = both[..]
         && low < high
     {
-        // What was set later counts.
-        found.retain(|other| other.key != key);
-        found.push(Uncertain::new(key, low, high));
-        return Ok(());
+        return Ok(vec![Uncertain::new(key, low, high)]);
     }
     let values: Vec<String> = both.into_iter().map(shown).collect();
     let found = format!("[{}]", values.join(", "));

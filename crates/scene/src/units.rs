@@ -39,14 +39,16 @@ macro_rules! dimensions {
 }
 
 dimensions! {
-    Length "a length": METRE "m" 0 1.0, "cm" -2 1.0, MILLIMETRE "mm" -3 1.0, MICROMETRE "um" -6 1.0, "nm" -9 1.0, "km" 3 1.0, INCH "in" 0 INCH, FOOT "ft" 0 FOOT, "yd" 0 YARD, "mi" 0 MILE;
+    Length "a length": METRE "m" 0 1.0, "cm" -2 1.0, MILLIMETRE "mm" -3 1.0, MICROMETRE "um" -6 1.0, "nm" -9 1.0, "km" 3 1.0,
+        INCH "in" 0 INCH, FOOT "ft" 0 FOOT, "yd" 0 YARD, "mi" 0 MILE;
     Force "a force": NEWTON "N" 0 1.0, "kN" 3 1.0, "MN" 6 1.0, "GN" 9 1.0, "kgf" 0 STANDARD_GRAVITY, "tf" 3 STANDARD_GRAVITY,
         "lbf" 0 POUND_FORCE, "kip" 3 POUND_FORCE;
     Pressure "a pressure or modulus": "Pa" 0 1.0, "kPa" 3 1.0, MEGAPASCAL "MPa" 6 1.0, "GPa" 9 1.0, "N/m2" 0 1.0, "kN/m2" 3 1.0, "MN/m2" 6 1.0,
         "N/mm2" 6 1.0, "kgf/cm2" 4 STANDARD_GRAVITY, "kgf/mm2" 6 STANDARD_GRAVITY, "tf/m2" 3 STANDARD_GRAVITY,
         "psi" 0 POUND_FORCE / SQUARE_INCH, "ksi" 3 POUND_FORCE / SQUARE_INCH;
-    ForcePerLength "a force per length": NEWTON_PER_METRE "N/m" 0 1.0, KILONEWTON_PER_METRE "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0, "N/mm" 3 1.0, "kN/mm" 6 1.0,
-        "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY, "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
+    ForcePerLength "a force per length": NEWTON_PER_METRE "N/m" 0 1.0, KILONEWTON_PER_METRE "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0,
+        "N/mm" 3 1.0, "kN/mm" 6 1.0, "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY,
+        "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
     Weight "a weight per length": "kg/m" 0 STANDARD_GRAVITY, "kg/km" -3 STANDARD_GRAVITY, "lb/1000ft" -3 POUND_FORCE / FOOT;
     InverseLength "an inverse length": "1/m" 0 1.0, "1/cm" 2 1.0, "1/mm" 3 1.0, "1/um" 6 1.0;
     Area "an area": "m2" 0 1.0, "cm2" -4 1.0, "mm2" -6 1.0, "in2" 0 SQUARE_INCH;

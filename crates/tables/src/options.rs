@@ -24,14 +24,9 @@ pub struct Options {
 }
 
 /// Signs by their words.
-const SIGNS: [(&str, &str); 6] = [
-    (";", "semicolon"),
-    ("\t", "tab"),
-    (",", "comma"),
-    (" ", "space"),
-    ("|", "bar"),
-    (".", "point"),
-];
+#[rustfmt::skip]
+const SIGNS: [(&str, &str); 6] =
+    [(";", "semicolon"), ("\t", "tab"), (",", "comma"), (" ", "space"), ("|", "bar"), (".", "point")];
 
 /// The word for a sign.
 pub fn word(sign: char) -> String {

@@ -124,10 +124,8 @@ impl Table {
             return Ok(joined(place.unwrap_or(0)));
         }
         let mut unnamed = rows[0].clone();
-        unnamed.cells.truncate(self.layout.unnamed.len());
-        for (cell, name) in unnamed.cells.iter_mut().zip(self.layout.unnamed) {
-            (*name).clone_into(cell);
-        }
+        let names = self.layout.unnamed.iter().take(unnamed.cells.len());
+        unnamed.cells = names.map(|name| (*name).to_owned()).collect();
         self.rows.insert(0, unnamed);
         Ok(0..1)
     }
