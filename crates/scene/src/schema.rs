@@ -74,22 +74,19 @@ fn form(form: &Form, path: &str) -> Value {
 }
 
 fn number(quantity: Quantity) -> Value {
-    let limit = |value: f64| {
-        if quantity.whole {
-            json!(value as u64)
-        } else {
-            json!(value)
-        }
-    };
-    let kind = if quantity.whole { "integer" } else { "number" };
-    let mut number = json!({ "type": kind, "minimum": limit(quantity.least) });
-    if quantity.most < f64::MAX {
-        number["maximum"] = limit(quantity.most);
+    let Quantity {
+        least, most, whole, ..
+    } = quantity;
+    let limit = |value: f64| if whole { json!(value as u64) } else { json!(value) };
+    let kind = if whole { "integer" } else { "number" };
+    let mut number = json!({ "type": kind, "minimum": limit(least) });
+    if most < f64::MAX {
+        number["maximum"] = limit(most);
     }
     let Some(dimension) = quantity.dimension else {
         return number;
     };
-    let digits = match quantity.least {
+    let digits = match least {
         ..0.0 => "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
         0.0 => "\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
         _ => "\\+?0*\\.?0*[1-9][0-9]*\\.?[0-9]*",
