@@ -85,8 +85,8 @@ impl From<Error> for Failure {
         };
         let location = error.location();
         Self {
-            file: location.map(|location| location.file.clone()),
-            line: location.and_then(|location| location.line),
+            file: location.map(|location| location.file().to_owned()),
+            line: location.and_then(|location| location.line()),
             key: error.key().map(str::to_owned),
             ..failure
         }

@@ -188,7 +188,7 @@ fn scene(text: &str) -> bool {
 /// The error names a line of the file, and says what the line is.
 fn located(error: &SceneError, text: &str) {
     let location = error.location().expect("a place");
-    let line = location.line.expect("a line");
+    let line = location.line().expect("a line");
     assert!(line >= 1 && line <= 1 + text.matches('\n').count(), "{error}");
     let message = error.to_string();
     assert!(
@@ -210,9 +210,9 @@ fn overrides(text: &str) -> bool {
         Err(error) => {
             let location = error.location().expect("a place");
             assert!(
-                location.line.is_some()
-                    || location.file.starts_with("--set ")
-                    || location.file.starts_with("preset ")
+                location.line().is_some()
+                    || location.file().starts_with("--set ")
+                    || location.file().starts_with("preset ")
             );
             assert!(!error.to_string().is_empty());
         }

@@ -39,7 +39,7 @@ fn what_is_not_toml_is_located_where_the_parser_gave_up() {
     ] {
         let error = read(text).unwrap_err();
         assert!(matches!(error, SceneError::Syntax { .. }), "{error}");
-        assert_eq!(error.location().unwrap().line, Some(line), "{error}");
+        assert_eq!(error.location().unwrap().line(), Some(line), "{error}");
         let (said, begin) = (
             error.to_string(),
             format!("bad.toml, line {line}: not valid TOML: "),

@@ -27,12 +27,6 @@ impl CableEnd {
         }
     }
 
-    /// The other one.
-    #[must_use]
-    pub fn other(self) -> Self {
-        self.of([Self::Downstream, Self::Upstream])
-    }
-
     /// How `scene` holds it.
     pub fn held_in(self, scene: &Scene) -> End {
         self.of([scene.ends.upstream, scene.ends.downstream])

@@ -1,7 +1,6 @@
 //! What a document holds: texts, numbers, lists and tables, each with the place where it was written.
 
 use std::borrow::Cow;
-use std::ops::Range;
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
@@ -9,51 +8,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{Result, SceneError};
-use crate::location::Location;
+use crate::location::{Location, Source};
 use crate::shown::{quoted, shortened, shown};
-
-/// A text and what it is called.
-#[derive(Debug, Default, PartialEq)]
-pub struct Source {
-    pub name: String,
-    pub text: String,
-    pub kind: SourceKind,
-}
-
-#[derive(Debug, Default, PartialEq)]
-pub enum SourceKind {
-    File,
-    Preset,
-    #[default]
-    Override,
-}
-
-impl Source {
-    pub fn new(kind: SourceKind, name: String, text: &str) -> Arc<Self> {
-        let text = text.to_owned();
-        Arc::new(Self { name, text, kind })
-    }
-}
-
-/// A place in a text.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Place {
-    pub source: Arc<Source>,
-    pub bytes: Range<usize>,
-}
-
-impl Place {
-    pub fn new(source: &Arc<Source>, bytes: Range<usize>) -> Self {
-        let source = source.clone();
-        Self { source, bytes }
-    }
-
-    /// The place as a message shows it.
-    pub fn location(&self) -> Location {
-        let Source { name, text, kind } = &*self.source;
-        Location::new(name, text, self.bytes.clone(), *kind == SourceKind::File)
-    }
-}
 
 /// A value where it was written; the place of one that a program has is in no text.
 #[derive(Debug, Clone, Serialize)]
@@ -63,9 +19,9 @@ pub struct Node {
     #[serde(skip)]
     pub key: String,
     #[serde(skip)]
-    pub key_place: Place,
+    pub key_place: Location,
     #[serde(skip)]
-    pub place: Place,
+    pub place: Location,
     pub content: Content,
 }
 
@@ -90,7 +46,7 @@ fn as_map<S: Serializer>(entries: &[Node], serializer: S) -> Result<S::Ok, S::Er
 
 impl From<Content> for Node {
     fn from(content: Content) -> Self {
-        Self::new(Place::default(), content)
+        Self::new(Location::default(), content)
     }
 }
 
@@ -147,7 +103,7 @@ impl Content {
 }
 
 impl Node {
-    pub fn new(place: Place, content: Content) -> Self {
+    pub fn new(place: Location, content: Content) -> Self {
         Self {
             key: String::new(),
             key_place: place.clone(),
@@ -165,15 +121,16 @@ impl Node {
     /// What stands there, the first line of it; what a program has as a file would have it.
     pub fn written(&self) -> String {
         const LONGEST: usize = 60;
-        let text = &self.place.source.text;
-        let all = text.get(self.place.bytes.clone()).unwrap_or_default();
-        match (all.lines().next(), &self.content) {
-            (Some(line), _) if line.len() < all.len() => shortened(line, LONGEST) + "…",
-            (Some(line), _) => shortened(line, LONGEST),
-            (None, Content::Text(text)) => quoted(text),
-            (None, Content::Whole(whole)) => whole.to_string(),
-            (None, Content::Number(value)) => shown(*value),
-            (None, _) => String::new(),
+        let bytes = self.place.bytes.clone();
+        let written = bytes.and_then(|bytes| self.place.source.text.get(bytes));
+        let mut lines = written.unwrap_or_default().lines();
+        match (lines.next(), lines.next(), &self.content) {
+            (Some(line), None, _) => shortened(line, LONGEST),
+            (Some(line), Some(_), _) => shortened(line, LONGEST) + "…",
+            (None, _, Content::Text(text)) => quoted(text),
+            (None, _, Content::Whole(whole)) => whole.to_string(),
+            (None, _, Content::Number(value)) => shown(*value),
+            (None, ..) => String::new(),
         }
     }
 
@@ -238,11 +195,11 @@ pub fn entries_of(source: &Arc<Source>) -> Result<Vec<Node>> {
 fn entries(table: &DeTable, source: &Arc<Source>) -> Vec<Node> {
     let entry = |(key, value): (&Spanned<Cow<str>>, _)| {
         let mut node = node(value, source).named(key.get_ref());
-        node.key_place = Place::new(source, key.span());
+        node.key_place = Location::new(source, key.span());
         node
     };
     let mut entries: Vec<Node> = table.iter().map(entry).collect();
-    entries.sort_by_key(|node| node.key_place.bytes.start);
+    entries.sort_by_key(|node| node.key_place.bytes.as_ref().map(|bytes| bytes.start));
     entries
 }
 
@@ -259,21 +216,19 @@ pub fn node(value: &Spanned<DeValue>, source: &Arc<Source>) -> Node {
         DeValue::Array(items) => Content::List(items.iter().map(|item| node(item, source)).collect()),
         DeValue::Table(table) => Content::Table(entries(table, source)),
     };
-    Node::new(Place::new(source, value.span()), content)
+    Node::new(Location::new(source, value.span()), content)
 }
 
 /// Why the parser gave up on a text, and where.
 fn syntax_error(source: &Arc<Source>, error: &toml::de::Error) -> SceneError {
-    // The parser does not say where keys are nested too deep.
     let text = &source.text;
-    let deepest = || {
-        let line = text.lines().max_by_key(|line| line.matches('.').count());
-        text.find(line.unwrap_or_default()).unwrap_or_default()
-    };
-    let mut span = error.span().unwrap_or_else(|| deepest()..deepest());
-    span.start = span.start.min(text.trim_end().len());
+    // The parser does not say where keys are nested too deep.
+    let deepest = || text.find(text.lines().max_by_key(|line| line.matches('.').count())?);
+    let deepest = || deepest().unwrap_or_default();
+    let span = error.span().unwrap_or_else(|| deepest()..deepest());
+    let start = span.start.min(text.trim_end().len());
     SceneError::Syntax {
-        location: Place::new(source, span).location(),
+        location: Location::new(source, start..span.end),
         message: error.message().to_owned(),
     }
 }

@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 
-use crate::content::{Content, Node, Place, Source, SourceKind, entries_of};
+use crate::content::{Content, Node, entries_of};
 use crate::error::{Result, SceneError, did_you_mean};
 use crate::key::Form;
-use crate::location::Location;
+use crate::location::{Location, Source, SourceKind};
 use crate::names::elsewhere;
 use crate::scene::Scene;
 use crate::stored::{Given, Stored};
@@ -29,7 +29,7 @@ const SCENE: Form = Form::Table(Scene::KEYS);
 /// let file = SceneFile::from_toml("upper.toml", &text)?;
 /// let deeper = file.with(&["duct.depth=2 m"])?.scene()?;
 /// assert_eq!((file.scene()?.duct.depth, deeper.duct.depth), (1.2, 2.0));
-/// assert!(file.locate("duct.depth").unwrap().text.starts_with("depth = \"1.2 m\""));
+/// assert!(file.locate("duct.depth").unwrap().text().starts_with("depth = \"1.2 m\""));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -45,17 +45,20 @@ impl SceneFile {
     ///
     /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
-        let file = path.as_ref().display().to_string();
-        let bytes = bytes_of(path.as_ref()).map_err(|source| SceneError::Unreadable(file.clone(), source))?;
+        let name = path.as_ref().display().to_string();
+        let bytes = match bytes_of(path.as_ref()) {
+            Ok(bytes) => bytes,
+            Err(why) => return Err(SceneError::Unreadable(name, why)),
+        };
         let text = String::from_utf8_lossy(&bytes);
-        if let Err(error) = std::str::from_utf8(&bytes) {
-            let valid = error.valid_up_to();
-            return Err(SceneError::Syntax {
-                location: Location::new(&file, &text, valid..valid, true),
-                message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
-            });
-        }
-        Self::from_toml(&file, &text)
+        let Err(error) = std::str::from_utf8(&bytes) else {
+            return Self::from_toml(&name, &text);
+        };
+        let (source, start) = (Source::new(SourceKind::File, &name, &text), error.valid_up_to());
+        Err(SceneError::Syntax {
+            location: Location::new(&source, start..start),
+            message: "found text that is not UTF-8: save the file as UTF-8".to_owned(),
+        })
     }
 
     /// Takes `text` for the file; `name` stands for it in error messages.
@@ -64,10 +67,9 @@ impl SceneFile {
     ///
     /// As for [`SceneFile::read`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self> {
-        let end = text.trim_end().len();
-        let source = Source::new(SourceKind::File, name.to_owned(), text);
+        let source = Source::new(SourceKind::File, name, text);
         let content = Content::Table(entries_of(&source)?);
-        let mut root = Node::new(Place::new(&source, end..end), content);
+        let mut root = Node::new(Location { source, bytes: None }, content);
         preset::expand(&mut root)?;
         Ok(Self { root })
     }
@@ -98,8 +100,8 @@ impl SceneFile {
     /// [`SceneError`] with the first thing that is wrong, and where.
     pub fn scene(&self) -> Result<Scene> {
         let read = || {
-            let mut scene = read(&self.root)?;
-            scene.resolve(&self.root.place.source.name)?;
+            let mut scene = Scene::read(&Given::new(String::new(), &self.root, SCENE))?;
+            scene.resolve(self.root.place.file())?;
             rules::check(&scene).map(|()| scene)
         };
         read().map_err(|error| self.located(error))
@@ -108,15 +110,12 @@ impl SceneFile {
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
         let (node, _) = self.find(key);
-        (node.place != self.root.place).then(|| node.place.location())
+        (node.place != self.root.place).then(|| node.place.clone())
     }
 
     /// Warnings of numbers without a unit that someone may have meant in another one, each with its place.
     pub fn slips(&self) -> Vec<(Location, String)> {
-        let slip = |(key, node): (String, &Node)| {
-            let words = unusual::slip(&key, node)?;
-            Some((node.place.location(), words))
-        };
+        let slip = |(key, node): (String, &Node)| Some((node.place.clone(), unusual::slip(&key, node)?));
         self.root.values("").into_iter().filter_map(slip).collect()
     }
 
@@ -131,7 +130,7 @@ impl SceneFile {
             return None;
         };
         let text = node.content.get("file").unwrap_or(node).content.as_text();
-        text.map(|text| histogram::beside(&self.root.place.source.name, text))
+        text.map(|text| histogram::beside(self.root.place.file(), text))
     }
 
     /// Every key that the file, its overrides or its presets give a value, in their order.
@@ -144,7 +143,7 @@ impl SceneFile {
                 key,
                 text: text.unwrap_or_else(|| node.written()),
                 is_number: number.is_some(),
-                source: node.place.source.name.clone(),
+                source: node.place.file().to_owned(),
             }
         };
         self.root.values("").into_iter().map(typed).collect()
@@ -170,28 +169,22 @@ impl SceneFile {
     }
 
     /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
-    fn located(&self, error: SceneError) -> SceneError {
-        let SceneError::Wrong(mut wrong) = error else {
-            return error;
-        };
-        let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
-        let (node, _) = self.find(&wrong.key);
-        let unknown = self.find(section).0.content.entry(key);
-        let unknown = unknown.filter(|_| wrong.is_unknown);
-        let mut location = unknown.map_or(&node.place, |node| &node.key_place).location();
-        // What the top level lacks would be added at the end, but is not on its last line.
-        if unknown.is_none() && node.place == self.root.place {
-            (location.text, location.marked) = (String::new(), 0..0);
-        }
-        wrong.location = Some(location);
-        if wrong.is_unknown {
-            let (other, words) = elsewhere(key);
-            if !wrong.found.ends_with("?)") {
-                wrong.found += &did_you_mean(other);
+    fn located(&self, mut error: SceneError) -> SceneError {
+        if let SceneError::Wrong(wrong) = &mut error {
+            let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
+            let unknown = self.find(section).0.content.entry(key);
+            let unknown = unknown.filter(|_| wrong.is_unknown);
+            let place = || &self.find(&wrong.key).0.place;
+            wrong.location = Some(unknown.map_or_else(place, |node| &node.key_place).clone());
+            if wrong.is_unknown {
+                let (other, words) = elsewhere(key);
+                if !wrong.found.ends_with("?)") {
+                    wrong.found += &did_you_mean(other);
+                }
+                wrong.allowed += words;
             }
-            wrong.allowed += words;
         }
-        SceneError::Wrong(wrong)
+        error
     }
 }
 
@@ -208,25 +201,18 @@ pub struct Typed {
     pub source: String,
 }
 
-/// The scene of this tree, with each value in its own range.
-fn read(root: &Node) -> Result<Scene> {
-    Scene::read(&Given::new(String::new(), root, SCENE))
-}
-
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
     if path.is_dir() {
-        return Err(Error::other(
-            "this is a folder; a scene is a file, such as my-duct.toml",
-        ));
+        let found = "this is a folder; a scene is a file, such as my-duct.toml";
+        return Err(Error::other(found));
     }
     let mut bytes = Vec::new();
     let size = File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
-    if size as u64 > LARGEST_FILE {
-        let allowed =
-            format!("found more than {LARGEST_FILE} bytes; allowed: a scene file of at most so many");
-        return Err(Error::other(allowed));
+    if size as u64 <= LARGEST_FILE {
+        return Ok(bytes);
     }
-    Ok(bytes)
+    let allowed = format!("found more than {LARGEST_FILE} bytes; allowed: a scene file of at most so many");
+    Err(Error::other(allowed))
 }
 
 impl Scene {
@@ -250,37 +236,15 @@ impl Scene {
 
     /// Checks everything that reading a scene file checks. What computes with a scene does so first.
     ///
-    /// ```
-    /// use creepage_scene::Scene;
-    ///
-    /// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
-    /// scene.validate()?;
-    /// scene.duct.depth = -1.0;
-    /// let error = scene.validate().unwrap_err().to_string();
-    /// assert!(error.starts_with("`duct.depth`: found \"-1.0 m\"; allowed: a length greater than 0, from 1 cm to 1 km"));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
     /// # Errors
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
     pub fn validate(&self) -> Result<()> {
-        read(&self.node())?;
+        Self::read(&Given::new(String::new(), &self.node(), SCENE))?;
         rules::check(self)
     }
 
     /// The scene as a TOML file, all quantities in SI: [`Scene::from_toml`] reads the same scene from it.
-    ///
-    /// ```
-    /// use creepage_scene::Scene;
-    ///
-    /// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
-    /// scene.duct.depth = 1.5;
-    /// let text = scene.to_toml();
-    /// assert!(text.contains("depth = \"1.5 m\""));
-    /// assert_eq!(Scene::from_toml("deeper.toml", &text)?, scene);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn to_toml(&self) -> String {
         // Tables, lists, numbers and texts: there is nothing among them that TOML cannot write.
         toml::to_string(&self.node().content).unwrap_or_default()

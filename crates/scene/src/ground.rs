@@ -98,11 +98,11 @@ impl Ground {
     ///
     /// [`GroundError`] where a valid scene has none: a number out of its range, a layer without thickness above another.
     pub fn profile(&self) -> Result<SoilProfile, GroundError> {
-        let layer =
-            |layer: &Layer, thickness| SoilLayer::new(thickness, layer.young_modulus, layer.poisson_ratio);
         let Some((last, upper)) = self.layers.split_last() else {
             return SoilProfile::new(Vec::new(), Base::Rigid);
         };
+        let layer =
+            |layer: &Layer, thickness| SoilLayer::new(thickness, layer.young_modulus, layer.poisson_ratio);
         let of_upper = |upper: &Layer| layer(upper, upper.thickness.unwrap_or_default());
         let mut layers = upper.iter().map(of_upper).collect::<Result<Vec<_>, _>>()?;
         let base = match (self.rigid_base_depth, last.young_modulus) {

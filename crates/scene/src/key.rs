@@ -80,20 +80,21 @@ impl Form {
             | Self::Intervals(_, allowed)
             | Self::List(_, _, allowed) => allowed.to_owned(),
             Self::Words(words, more) => listed(words.iter().copied()) + more,
-            Self::Table(keys) => format!("a table with the keys {}", names(keys).join(", ")),
+            Self::Table(keys) => format!("a table with the keys {}", names(keys)),
             Self::Either(form, _) => form.allowed(),
         }
     }
 }
 
-fn names(keys: &[Key]) -> Vec<&'static str> {
-    keys.iter().map(|key| key.name).collect()
+fn names(keys: &[Key]) -> String {
+    let names: Vec<&str> = keys.iter().map(|key| key.name).collect();
+    names.join(", ")
 }
 
 /// The error of a name that is none of these keys of the table at `path`.
 pub fn unknown_key(path: &str, name: &str, keys: &[Key]) -> SceneError {
-    let names = names(keys);
-    SceneError::unknown(&joined(path, name), meant_by(name, &names), names.join(", "))
+    let meant = meant_by(name, keys.iter().map(|key| key.name));
+    SceneError::unknown(&joined(path, name), meant, names(keys))
 }
 
 /// The form of the number at a key below these, such as `vehicles.0.load`, which the table at `path`

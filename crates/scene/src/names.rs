@@ -78,10 +78,8 @@ pub fn si_unit(key: &str) -> Option<&'static str> {
 pub fn elsewhere(name: &str) -> (Option<&'static str>, &'static str) {
     let is_outermost = Scene::KEYS.iter().any(|other| other.name == name);
     let words = is_outermost.then_some("; it stands above the first section, or for itself");
-    (
-        known().find(|other| last(other) == name),
-        words.unwrap_or_default(),
-    )
+    let other = known().find(|other| last(other) == name);
+    (other, words.unwrap_or_default())
 }
 
 #[cfg(test)]

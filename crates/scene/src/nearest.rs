@@ -19,12 +19,11 @@ const SYNONYMS: &[(&str, &str)] = &[
 
 /// What an unknown `key` was meant to be among the `allowed` ones: another word for one of them, or
 /// a near miss.
-pub fn meant_by<'k>(key: &str, allowed: &[&'k str]) -> Option<&'k str> {
+pub fn meant_by<'k>(key: &str, allowed: impl Iterator<Item = &'k str> + Clone) -> Option<&'k str> {
     let word = key.to_lowercase();
-    let named = |name: &str| allowed.iter().copied().find(|other| *other == name);
-    let of_word = |(other, name): &(&str, &str)| named(name).filter(|_| *other == word);
-    let synonym = SYNONYMS.iter().find_map(of_word);
-    synonym.or_else(|| nearest(key, allowed.iter().copied()))
+    let is_named = |name: &str| SYNONYMS.contains(&(&word, name));
+    let synonym = allowed.clone().find(|name| is_named(name));
+    synonym.or_else(|| nearest(key, allowed))
 }
 
 /// The one of `known` nearest to `word`, if one is near enough to be suggested.

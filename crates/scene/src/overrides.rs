@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use toml::de::DeTable;
 
-use crate::content::{Content, Node, Place, Source, SourceKind, joined, node};
+use crate::content::{Content, Node, joined, node};
 use crate::error::{Result, SceneError};
+use crate::location::{Location, Source, SourceKind};
 use crate::rivals::gives_way;
 
 /// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
@@ -16,14 +17,15 @@ type Refused = (String, String);
 
 /// Sets one key of a file's tree, or removes it if the value is empty.
 pub fn apply(root: &mut Node, text: &str) -> Result<()> {
-    let source = Source::new(SourceKind::Override, format!("--set {text}"), text);
+    let source = Source::new(SourceKind::Override, &format!("--set {text}"), text);
     let key = text.split('=').next().unwrap_or_default();
-    let place = Place::new(&source, 0..key.len());
-    set_text(root, text, &place)
-        .map_err(|(found, allowed)| SceneError::value(key.trim(), found, allowed).at(place.location(), true))
+    let place = Location::new(&source, 0..key.len());
+    let refused = |(found, allowed): Refused| SceneError::value(key.trim(), found, allowed);
+    set_text(root, &place).map_err(|why| refused(why).at(place.clone(), true))
 }
 
-fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
+fn set_text(root: &mut Node, place: &Location) -> Result<(), Refused> {
+    let text = &place.source.text;
     let Some((key, value)) = text.split_once('=') else {
         let allowed = "KEY=VALUE, such as friction.dynamic_coefficient=0.3";
         return Err((format!("`{text}`, without `=`"), allowed.to_owned()));
@@ -38,16 +40,17 @@ fn set_text(root: &mut Node, text: &str, place: &Place) -> Result<(), Refused> {
         return refused("a key such as duct.length or vehicles.0.speed".to_owned());
     }
     if value.trim().is_empty() {
-        return set(root, "", &keys, None, place);
+        return set(root, "", &keys, None);
     }
     // The table of axles stands in place of `[[vehicles]]`.
     match &keys[..] {
-        ["vehicles"] => set(root, "", &["traffic", "histogram"], None, place).unwrap_or_default(),
-        ["traffic", "histogram"] => set(root, "", &["vehicles"], None, place).unwrap_or_default(),
+        ["vehicles"] => set(root, "", &["traffic", "histogram"], None).unwrap_or_default(),
+        ["traffic", "histogram"] => set(root, "", &["vehicles"], None).unwrap_or_default(),
         _ => (),
     }
-    let value = parsed(&place.source, key.len() + 1);
-    set(root, "", &keys, Some(value), place)
+    let mut value = parsed(&place.source, key.len() + 1);
+    value.key_place = place.clone();
+    set(root, "", &keys, Some(value))
 }
 
 /// The value that begins at a byte of an override: TOML, or a text if it is not.
@@ -68,65 +71,55 @@ fn parsed(source: &Arc<Source>, start: usize) -> Node {
         Ok(value) if numeric => Content::number(value),
         _ => Content::Text(value.to_owned()),
     };
-    Node::new(Place::new(source, start..start + value.len()), content)
-}
-
-fn index(items: &[Node], number: &str) -> Result<usize, Refused> {
-    let allowed = match items.len() {
-        0 => "nothing: the list is empty".to_owned(),
-        count => format!("an index from 0 to {} of the list", count - 1),
-    };
-    let index = number.parse().ok().filter(|index| *index < items.len());
-    index.ok_or_else(|| (format!("`{number}`"), allowed))
+    Node::new(Location::new(source, start..start + value.len()), content)
 }
 
 /// Sets what stands at these `keys` below the node at `path`, or removes it where there is no value.
-fn set(
-    node: &mut Node,
-    path: &str,
-    keys: &[&str],
-    value: Option<Node>,
-    place: &Place,
-) -> Result<(), Refused> {
+fn set(node: &mut Node, path: &str, keys: &[&str], value: Option<Node>) -> Result<(), Refused> {
     let Some((key, below)) = keys.split_first() else {
         let key = node.key.clone();
         *node = value.unwrap_or_else(|| node.clone()).named(&key);
         return Ok(());
     };
-    let (path_of_key, is_removed) = (joined(path, key), value.is_none() && below.is_empty());
+    let path_of_key = joined(path, key);
+    let is_removed = value.is_none() && below.is_empty();
+    let place = value.as_ref().map(|value| value.key_place.clone());
+    let empty = || Node::new(place.clone().unwrap_or_default(), Content::Table(Vec::new()));
     if let Content::List(items) = &mut node.content {
-        let index = index(items, key)?;
+        let index = key.parse().ok().filter(|index| *index < items.len());
+        let allowed = match items.len() {
+            0 => "nothing: the list is empty".to_owned(),
+            count => format!("an index from 0 to {} of the list", count - 1),
+        };
+        let index: usize = index.ok_or_else(|| (format!("`{key}`"), allowed))?;
         if is_removed {
             items.remove(index);
             return Ok(());
         }
-        return set(&mut items[index], &path_of_key, below, value, place);
+        return set(&mut items[index], &path_of_key, below, value);
     }
-    let table = || Node::new(place.clone(), Content::Table(Vec::new()));
     if !matches!(node.content, Content::Table(_)) {
         // `ends.downstream.spring=…` on `downstream = "fixed"`
-        *node = table().named(&node.key);
+        *node = empty().named(&node.key);
     }
     let Content::Table(entries) = &mut node.content else {
         return Ok(());
     };
     let known = entries.iter().position(|node| node.key == *key);
-    match known {
-        Some(at) if is_removed => {
-            entries.remove(at);
-            return Ok(());
-        }
-        None if value.is_none() => {
-            let found = "an empty value, which removes the key".to_owned();
-            return Err((found, "a value, or a key that the scene holds".to_owned()));
-        }
-        None => entries.push(table().named(key)),
-        Some(_) => (),
+    if known.is_none() && value.is_none() {
+        let found = "an empty value, which removes the key".to_owned();
+        return Err((found, "a value, or a key that the scene holds".to_owned()));
     }
-    let at = known.unwrap_or(entries.len() - 1);
-    set(&mut entries[at], &path_of_key, below, value, place)?;
+    let at = known.unwrap_or_else(|| {
+        entries.push(empty().named(key));
+        entries.len() - 1
+    });
+    if is_removed {
+        entries.remove(at);
+        return Ok(());
+    }
+    set(&mut entries[at], &path_of_key, below, value)?;
     if below.is_empty() {
-        entries[at].key_place = place.clone();
         let node = entries[at].clone();
         entries.retain(|present| !gives_way(path, present, &node));
     }

@@ -4,9 +4,10 @@
 
 use std::sync::Arc;
 
-use crate::content::{Content, Node, Source, SourceKind, entries_of, joined};
+use crate::content::{Content, Node, entries_of, joined};
 use crate::error::Result;
 use crate::key::Form;
+use crate::location::{Source, SourceKind};
 use crate::presets::{Preset, of_section};
 use crate::rivals::gives_way;
 use crate::shown::listed;
@@ -19,41 +20,41 @@ pub fn expand(root: &mut Node) -> Result<()> {
     };
     for section in sections {
         let key = section.key.clone();
-        let presets: Vec<(&str, &Preset)> = of_section(&key).map(|preset| (&*preset.name, preset)).collect();
         match &mut section.content {
-            _ if presets.is_empty() => (),
             Content::List(items) => {
                 let mut items = items.iter_mut().enumerate();
-                items.try_for_each(|(index, item)| fill(&joined(&key, index), &presets, item))?;
+                items.try_for_each(|(index, item)| fill(&joined(&key, index), &key, item))?;
             }
-            _ => fill(&key, &presets, section)?,
+            _ => fill(&key, &key, section)?,
         }
     }
     Ok(())
 }
 
-fn fill(path: &str, presets: &[(&str, &Preset)], section: &mut Node) -> Result<()> {
-    let Content::Table(entries) = &mut section.content else {
+/// Puts the values of the preset that the table at `path` names into it: one of those of a section.
+fn fill(path: &str, section: &str, table: &mut Node) -> Result<()> {
+    let presets = of_section(section).map(|preset| (&*preset.name, preset));
+    let presets: Vec<(&str, &Preset)> = presets.collect();
+    let Content::Table(entries) = &mut table.content else {
         return Ok(());
     };
-    let Some(place) = entries.iter().position(|node| node.key == "preset") else {
+    let place = entries.iter().position(|node| node.key == "preset");
+    let Some(place) = place.filter(|_| !presets.is_empty()) else {
         return Ok(());
     };
     let named = entries.remove(place);
     let allowed = listed(presets.iter().map(|(name, _)| *name));
     let given = Given::new(joined(path, "preset"), &named, Form::Text(""));
-    let preset = given.word(presets, allowed);
-    let preset = preset.map_err(|error| error.at(named.place.location(), false))?;
+    let preset = given.word(&presets, allowed);
+    let preset = preset.map_err(|error| error.at(named.place.clone(), false))?;
     // An earlier preset goes, and so does what was set before this one was named: in the file, or by another override.
     entries.retain(|node| node.place.source.kind != SourceKind::Preset);
     let name = format!("preset {}", preset.name);
-    for node in entries_of(&Source::new(SourceKind::Preset, name, &preset.toml))? {
+    for node in entries_of(&Source::new(SourceKind::Preset, &name, &preset.toml))? {
         let excludes = |present: &Node| present.key == node.key || gives_way(path, present, &node);
         let is_beside = |present: &Node| Arc::ptr_eq(&present.key_place.source, &named.key_place.source);
-        if !entries
-            .iter()
-            .any(|present| is_beside(present) && excludes(present))
-        {
+        let mut present = entries.iter();
+        if !present.any(|present| is_beside(present) && excludes(present)) {
             entries.retain(|present| !excludes(present));
             entries.push(node);
         }

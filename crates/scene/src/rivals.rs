@@ -7,22 +7,14 @@ use crate::error::{Result, SceneError};
 const ONE: &str = "only one of the two";
 const AT_RANDOM: &str = "order = \"random\", or none: the axles of a histogram come at random";
 const SEED: &str = "`seed` only with order = \"random\"";
-const THREE: &[&str] = &[
-    "trefoil-upper",
-    "trefoil-lower",
-    "cradled-outer",
-    "cradled-middle",
-];
+#[rustfmt::skip]
+const THREE: &[&str] = &["trefoil-upper", "trefoil-lower", "cradled-outer", "cradled-middle"];
+
+type Word = &'static str;
 
 /// A table, a key of it, the values of that key with which another key has no meaning (none: whatever it is; an empty one: if it is left
 /// out), that other key, and what is allowed.
-type Rule = (
-    &'static str,
-    &'static str,
-    &'static [&'static str],
-    &'static str,
-    &'static str,
-);
+type Rule = (Word, Word, &'static [Word], Word, Word);
 
 #[rustfmt::skip]
 const RULES: &[Rule] = &[

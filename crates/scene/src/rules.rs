@@ -17,9 +17,10 @@ use crate::solver::SolverMethod;
 
 /// Makes sure that the scene breaks no rule.
 pub fn check(scene: &Scene) -> Result<()> {
-    let lists = [given, ground, lengths, clamps];
-    let others = [route, slope, vehicles, sequence, heat];
-    lists.iter().chain(&others).try_for_each(|rules| rules(scene))
+    let all = [
+        given, ground, lengths, clamps, route, slope, vehicles, sequence, heat,
+    ];
+    all.iter().try_for_each(|rules| rules(scene))
 }
 
 /// A rule, with the key at which it is broken if it does not hold.
@@ -36,8 +37,8 @@ fn needed(is_given: bool, key: &str, quantity: Quantity, or: &str) -> Result<()>
 
 /// A length \[m\], if any, must be in the range that follows from the rest of the scene.
 fn suits(length: Option<f64>, range: RangeInclusive<f64>, key: &str, allowed: String) -> Result<()> {
-    let fits = length.is_none_or(|length| range.contains(&length));
     let found = format!("\"{} m\"", length.unwrap_or_default());
+    let fits = length.is_none_or(|length| range.contains(&length));
     rule(fits, key, found, allowed)
 }
 
@@ -119,16 +120,15 @@ fn clamps(scene: &Scene) -> Result<()> {
     Ok(())
 }
 
+#[rustfmt::skip]
 fn clamps_of(scene: &Scene, list: &str, clamps: &[Restraint], may_slip: bool) -> Result<()> {
     let length = scene.duct.length;
-    let slipping = "a clamp that slips, without friction";
     for (index, clamp) in clamps.iter().enumerate() {
         let key = |name: &str| format!("{list}.{index}.{name}");
-        let is_fit = may_slip || clamp.holds.is_none();
-        let allowed = format!("a position in the duct, from 0 m to {} m", shown(length));
-        let only = "only where the cable has friction";
-        rule(is_fit, &key("holds"), slipping, only)?;
-        suits(Some(clamp.position), 0.0..=length, &key("position"), allowed)?;
+        rule(may_slip || clamp.holds.is_none(), &key("holds"), "a clamp that slips, without friction",
+            "only where the cable has friction")?;
+        suits(Some(clamp.position), 0.0..=length, &key("position"),
+            format!("a position in the duct, from 0 m to {} m", shown(length)))?;
     }
     Ok(())
 }
@@ -159,28 +159,20 @@ fn route(scene: &Scene) -> Result<()> {
 }
 
 /// A cable that nothing else holds must not slide out of its duct.
+#[rustfmt::skip]
 fn slope(scene: &Scene) -> Result<()> {
-    let clamps = scene.restraints.iter();
-    let clamps = clamps.map(|clamp| clamp.holds.unwrap_or(f64::INFINITY));
+    let clamps = scene.restraints.iter().map(|clamp| clamp.holds.unwrap_or(f64::INFINITY));
     let (mut drawn, mut limit) = (0.0, clamps.sum::<f64>());
     for section in scene.sections() {
         drawn += section.body_force * section.length;
         limit += section.limit * section.length;
     }
     let is_held = [scene.ends.upstream, scene.ends.downstream] != [End::Free; 2];
-    let rests = is_held || drawn == 0.0 || drawn.abs() < limit;
-    let [drawn, limit] = [drawn.abs(), limit].map(four_digits);
-    let found = format!("slopes between free ends that draw the cable with {drawn} N: it slides out");
-    let allowed = format!(
-        "slopes that draw with less than friction and clamps hold, {limit} N, or an end that holds the cable"
-    );
-    let is_straight = scene.route.is_empty();
-    rule(
-        rests,
-        if is_straight { "duct.slope" } else { "route" },
-        found,
-        allowed,
-    )
+    let key = if scene.route.is_empty() { "duct.slope" } else { "route" };
+    rule(is_held || drawn == 0.0 || drawn.abs() < limit, key,
+        format!("slopes between free ends that draw the cable with {} N: it slides out", four_digits(drawn.abs())),
+        format!("slopes that draw with less than friction and clamps hold, {} N, or an end that holds the cable",
+            four_digits(limit)))
 }
 
 #[rustfmt::skip]
@@ -204,17 +196,14 @@ fn vehicles(scene: &Scene) -> Result<()> {
 
 fn sequence(scene: &Scene) -> Result<()> {
     let known = || scene.vehicles.iter().map(|vehicle| &*vehicle.name);
-    let mut names = scene.traffic.sequence.iter().enumerate();
-    let Some((index, name)) = names.find(|(_, name)| !known().any(|known| known == *name)) else {
-        return Ok(());
-    };
-    let found = format!("\"{name}\"{}", did_you_mean(nearest(name, known())));
-    rule(
-        false,
-        &format!("traffic.sequence.{index}"),
-        found,
-        listed(known()),
-    )
+    for (index, name) in scene.traffic.sequence.iter().enumerate() {
+        if !known().any(|known| known == name) {
+            let found = format!("\"{name}\"{}", did_you_mean(nearest(name, known())));
+            let key = format!("traffic.sequence.{index}");
+            return Err(SceneError::value(&key, found, listed(known())));
+        }
+    }
+    Ok(())
 }
 
 #[rustfmt::skip]

@@ -13,13 +13,10 @@ use crate::stored::Stored;
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
 /// holds between several keys it says which of them exclude each other.
 pub fn schema() -> Value {
-    let Value::Object(mut root) = table(Scene::KEYS, "") else {
-        return Value::Null;
-    };
-    let draft = "https://json-schema.org/draft/2020-12/schema";
-    root.insert("$schema".into(), draft.into());
-    root.insert("title".into(), "Scene of creepage".into());
-    Value::Object(root)
+    let mut root = table(Scene::KEYS, "");
+    root["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
+    root["title"] = "Scene of creepage".into();
+    root
 }
 
 fn table(keys: &[Key], path: &str) -> Value {
@@ -89,13 +86,12 @@ fn number(quantity: Quantity) -> Value {
     let Some(dimension) = quantity.dimension else {
         return number;
     };
-    let units: Vec<String> = dimension.units().map(unit).collect();
     let digits = match least {
         ..0.0 => "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
         0.0 => "\\+?([0-9]+\\.?[0-9]*|\\.[0-9]+)",
         _ => "\\+?0*\\.?0*[1-9][0-9]*\\.?[0-9]*",
     };
-    let units = units.join("|");
+    let units = dimension.units().map(unit).collect::<Vec<_>>().join("|");
     let pattern = format!("^\\s*{digits}([eE][-+]?[0-9]+)?\\s*({units})\\s*$");
     json!({ "anyOf": [number, { "type": "string", "pattern": pattern }] })
 }

@@ -42,16 +42,15 @@ impl<'n> Given<'n> {
     /// Refuses what is no table, and keys of a table that are not known or exclude each other. An unknown key is told before one that
     /// is missing: a misspelt one is both.
     pub fn check_table(&self) -> Result<()> {
-        let entries = match &self.node.content {
-            Content::Table(entries) => entries,
-            Content::Text(_) if matches!(self.form, Form::Either(..)) => return Ok(()),
-            _ => return Err(self.of_other_kind()),
-        };
         let keys = self.form.keys();
         let is_unknown = |node: &&Node| !keys.iter().any(|key| key.is_named(&node.key));
-        match entries.iter().find(is_unknown) {
-            Some(node) => Err(unknown_key(&self.path, &node.key, keys)),
-            None => contradiction(&self.path, self.node),
+        match (&self.node.content, self.form) {
+            (Content::Table(entries), _) => match entries.iter().find(is_unknown) {
+                Some(node) => Err(unknown_key(&self.path, &node.key, keys)),
+                None => contradiction(&self.path, self.node),
+            },
+            (Content::Text(_), Form::Either(..)) => Ok(()),
+            _ => Err(self.of_other_kind()),
         }
     }
 
@@ -90,14 +89,10 @@ pub fn written<T: Stored + PartialEq>(value: &T, form: Form, absent: Option<&T>)
 impl Stored for f64 {
     fn read(given: &Given) -> Result<Self> {
         let (content, written) = (&given.node.content, given.node.written());
-        let Some(quantity) = given.form.quantity() else {
-            return Err(given.of_other_kind());
-        };
+        let quantity = given.form.quantity().ok_or_else(|| given.of_other_kind())?;
+        let wrong = |why| given.wrong(format!("{written}: {why}"));
         let value = match (content.as_text(), quantity.dimension) {
-            (Some(text), Some(dimension)) => {
-                let wrong = |why| given.wrong(format!("{written}: {why}"));
-                dimension.parse(text).map_err(wrong)?
-            }
+            (Some(text), Some(dimension)) => dimension.parse(text).map_err(wrong)?,
             _ => content.as_number().ok_or_else(|| given.of_other_kind())?,
         };
         if quantity.contains(value) {
@@ -106,17 +101,15 @@ impl Stored for f64 {
         let bare = quantity.dimension.filter(|_| content.as_text().is_none());
         let unit = bare.map(|dimension| dimension.si().unwrap_or("1, not in %"));
         let bare = unit.map_or_else(String::new, |unit| format!("; a bare number is in {unit}"));
-        Err(SceneError::value(
-            &given.path,
-            written,
-            given.form.allowed() + &bare,
-        ))
+        let allowed = given.form.allowed() + &bare;
+        Err(SceneError::value(&given.path, written, allowed))
     }
 
     fn write(&self, form: Form) -> Content {
-        let unit = form.quantity().and_then(Quantity::unit);
-        let text = unit.map(|unit| Content::Text(format!("{self:?} {unit}")));
-        text.unwrap_or(Content::Number(*self))
+        match form.quantity().and_then(Quantity::unit) {
+            Some(unit) => Content::Text(format!("{self:?} {unit}")),
+            None => Content::Number(*self),
+        }
     }
 }
 
@@ -164,11 +157,11 @@ impl<T: Stored> Stored for Vec<T> {
         if items.len() < least {
             return Err(given.wrong(["an empty list", "one item"][items.len().min(1)]));
         }
-        let items = items.iter().zip(forms.iter().cycle()).enumerate();
-        let path = |index| joined(&given.path, index);
-        let read =
-            |(index, (node, form)): (usize, (_, &Form))| T::read(&Given::new(path(index), node, *form));
-        items.map(read).collect()
+        let item = |(index, (node, form)): (usize, (_, &Form))| {
+            T::read(&Given::new(joined(&given.path, index), node, *form))
+        };
+        let items = items.iter().zip(forms.iter().cycle());
+        items.enumerate().map(item).collect()
     }
 
     fn write(&self, form: Form) -> Content {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError};
-use crate::key::{Form, Key, number_at};
+use crate::key::{Form, number_at};
 use crate::shown::shown;
 use crate::stored::{Given, Stored};
 
@@ -44,11 +44,8 @@ const INTERVAL: &str = "the lowest value and a greater one, such as [0.2, 0.5]";
 
 impl Stored for Vec<Uncertain> {
     fn read(given: &Given) -> Result<Self> {
-        let mut found = Self::new();
-        match (given.form, &given.node.content) {
-            (Form::Intervals(keys, _), Content::Table(_)) => {
-                intervals(&mut found, keys(), &given.path, "", given.node).map(|()| found)
-            }
+        match given.node.content {
+            Content::Table(_) => intervals(given, "", given.node),
             _ => Err(given.of_other_kind()),
         }
     }
@@ -57,50 +54,44 @@ impl Stored for Vec<Uncertain> {
         let Form::Intervals(keys, _) = form else {
             return Content::Other;
         };
-        let interval = |uncertain: &Uncertain| {
-            let form = number_at(keys(), "", &uncertain.key).ok()?;
-            let both = [uncertain.low, uncertain.high].map(|value| value.write(form).into());
-            Some(Content::List(both.into()))
-        };
-        Content::table(
-            self.iter()
-                .map(|uncertain| (&*uncertain.key, interval(uncertain))),
-        )
+        Content::table(self.iter().map(|uncertain| {
+            let form = number_at(keys(), "", &uncertain.key).ok();
+            let both = |form| [uncertain.low, uncertain.high].map(|value| value.write(form).into());
+            (&*uncertain.key, form.map(|form| Content::List(both(form).into())))
+        }))
     }
 }
 
-/// Reads what stands at a key of the table at `path`, or below it: `a.b = …` and `"a.b" = …` are the same.
-fn intervals(
-    found: &mut Vec<Uncertain>,
-    keys: &'static [Key],
-    path: &str,
-    key: &str,
-    node: &Node,
-) -> Result<()> {
-    let own = joined(path, key);
-    let both = match &node.content {
-        Content::Table(entries) => {
-            let mut entries = entries.iter();
-            return entries.try_for_each(|node| intervals(found, keys, path, &joined(key, &node.key), node));
+/// What stands at a key of the table that is given, or below it: `a.b = …` and `"a.b" = …` are the same.
+fn intervals(given: &Given, key: &str, node: &Node) -> Result<Vec<Uncertain>> {
+    let own = joined(&given.path, key);
+    let both = match (&node.content, given.form) {
+        (Content::Table(entries), _) => {
+            let mut found = Vec::new();
+            for entry in entries {
+                for interval in intervals(given, &joined(key, &entry.key), entry)? {
+                    // What was set later counts.
+                    found.retain(|other: &Uncertain| other.key != interval.key);
+                    found.push(interval);
+                }
+            }
+            return Ok(found);
         }
-        Content::List(both) => both,
+        (Content::List(both), Form::Intervals(keys, _)) => {
+            let form = number_at(keys(), &given.path, key)?;
+            let read = |(index, node)| f64::read(&Given::new(joined(&own, index), node, form));
+            both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?
+        }
         _ => return Err(SceneError::value(&own, node.described(), INTERVAL)),
     };
-    let form = number_at(keys, path, key)?;
-    let read = |(index, node)| f64::read(&Given::new(joined(&own, index), node, form));
-    let both = both.iter().enumerate().map(read).collect::<Result<Vec<f64>>>()?;
-    match both[..] {
-        [low, high] if low < high => {
-            // What was set later counts.
-            found.retain(|other| other.key != key);
-            found.push(Uncertain::new(key, low, high));
-            Ok(())
-        }
-        _ => {
-            let values = both.into_iter().map(shown).collect::<Vec<_>>().join(", ");
-            Err(SceneError::value(&own, format!("[{values}]"), INTERVAL))
-        }
+    if let [low, high] = both[..]
+        && low < high
+    {
+        return Ok(vec![Uncertain::new(key, low, high)]);
     }
+    let values: Vec<String> = both.into_iter().map(shown).collect();
+    let found = format!("[{}]", values.join(", "));
+    Err(SceneError::value(&own, found, INTERVAL))
 }
 
 /// What a measure costs.
@@ -115,13 +106,11 @@ pub enum Cost {
 
 impl Stored for Cost {
     fn read(given: &Given) -> Result<Self> {
-        let content = &given.node.content;
-        let number = content
-            .as_number()
-            .filter(|cost| (0.0..f64::INFINITY).contains(cost));
-        let text = content.as_text().map(|text| Self::Text(text.to_owned()));
-        let cost = number.map(Self::Number).or(text);
-        cost.ok_or_else(|| given.of_other_kind())
+        match (given.node.content.as_text(), given.node.content.as_number()) {
+            (Some(text), _) => Ok(Self::Text(text.to_owned())),
+            (_, Some(cost)) if (0.0..f64::INFINITY).contains(&cost) => Ok(Self::Number(cost)),
+            _ => Err(given.of_other_kind()),
+        }
     }
 
     fn write(&self, _: Form) -> Content {

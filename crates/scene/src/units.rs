@@ -2,43 +2,53 @@
 
 use crate::nearest::nearest;
 
-/// A dimension in a row: its name, its noun with an article, and its units, that of SI first: symbol, power of ten, factor.
+/// A dimension in a row: its name, its noun with an article, and its units, that of SI first: symbol, power of ten, factor. A unit that
+/// answers are told in has a name of its own.
 macro_rules! dimensions {
-    ($($name:ident $noun:literal: $($symbol:literal $exponent:literal $factor:tt $(/ $divisor:expr)?),+;)+) => {
+    ($($dimension:ident $noun:literal: $($($name:ident)? $symbol:literal $exponent:literal $factor:tt $(/ $divisor:expr)?),+;)+) => {
         /// Physical dimension of a quantity in a scene.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Dimension {
-            $(#[doc = concat!("It is ", $noun, ".")] $name,)+
+            $(#[doc = concat!("It is ", $noun, ".")] $dimension,)+
         }
 
         impl Dimension {
             /// Every dimension.
-            pub const ALL: &'static [Self] = &[$(Self::$name),+];
+            pub const ALL: &'static [Self] = &[$(Self::$dimension),+];
 
             /// The dimension in words, with its article: "a length".
             pub fn noun(self) -> &'static str {
                 match self {
-                    $(Self::$name => $noun,)+
+                    $(Self::$dimension => $noun,)+
                 }
             }
         }
 
+        impl Unit {
+            $($($(
+                #[doc = concat!("1 ", $symbol, ".")]
+                pub const $name: Self = unit($symbol, Dimension::$dimension, $exponent, ($factor, 1.0));
+            )?)+)+
+        }
+
         /// Every unit of a scene file, the SI unit of each dimension first.
         pub const UNITS: &[Unit] =
-            &[$($(unit($symbol, Dimension::$name, $exponent, ($factor, [$($divisor,)? 1.0][0]))),+),+];
+            &[$($(unit($symbol, Dimension::$dimension, $exponent, ($factor, [$($divisor,)? 1.0][0]))),+),+];
     };
 }
 
 dimensions! {
-    Length "a length": "m" 0 1.0, "cm" -2 1.0, "mm" -3 1.0, "um" -6 1.0, "nm" -9 1.0, "km" 3 1.0, "in" 0 INCH, "ft" 0 FOOT, "yd" 0 YARD, "mi" 0 MILE;
-    Force "a force": "N" 0 1.0, "kN" 3 1.0, "MN" 6 1.0, "GN" 9 1.0, "kgf" 0 STANDARD_GRAVITY, "tf" 3 STANDARD_GRAVITY,
+    Length "a length": METRE "m" 0 1.0, "cm" -2 1.0, MILLIMETRE "mm" -3 1.0, MICROMETRE "um" -6 1.0, "nm" -9 1.0, "km" 3 1.0,
+        INCH "in" 0 INCH, FOOT "ft" 0 FOOT, "yd" 0 YARD, "mi" 0 MILE;
+    Force "a force": NEWTON "N" 0 1.0, "kN" 3 1.0, "MN" 6 1.0, "GN" 9 1.0, "kgf" 0 STANDARD_GRAVITY, "tf" 3 STANDARD_GRAVITY,
         "lbf" 0 POUND_FORCE, "kip" 3 POUND_FORCE;
-    Pressure "a pressure or modulus": "Pa" 0 1.0, "kPa" 3 1.0, "MPa" 6 1.0, "GPa" 9 1.0, "N/m2" 0 1.0, "kN/m2" 3 1.0, "MN/m2" 6 1.0,
+    Pressure "a pressure or modulus": "Pa" 0 1.0, "kPa" 3 1.0, MEGAPASCAL "MPa" 6 1.0, "GPa" 9 1.0, "N/m2" 0 1.0, "kN/m2" 3 1.0, "MN/m2" 6 1.0,
         "N/mm2" 6 1.0, "kgf/cm2" 4 STANDARD_GRAVITY, "kgf/mm2" 6 STANDARD_GRAVITY, "tf/m2" 3 STANDARD_GRAVITY,
         "psi" 0 POUND_FORCE / SQUARE_INCH, "ksi" 3 POUND_FORCE / SQUARE_INCH;
-    ForcePerLength "a force per length": "N/m" 0 1.0, "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0, "N/mm" 3 1.0, "kN/mm" 6 1.0,
-        "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY, "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
+    ForcePerLength "a force per length": NEWTON_PER_METRE "N/m" 0 1.0, KILONEWTON_PER_METRE "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0,
+        "N/mm" 3 1.0, "kN/mm" 6 1.0, "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY,
+        "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
     Weight "a weight per length": "kg/m" 0 STANDARD_GRAVITY, "kg/km" -3 STANDARD_GRAVITY, "lb/1000ft" -3 POUND_FORCE / FOOT;
     InverseLength "an inverse length": "1/m" 0 1.0, "1/cm" 2 1.0, "1/mm" 3 1.0, "1/um" 6 1.0;
     Area "an area": "m2" 0 1.0, "cm2" -4 1.0, "mm2" -6 1.0, "in2" 0 SQUARE_INCH;
@@ -90,10 +100,8 @@ impl Dimension {
     /// The unit that was probably meant by an unknown one.
     pub(crate) fn unit_meant_by(self, unknown: &str) -> Option<&'static str> {
         let word = unknown.to_lowercase();
-        let is_word = |unit: &&str| IN_WORDS.contains(&(&*word, *unit));
-        self.units()
-            .find(is_word)
-            .or_else(|| nearest(unknown, self.units()))
+        let named = self.units().find(|unit| IN_WORDS.contains(&(&word, unit)));
+        named.or_else(|| nearest(unknown, self.units()))
     }
 
     /// Whether it takes units of `dimension`: a slope may be a ratio, a weight per length is a force per length.
@@ -140,25 +148,6 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Newton.
-    pub const NEWTON: Self = unit("N", Dimension::Force, 0, (1.0, 1.0));
-    /// Metre.
-    pub const METRE: Self = unit("m", Dimension::Length, 0, (1.0, 1.0));
-    /// Millimetre.
-    pub const MILLIMETRE: Self = unit("mm", Dimension::Length, -3, (1.0, 1.0));
-    /// Micrometre.
-    pub const MICROMETRE: Self = unit("um", Dimension::Length, -6, (1.0, 1.0));
-    /// Foot.
-    pub const FOOT: Self = unit("ft", Dimension::Length, 0, (FOOT, 1.0));
-    /// Inch.
-    pub const INCH: Self = unit("in", Dimension::Length, 0, (INCH, 1.0));
-    /// Newton per metre.
-    pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, (1.0, 1.0));
-    /// Kilonewton per metre.
-    pub const KILONEWTON_PER_METRE: Self = unit("kN/m", Dimension::ForcePerLength, 3, (1.0, 1.0));
-    /// Megapascal.
-    pub const MEGAPASCAL: Self = unit("MPa", Dimension::Pressure, 6, (1.0, 1.0));
-
     /// The unit of this dimension that is written so.
     pub fn of(dimension: Dimension, symbol: &str) -> Option<Self> {
         let symbol = normalised(symbol);
@@ -188,16 +177,9 @@ impl Unit {
     }
 
     /// How many of it `si` is, a value in SI.
-    ///
-    /// ```
-    /// use creepage_scene::{Dimension, Unit};
-    ///
-    /// let kip = Unit::of(Dimension::Force, "kip").unwrap();
-    /// assert_eq!(kip.of_si(2.0 * 4448.2216152605), 2.0);
-    /// ```
     pub fn of_si(&self, si: f64) -> f64 {
-        let angle = self.dimension == Dimension::Slope;
-        let value = if angle { si.atan() } else { si } / self.scale.0 * self.scale.1;
+        let is_angle = self.dimension == Dimension::Slope;
+        let value = if is_angle { si.atan() } else { si } / self.scale.0 * self.scale.1;
         let power = 10_f64.powi(self.exponent.abs());
         if self.exponent < 0 {
             value * power

@@ -56,29 +56,28 @@ const BARE: &[Bare] = &[
 
 /// A warning for every value that is unusual, and for values that are so together.
 pub fn unusual(scene: &Scene) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let mut named: Vec<&str> = Vec::new();
+    let mut warnings: Vec<String> = Vec::new();
+    // Friction that forgets may build up slowly.
+    let forgets = scene.friction.law != Law::ElasticPlastic;
     for (key, node) in scene.node().values("") {
-        let text = node.content.as_text();
         let quantity = |text: &str| text.split_once(' ')?.0.parse().ok();
-        let number: Option<f64> = text.map_or(node.content.as_number(), quantity);
+        let text = node.content.as_text();
+        let Some(value) = text.map_or(node.content.as_number(), quantity) else {
+            continue;
+        };
         let name = without_numbers(&key);
         let name = name.trim_end_matches(".top").trim_end_matches(".bottom");
-        // Friction that forgets may build up slowly.
-        let forgets = name == "friction.shape_factor" && scene.friction.law != Law::ElasticPlastic;
-        for (key_of, least, most, size, unit, words) in USUAL.iter().filter(|usual| usual.0 == name) {
+        for (_, least, most, size, unit, words) in USUAL.iter().filter(|usual| usual.0 == name) {
             // Of the wheels the first is named that is unusual.
-            let again = named.contains(key_of) && key.contains(".wheels.");
-            let is_unusual = |value: &f64| !(*least..=*most).contains(value) && !forgets && !again;
-            if let Some(value) = number.filter(is_unusual) {
-                named.push(key_of);
+            let again = key.contains(".wheels.") && warnings.iter().any(|warning| warning.ends_with(words));
+            let is_usual = (*least..=*most).contains(&value) || name == "friction.shape_factor" && forgets;
+            if !is_usual && !again {
                 let value = four_digits(value / size);
                 warnings.push(of(&key, &format!(" is {value}{unit}{words}")));
             }
         }
     }
-    let together = together(scene).into_iter();
-    warnings.extend(together.filter_map(|(is_unusual, words)| is_unusual.then_some(words)));
+    warnings.extend(together(scene));
     warnings.extend(contrast(scene));
     warnings
 }
@@ -88,8 +87,9 @@ fn of(key: &str, words: &str) -> String {
     format!("`{key}`{}{words}", counted(key))
 }
 
-/// Values that are unusual together: whether they are, and what is to be said.
-fn together(scene: &Scene) -> [(bool, String); 9] {
+/// What is to be said of values that are unusual together.
+#[rustfmt::skip]
+fn together(scene: &Scene) -> Vec<String> {
     // Depths between the vehicle's axis and the duct's beyond which a duct hardly moves; years that no road is old.
     const FARTHEST: f64 = 10.0;
     const OLDEST: f64 = 200.0;
@@ -97,52 +97,54 @@ fn together(scene: &Scene) -> [(bool, String); 9] {
     const HEAVIEST: f64 = 5e6;
     let (duct, ground, vehicles) = (&scene.duct, &scene.ground, &scene.vehicles);
     let [depth, length] = [duct.depth, duct.length].map(four_digits);
-    let rock = ground.rigid_base_depth.unwrap_or(INFINITY);
-    let diameters = duct.inner_diameter.zip(scene.cable.diameter);
-    let ratio = diameters.map_or(0.0, |(inner, outer)| inner / outer);
-    let years = scene.traffic.years_after(scene.traffic.passes).unwrap_or(0.0);
-    let name = |found: Option<&TrafficVehicle>| found.map_or("", |vehicle| &vehicle.name).to_owned();
-    let is_far = |vehicle: &&TrafficVehicle| scene.offset_from(vehicle).abs() > FARTHEST * duct.depth;
-    let far = vehicles.iter().find(is_far);
+    let mut said = Vec::new();
+    if duct.depth > duct.length {
+        said.push(format!("`duct.depth` is {depth} m, more than the duct is long, {length} m: were they exchanged?"));
+    }
+    let distance = |vehicle: &TrafficVehicle| scene.offset_from(vehicle).abs();
+    if let Some(far) = vehicles.iter().find(|vehicle| distance(vehicle) > FARTHEST * duct.depth) {
+        said.push(format!("`duct.lateral_offset`: the lane of \"{}\" is {} m from the duct, more than {FARTHEST} times the depth: the duct \
+            hardly moves there", far.name, distance(far)));
+    }
     let is_heavy = |vehicle: &&TrafficVehicle| vehicle.weight() > HEAVIEST && !vehicle.wheels.is_empty();
-    let heavy = vehicles.iter().find(is_heavy);
-    let between = vehicles.iter().find(|vehicle| is_between_wheels(scene, vehicle));
-    let mut pairs = vehicles.windows(2);
-    let other_lane = pairs.any(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
-    let mut names = vehicles.iter().map(|vehicle| &vehicle.name);
-    let groups = names.any(|name| name.starts_with(AXLE_GROUP));
-    #[rustfmt::skip]
-    let values = [
-        (duct.depth > duct.length,
-            format!("`duct.depth` is {depth} m, more than the duct is long, {length} m: were they exchanged?")),
-        (far.is_some(), format!("`duct.lateral_offset`: the lane of \"{}\" is {} m from the duct, more than {FARTHEST} times the depth: the \
-            duct hardly moves there", name(far), far.map_or(0.0, |vehicle| scene.offset_from(vehicle).abs()))),
-        (heavy.is_some(), format!("`vehicles`: \"{}\" weighs {:.0} t on all its wheels, more than any vehicle on a road", name(heavy),
-            heavy.map_or(0.0, TrafficVehicle::weight) / 9806.65)),
-        (between.is_some(), format!("`duct.depth` is {depth} m between the wheels of \"{}\", which are farther to either side: so shallow, \
-            the ground moves toward a wheel and not away from it, and the cable may creep backward", name(between))),
-        (ground.longitudinal_peak.is_some() && other_lane,
-            "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct as far; \
-            `ground.vertical_peak` keeps the lanes apart".into()),
-        (rock <= duct.depth, format!("`ground.rigid_base_depth` is {rock} m and the duct lies at {depth} m, within the rock: it does not \
-            move, and no force arises")),
-        (scene.cable.arrangement.is_of_three() && JAMMING.contains(&ratio),
-            format!("`duct.inner_diameter` is {ratio:.2} times `cable.diameter`: from {} to {} times three cables may jam as they are pulled \
-            in", JAMMING.start(), JAMMING.end())),
-        (years > OLDEST,
-            format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")),
-        (groups, "`traffic.histogram` has a column of groups of axles: each row is computed as one axle, which moves the cable more than a \
-            tandem or a tridem of the same weight; divide their loads and multiply their numbers".into()),
-    ];
-    values
+    if let Some(heavy) = vehicles.iter().find(is_heavy) {
+        said.push(format!("`vehicles`: \"{}\" weighs {:.0} t on all its wheels, more than any vehicle on a road", heavy.name,
+            heavy.weight() / 9806.65));
+    }
+    if let Some(between) = vehicles.iter().find(|vehicle| is_between_wheels(scene, vehicle)) {
+        said.push(format!("`duct.depth` is {depth} m between the wheels of \"{}\", which are farther to either side: so shallow, the ground \
+            moves toward a wheel and not away from it, and the cable may creep backward", between.name));
+    }
+    let mut lanes = vehicles.windows(2).map(|pair| pair[0].lateral_offset != pair[1].lateral_offset);
+    if ground.longitudinal_peak.is_some() && lanes.any(|is_other| is_other) {
+        said.push("`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct \
+            as far; `ground.vertical_peak` keeps the lanes apart".into());
+    }
+    if let Some(rock) = ground.rigid_base_depth.filter(|rock| *rock <= duct.depth) {
+        said.push(format!("`ground.rigid_base_depth` is {rock} m and the duct lies at {depth} m, within the rock: it does not move, and no \
+            force arises"));
+    }
+    let ratio = duct.inner_diameter.zip(scene.cable.diameter).map(|(inner, outer)| inner / outer);
+    if let Some(ratio) = ratio.filter(|ratio| scene.cable.arrangement.is_of_three() && JAMMING.contains(ratio)) {
+        said.push(format!("`duct.inner_diameter` is {ratio:.2} times `cable.diameter`: from {} to {} times three cables may jam as they are \
+            pulled in", JAMMING.start(), JAMMING.end()));
+    }
+    let years = scene.traffic.years_after(scene.traffic.passes);
+    if let Some(years) = years.filter(|years| *years > OLDEST) {
+        said.push(format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date"));
+    }
+    if vehicles.iter().any(|vehicle| vehicle.name.starts_with(AXLE_GROUP)) {
+        said.push("`traffic.histogram` has a column of groups of axles: each row is computed as one axle, which moves the cable more than a \
+            tandem or a tridem of the same weight; divide their loads and multiply their numbers".into());
+    }
+    said
 }
 
 /// Whether a shallow duct lies between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
 fn is_between_wheels(scene: &Scene, vehicle: &TrafficVehicle) -> bool {
-    let offset = scene.offset_from(vehicle);
-    let aside: Vec<f64> = vehicle.wheels().iter().map(|wheel| wheel.y - offset).collect();
-    let is_either_side = aside.iter().any(|y| *y > 0.0) && aside.iter().any(|y| *y < 0.0);
-    is_either_side && aside.iter().all(|y| y.abs() > scene.duct.depth)
+    let wheels = vehicle.wheels();
+    let aside = || wheels.iter().map(|wheel| wheel.y - scene.offset_from(vehicle));
+    aside().any(|y| y > 0.0) && aside().any(|y| y < 0.0) && aside().all(|y| y.abs() > scene.duct.depth)
 }
 
 /// Layers that may have been written in the wrong order.
@@ -158,19 +160,18 @@ fn contrast(scene: &Scene) -> Option<String> {
     };
     let (last, upper) = scene.ground.layers.split_last()?;
     let (first, below) = (upper.first()?, upper.len());
-    let [top, _] = top_and_bottom(first);
-    let [_, above] = top_and_bottom(upper.last()?);
+    let ([top, _], [_, above]) = (top_and_bottom(first), top_and_bottom(upper.last()?));
     let [base, _] = top_and_bottom(last);
     if above > CONTRAST * base {
         let words = format!(" is {:.0} times less than that of the layer on it", above / base);
         return Some(of(&format!("ground.layers.{below}.young_modulus"), &words));
     }
+    let is_pavement = first.thickness.is_some_and(|thickness| thickness <= PAVEMENT);
     let (times, last) = (base / top, four_digits(base / 1e6));
     let words = format!(
         " is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top down, and the last one is rarely as \
          stiff as rock"
     );
-    let is_pavement = first.thickness.is_some_and(|thickness| thickness <= PAVEMENT);
     (is_pavement && base > INVERTED * top).then(|| of("ground.layers.0.young_modulus", &words))
 }
 

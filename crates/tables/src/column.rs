@@ -60,9 +60,8 @@ pub struct Name {
 impl Name {
     /// Whether one of its words is among these.
     pub fn has(&self, kind: Kind) -> bool {
-        self.words
-            .iter()
-            .any(|own| kind.0.split(' ').any(|word| own == word))
+        let is_own = |word| self.words.iter().any(|own| own == word);
+        kind.0.split(' ').any(is_own)
     }
 
     /// Whether it was chosen, or is the word of its program for its kind and nothing else.

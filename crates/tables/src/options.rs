@@ -24,14 +24,9 @@ pub struct Options {
 }
 
 /// Signs by their words.
-const SIGNS: [(&str, &str); 6] = [
-    (";", "semicolon"),
-    ("\t", "tab"),
-    (",", "comma"),
-    (" ", "space"),
-    ("|", "bar"),
-    (".", "point"),
-];
+#[rustfmt::skip]
+const SIGNS: [(&str, &str); 6] =
+    [(";", "semicolon"), ("\t", "tab"), (",", "comma"), (" ", "space"), ("|", "bar"), (".", "point")];
 
 /// The word for a sign.
 pub fn word(sign: char) -> String {
@@ -56,18 +51,14 @@ impl Options {
         };
         let whole = || text.parse().map(Some).map_err(|_| wrong("a whole number"));
         match name {
-            "separator" => {
-                self.separator = sign(";\t, |", "comma, semicolon, tab, space, or one of , ; |")?;
-            }
+            "separator" => self.separator = sign(";\t, |", "comma, semicolon, tab, space, or one of , ; |")?,
             "decimal" => self.decimal = sign(".,", "point, comma, or one of . ,")?,
             "encoding" => {
-                let label = text
-                    .to_ascii_lowercase()
-                    .replace("latin-", "latin")
-                    .replace("cp932", "sjis");
-                let encoding = Encoding::for_label(label.as_bytes()).map(Some);
                 let allowed = "utf-8, utf-16, latin-1, shift_jis, or another name of the Encoding Standard";
-                self.encoding = encoding.ok_or_else(|| wrong(allowed))?;
+                let label = text.to_ascii_lowercase().replace("latin-", "latin");
+                let label = label.replace("cp932", "sjis");
+                let encoding = Encoding::for_label(label.as_bytes());
+                self.encoding = Some(encoding.ok_or_else(|| wrong(allowed))?);
             }
             "header_line" => self.header_line = whole()?,
             "skip" => self.skip = whole()?,

@@ -93,15 +93,12 @@ fn separated(text: &str, sign: char) -> Vec<Row> {
     while reader.read_record(&mut record).unwrap_or(false) {
         let breaks: usize = record.iter().map(|cell| cell.matches('\n').count()).sum();
         let cells = record.iter().map(|cell| cell.trim().to_owned());
+        let (behind, last) = (reader.position(), record.iter().next_back());
         // A quote that is never closed holds the end of its line, too.
-        let is_open = reader.position().byte() == text.len() as u64
-            && record.iter().next_back().is_some_and(|cell| cell.ends_with('\n'));
+        let is_open = behind.byte() == text.len() as u64 && last.is_some_and(|cell| cell.ends_with('\n'));
+        let lines = breaks as u64 + u64::from(!is_open);
         rows.push(Row {
-            // The position is that of the line behind the row.
-            line: reader
-                .position()
-                .line()
-                .saturating_sub(u64::from(!is_open) + breaks as u64),
+            line: behind.line().saturating_sub(lines),
             cells: cells.filter(|cell| sign != ' ' || !cell.is_empty()).collect(),
             is_merged: false,
         });

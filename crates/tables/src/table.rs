@@ -124,10 +124,8 @@ impl Table {
             return Ok(joined(place.unwrap_or(0)));
         }
         let mut unnamed = rows[0].clone();
-        unnamed.cells.truncate(self.layout.unnamed.len());
-        for (cell, name) in unnamed.cells.iter_mut().zip(self.layout.unnamed) {
-            (*name).clone_into(cell);
-        }
+        let names = self.layout.unnamed.iter().take(unnamed.cells.len());
+        unnamed.cells = names.map(|name| (*name).to_owned()).collect();
         self.rows.insert(0, unnamed);
         Ok(0..1)
     }
@@ -259,11 +257,10 @@ impl Table {
     /// That the cell of `row` in `column` does not hold what is `allowed`.
     pub fn wrong_cell(&self, row: &Row, column: usize, allowed: impl Into<String>) -> TableError {
         let (name, cell) = (&self.names[column], shortened(row.cell(column), LONGEST));
-        let decimals = name
-            .decimal
-            .map(|sign| format!(", decimals after a {}", word(sign)));
-        let allowed = allowed.into() + &decimals.unwrap_or_default();
-        self.wrong(row.line, format!("{}: found \"{cell}\"", name.text), allowed)
+        let found = format!("{}: found \"{cell}\"", name.text);
+        let decimals = |sign| format!(", decimals after a {}", word(sign));
+        let allowed = allowed.into() + &name.decimal.map_or_else(String::new, decimals);
+        self.wrong(row.line, found, allowed)
     }
 }
 

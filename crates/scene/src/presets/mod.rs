@@ -80,12 +80,7 @@ const FILES: [(PresetKind, &str, &str); 4] = [
 
 /// All presets, by kind.
 pub fn all() -> &'static [Preset] {
-    static ALL: LazyLock<Vec<Preset>> = LazyLock::new(|| {
-        FILES
-            .iter()
-            .flat_map(|(kind, _, text)| read(*kind, text))
-            .collect()
-    });
+    static ALL: LazyLock<Vec<Preset>> = LazyLock::new(|| FILES.iter().flat_map(read).collect());
     &ALL
 }
 
@@ -97,10 +92,10 @@ pub(crate) fn of_section(section: &str) -> impl Iterator<Item = &'static Preset>
 }
 
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
-fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
+fn read((kind, _, text): &(PresetKind, &str, &str)) -> Vec<Preset> {
     let Data { sources, mut presets } = toml::from_str(text).unwrap_or_default();
     for preset in &mut presets {
-        preset.kind = kind;
+        preset.kind = *kind;
         if preset.sources.is_empty() {
             preset.sources.clone_from(&sources);
         }
