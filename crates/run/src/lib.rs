@@ -22,7 +22,7 @@ pub use answer::{
 };
 pub use cable_dem::SlipLengths;
 pub use creepage_plan::{
-    Candidate, Error, ErrorSource, Part, PastPass, Plan, PlanReport, SavedState, occurrence, plan, plan_on,
+    Candidate, Error, ErrorSource, Part, PastPass, Plan, PlanReport, SavedState, occurrence, plan,
     with_causes,
 };
 pub use creepage_scene::{CableEnd, Scene, SceneError, SceneFile};

@@ -68,16 +68,16 @@ pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error>
     let is_free = plan.scene.friction_limit() == 0.0;
     let mut method = if is_free { every_pass } else { plan.method };
     let mut reason = plan.reason.clone();
-    let solved = match solve(plan, method, options) {
-        Err(error) if may_help(&error) && plan.may_simulate_all() => {
-            method = every_pass;
-            reason =
-                format!("{reason}; jumps gave no answer here ({error}): every pass was simulated after all");
-            solve(plan, method, options)
-        }
-        solved => solved,
-    }?;
-    let run = assemble(plan, method, &reason, solved)?;
+    let mut solved = solve(plan, method, options);
+    if let Err(error) = &solved
+        && may_help(error)
+        && plan.may_simulate_all()
+    {
+        reason += &format!("; jumps gave no answer here ({error}): every pass was simulated after all");
+        method = every_pass;
+        solved = solve(plan, method, options);
+    }
+    let run = assemble(plan, method, &reason, solved?)?;
     finite::check(&run)?;
     Ok(run)
 }
@@ -97,7 +97,7 @@ fn solve(plan: &Plan<'_>, method: SolverMethod, options: &RunOptions<'_>) -> Res
     // What no mesh makes smaller.
     error_estimate::judge(&error, scene.solver.tolerance)?;
     if scene.friction_limit() == 0.0 {
-        return without_friction(plan, options.stages);
+        return without_friction(plan);
     }
     let mut solved = match scene.warming() {
         Some(heat) => days::solve(plan, heat, method, options, error),
