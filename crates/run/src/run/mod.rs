@@ -73,7 +73,7 @@ pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error>
         && may_help(error)
         && plan.may_simulate_all()
     {
-        reason += &format!("; jumps gave no answer here ({error}): every pass was simulated after all");
+        reason = format!("{reason}; jumps gave no answer here ({error}): every pass was simulated after all");
         method = every_pass;
         solved = solve(plan, method, options);
     }
