@@ -29,4 +29,4 @@ pub use creepage_scene::{CableEnd, Scene, SceneError, SceneFile};
 pub use passes::{FixedMesh, RunOptions};
 pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
-pub use run::{check, run, run_plan, run_with};
+pub use run::{run, run_plan, run_with};

@@ -12,7 +12,7 @@ use assemble::{assemble, without_friction};
 use creepage_plan::{
     Error, Plan, finite,
     ground::{Ground, road},
-    plan, plan_over,
+    plan_over,
 };
 use creepage_scene::{Scene, SolverMethod};
 
@@ -41,15 +41,6 @@ pub fn run_over(scene: &Scene, ground: Arc<Ground>, options: &RunOptions<'_>) ->
     let mut plan = plan_over(scene, ground)?;
     plan.start = options.start;
     run_plan(&plan, options)
-}
-
-/// Checks that `scene` can be computed, without computing its passes.
-///
-/// # Errors
-///
-/// As for [`run`].
-pub fn check(scene: &Scene) -> Result<(), Error> {
-    plan(scene).map(|_| ())
 }
 
 /// Carries `plan` out; its ground is that of the plan.
