@@ -83,8 +83,8 @@ pub use creepage_run::{
     ErrorShares, ErrorSource, ExtremePass, FixedMesh, ForceProfile, ForceRange, FrictionProfile, HeatRecord,
     Limited, Limits, Part, PassRecord, PastPass, Place, Plan, PlanReport, PlanSummary, Profile, Progress,
     Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, RunOptions, Saturation,
-    SavedState, SlipLengths, Stage, Units, Verdict, check, occurrence, plan, plan_on, profile, profile_at,
-    run, run_plan, run_with, with_causes,
+    SavedState, SlipLengths, Stage, Units, Verdict, occurrence, plan, profile, profile_at, run, run_plan,
+    run_with, with_causes,
 };
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};

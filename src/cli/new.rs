@@ -69,7 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::usage("FILE", format!("{name}, which exists"), allowed));
     }
     let text = template(&name, &arguments.values())?;
-    crate::check(&Scene::from_toml(&name, &text)?)?;
+    crate::plan(&Scene::from_toml(&name, &text)?)?;
     file.write(|out| out.write_all(text.as_bytes()))?;
     let next = format!("{name} is written; to compute: creepage run {name}");
     Ok(writeln!(terminal::out(), "{next}")?)

@@ -9,12 +9,12 @@ use super::progress::watched;
 use super::readings::TableArguments;
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
-use crate::Units;
 use crate::shown::{exact_percent, words_if};
 use crate::sweep::MapValue;
 use crate::sweep::{
     Axis, Band, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary, ending,
 };
+use crate::{Limited, Units};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -178,7 +178,7 @@ fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure
     let row = |(name, quantiles): (&str, Option<_>)| {
         let q: Quantiles = quantiles?;
         let values = [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95];
-        let values = values.map(|force| units.force(force));
+        let values = values.map(|force| Limited::Force.number_in(units, force));
         Some([&[name.to_owned()][..], &values].concat())
     };
     let rows: Vec<Vec<String>> = forces.into_iter().filter_map(row).collect();

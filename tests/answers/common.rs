@@ -67,11 +67,7 @@ pub fn looked_at(scene: &Scene, stages: &[u64]) -> Option<Run> {
             assert!(
                 matches!(
                     error,
-                    Error::Inaccurate { .. }
-                        | Error::Unbalanced { .. }
-                        | Error::Jumps(_)
-                        | Error::TooManyNodes { .. }
-                        | Error::Unfit { .. }
+                    Error::Inaccurate { .. } | Error::NoAnswer { .. } | Error::Jumps(_) | Error::Unfit { .. }
                 ),
                 "{error:?}"
             );

@@ -42,30 +42,24 @@ impl Estimates {
             (Some(_), Some(per_day)) => DAYS.min(passes / per_day) * per_day.min(length * PERIODS_A_DAY),
             _ => (length * (first + per_e * periods.ln())).min(passes),
         };
-        let fastest = scene
-            .vehicles
-            .iter()
-            .map(|vehicle| vehicle.speed)
-            .fold(0.0, f64::max);
+        let speeds = scene.vehicles.iter().map(|vehicle| vehicle.speed);
+        let explicit_seconds = EXPLICIT_SECONDS * explicit_steps(scene, levels)?;
         Ok(Self {
-            inertia: inertia_ratio(&cable, cable::mass(scene), fastest)?,
+            inertia: inertia_ratio(&cable, cable::mass(scene), speeds.fold(0.0, f64::max))?,
             typical: simulated(TYPICAL_PERIODS),
             most: simulated(MOST_PERIODS),
             passes,
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(levels.first),
-            explicit: EXPLICIT_SECONDS
-                * explicit_steps(scene, levels)?
-                * levels.whole_cable_updates(levels.first),
+            explicit: explicit_seconds * levels.whole_cable_updates(levels.first),
         })
     }
 
     /// Time of every pass on one mesh \[s\].
     pub fn every_pass(&self, method: SolverMethod) -> f64 {
-        self.passes
-            * match method {
-                SolverMethod::Explicit => self.explicit,
-                _ => self.quasi_static,
-            }
+        match method {
+            SolverMethod::Explicit => self.passes * self.explicit,
+            _ => self.passes * self.quasi_static,
+        }
     }
 
     /// Rough time of a whole run by `method` \[s\], on all its meshes.

@@ -9,8 +9,7 @@ use ground_field::GroundError;
 
 use crate::error_source::ErrorSource;
 use crate::shown::{exact_percent, percent};
-use creepage_scene::SceneError;
-use creepage_scene::{Location, SceneFile};
+use creepage_scene::{Location, SceneError, SceneFile};
 
 /// Error of an analysis.
 #[derive(Debug, thiserror::Error)]
@@ -64,31 +63,11 @@ pub enum Error {
         /// Without this there would be an answer; else the largest part of the error.
         cause: ErrorSource,
     },
-    /// The forces of an answer do not balance: friction cannot carry them.
-    #[error(
-        "after pass {pass} the forces need a friction of {needed:.4e} N/m where its limit is {limit:.4e} N/m: this is no \
-         answer; solver.method = \"quasi-static\" simulates every pass"
-    )]
-    Unbalanced {
-        /// The pass.
-        pass: u64,
-        /// Friction that the forces would need \[N/m\].
-        needed: f64,
-        /// The most that friction can be \[N/m\].
-        limit: f64,
-    },
-    /// The duct is so long beside its depth that no mesh of it can be computed.
-    #[error(
-        "duct.length = {length} m and duct.depth = {depth} m: found a mesh of {nodes:.1e} nodes, as fine as this depth needs; allowed: 5e6 \
-         nodes, with a shorter or a deeper duct, a larger solver.tolerance, or a solver.node_spacing"
-    )]
-    TooManyNodes {
-        /// Length of the duct \[m\].
-        length: f64,
-        /// Depth of the duct \[m\].
-        depth: f64,
-        /// Nodes that the mesh would have.
-        nodes: f64,
+    /// What came out is no answer: forces that do not balance, a number that is not finite.
+    #[error("{reason}")]
+    NoAnswer {
+        /// Why.
+        reason: String,
     },
     /// The scene asks for something that does not fit the rest of it.
     #[error("{key}: {found} does not fit this scene: {reason}")]
@@ -106,14 +85,6 @@ pub enum Error {
     /// There is no pass whose answer could be told.
     #[error("no pass was computed")]
     NoPass,
-    /// The computation gave a number that is not finite: no answer holds one.
-    #[error("the computation failed: {field} came out as {value}")]
-    NotFinite {
-        /// Where in the answer.
-        field: String,
-        /// What came out.
-        value: f64,
-    },
     /// An error whose cause stands in a scene file.
     #[error("{location}: {error}{}", .location.excerpt())]
     Located {
@@ -163,21 +134,17 @@ impl Error {
     /// `file`.
     #[must_use]
     pub fn located(self, file: &SceneFile) -> Self {
-        let location = match &self {
+        let keys = match &self {
             // No mesh but one that the scene names is so coarse.
-            Self::Cable(CableError::CoarseMesh { .. }) => file
-                .locate("solver.node_spacing")
-                .or_else(|| file.locate("solver.vehicle_step")),
-            _ if self.location().is_some() => None,
-            _ => self.key().and_then(|key| file.locate(key)),
+            Self::Cable(CableError::CoarseMesh { .. }) => vec!["solver.node_spacing", "solver.vehicle_step"],
+            _ if self.location().is_some() => Vec::new(),
+            _ => self.key().into_iter().collect(),
         };
-        match location {
-            Some(location) => Self::Located {
-                location: Box::new(location),
-                error: Box::new(self),
-            },
-            None => self,
-        }
+        let Some(location) = keys.into_iter().find_map(|key| file.locate(key)) else {
+            return self;
+        };
+        let (location, error) = (Box::new(location), Box::new(self));
+        Self::Located { location, error }
     }
 
     /// Where in a scene file the cause stands, if it stands in one.
@@ -194,7 +161,6 @@ impl Error {
         match self {
             Self::Scene(SceneError::Wrong(wrong)) => Some(&wrong.key),
             Self::Unfit { key, .. } => Some(key),
-            Self::TooManyNodes { .. } => Some("duct.length"),
             Self::Located { error, .. } => error.key(),
             _ => None,
         }
@@ -209,7 +175,6 @@ impl Error {
             | Self::Data(_)
             | Self::State { .. }
             | Self::Unfit { .. }
-            | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
             | Self::Cable(
                 CableError::InvalidParameter { .. }

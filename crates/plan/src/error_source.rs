@@ -18,47 +18,37 @@ pub enum ErrorSource {
     Days,
 }
 
+use ErrorSource::{Days, Ground, Inertia, Mesh, Passes, Road};
+
 impl ErrorSource {
     /// All of them; the error of an answer is their sum.
-    pub const ALL: [Self; 6] = [
-        Self::Mesh,
-        Self::Ground,
-        Self::Inertia,
-        Self::Road,
-        Self::Passes,
-        Self::Days,
-    ];
+    pub const ALL: [Self; 6] = [Mesh, Ground, Inertia, Road, Passes, Days];
 
     /// Whether it comes from what is not simulated.
     pub fn is_skipping(self) -> bool {
-        matches!(self, Self::Passes | Self::Days)
+        matches!(self, Passes | Days)
     }
 
     /// What it is called.
     pub fn name(self) -> &'static str {
-        self.words().0
+        match self {
+            Mesh => "mesh",
+            Ground => "ground",
+            Inertia => "inertia",
+            Road => "road",
+            Passes => "passes not simulated",
+            Days => "days not simulated",
+        }
     }
 
     /// What makes it smaller.
     pub fn remedy(self) -> &'static str {
-        self.words().1
-    }
-
-    fn words(self) -> (&'static str, &'static str) {
-        const EVERY_PASS: &str = "solver.method = \"quasi-static\" simulates every one";
         match self {
-            Self::Mesh => (
-                "mesh",
-                "a smaller solver.node_spacing may help, or a larger solver.tolerance",
-            ),
-            Self::Ground => (
-                "ground",
-                "another ground.model may help, or a larger solver.tolerance",
-            ),
-            Self::Inertia => ("inertia", "solver.method = \"explicit\" computes it"),
-            Self::Road => ("road", "without solver.approach vehicles are followed far enough"),
-            Self::Passes => ("passes not simulated", EVERY_PASS),
-            Self::Days => ("days not simulated", EVERY_PASS),
+            Mesh => "a smaller solver.node_spacing may help, or a larger solver.tolerance",
+            Ground => "another ground.model may help, or a larger solver.tolerance",
+            Inertia => "solver.method = \"explicit\" computes it",
+            Road => "without solver.approach vehicles are followed far enough",
+            Passes | Days => "solver.method = \"quasi-static\" simulates every one",
         }
     }
 }

@@ -12,29 +12,22 @@ use crate::error::Error;
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`] with the first such number and its field.
+/// [`Error::NoAnswer`] with the first such number and its field.
 pub fn check(answer: &impl Debug) -> Result<(), Error> {
     // The long form of `Debug` has one field or element a line, and texts in quotes.
     let text = format!("{answer:#?}");
-    let word = |line: &str| {
-        let ends = line.ends_with("NaN,") || line.ends_with("inf,");
-        let value = ends.then(|| line.rsplit(' ').next().unwrap_or_default().trim_end_matches(','))?;
-        matches!(value, "NaN" | "inf" | "-inf").then(|| value.parse().unwrap_or(f64::NAN))
-    };
-    let Some((line, value)) = text
-        .lines()
-        .enumerate()
-        .find_map(|(line, text)| Some((line, word(text)?)))
-    else {
-        return Ok(());
-    };
-    // An element of a list stands below its field.
-    let named = text
-        .lines()
-        .take(line + 1)
-        .filter_map(|line| line.split_once(": "));
-    let field = named.last().map_or("", |(field, _)| field.trim()).to_owned();
-    Err(Error::NotFinite { field, value })
+    let mut field = "";
+    for line in text.lines().map(str::trim) {
+        let value;
+        // An element of a list stands below its field.
+        (field, value) = line.split_once(": ").unwrap_or((field, line));
+        if let "NaN," | "inf," | "-inf," = value {
+            let value = value.trim_end_matches(',');
+            let reason = format!("the computation failed: {field} came out as {value}");
+            return Err(Error::NoAnswer { reason });
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -60,25 +53,26 @@ mod tests {
         };
         assert!(check(&good()).is_ok());
         let found = |answer: Answer| match check(&answer) {
-            Err(Error::NotFinite { field, value }) => (field, value.to_bits()),
+            Err(Error::NoAnswer { reason }) => reason,
             other => panic!("{other:?} of {}", answer.title),
         };
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let reason = |field: &str| format!("the computation failed: {field} came out as {bad}");
             let force = Answer {
                 force_n: bad,
                 ..good()
             };
-            assert_eq!(found(force), ("force_n".to_owned(), bad.to_bits()));
+            assert_eq!(found(force), reason("force_n"));
             let positions = Answer {
                 positions_m: vec![0.0, bad],
                 ..good()
             };
-            assert_eq!(found(positions).0, "positions_m");
+            assert_eq!(found(positions), reason("positions_m"));
             let years = Answer {
                 years: Some(bad),
                 ..good()
             };
-            assert_eq!(found(years).0, "years");
+            assert_eq!(found(years), reason("years"));
         }
     }
 }

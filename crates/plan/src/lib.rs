@@ -35,6 +35,6 @@ pub use method::MOST_PASSES;
 pub use period::Period;
 #[doc(hidden)]
 pub use plan::plan_over;
-pub use plan::{Plan, plan, plan_on};
+pub use plan::{Plan, plan};
 pub use report::{Candidate, Part, PlanReport};
 pub use saved_state::{PastPass, SavedState};

@@ -30,7 +30,6 @@ const NAMED: usize = 2;
 #[derive(Debug, Clone, Copy)]
 pub struct Levels {
     length: f64,
-    depth: f64,
     /// Length over which the duct's motion changes under the vehicle that moves it most sharply
     /// \[m\].
     pub length_scale: f64,
@@ -60,8 +59,8 @@ impl Levels {
         let by_time_step = solver.method == SolverMethod::Explicit && solver.time_step.is_some();
         // The answer of a law without memory depends on its time step: there is no limit to refine
         // towards.
-        let named =
-            solver.node_spacing.is_some() || solver.vehicle_step.is_some() || by_time_step || !steps_follow;
+        let by_steps = solver.node_spacing.is_some() || solver.vehicle_step.is_some();
+        let named = by_steps || by_time_step || !steps_follow;
         let length_scale = resolved(scene, motions);
         let coarsest = (length_scale / COARSEST).min(length / FEWEST);
         let (mut spacing, mut step) = (coarsest, coarsest / STEPS_PER_SPACING);
@@ -74,13 +73,10 @@ impl Levels {
             spacing = refinement * named;
             step *= if steps_follow { refinement } else { 1.0 };
         }
-        let wanted = TYPICAL
-            .iter()
-            .position(|&error| error <= solver.tolerance)
-            .unwrap_or(TYPICAL.len() - 1);
+        let wanted = TYPICAL.iter().position(|&error| error <= solver.tolerance);
+        let wanted = wanted.unwrap_or(TYPICAL.len() - 1);
         Self {
             length,
-            depth: scene.duct.depth,
             length_scale,
             road: length + 2.0 * approach,
             spacing,
@@ -106,12 +102,8 @@ impl Levels {
     /// Node spacing and vehicle step on `level` \[m\].
     pub fn spacing(&self, level: usize) -> (f64, f64) {
         let share = 0.5_f64.powi(level as i32);
-        let step = if self.steps_follow {
-            share * self.step
-        } else {
-            self.step
-        };
-        (share * self.spacing, step)
+        let of_step = if self.steps_follow { share } else { 1.0 };
+        (share * self.spacing, of_step * self.step)
     }
 
     /// The level with as many nodes per length scale of a scene that leaves the mesh to the plan.
@@ -130,11 +122,14 @@ impl Levels {
         let (spacing, step) = self.spacing(level);
         Mesh::new(self.length, spacing, step).map_err(|error| match error {
             // The spacing is ours: what it follows from is what the scene says.
-            CableError::InvalidParameter { .. } if self.spacing_follows => Error::TooManyNodes {
-                length: self.length,
-                depth: self.depth,
-                nodes: self.length / spacing,
-            },
+            CableError::InvalidParameter { .. } if self.spacing_follows => {
+                let (found, nodes) = (format!("{} m", self.length), self.length / spacing);
+                let reason = format!(
+                    "a mesh as fine as its depth needs has {nodes:.1e} nodes; allowed: 5e6 nodes, with a shorter or a deeper duct, a larger \
+                     solver.tolerance, or a solver.node_spacing"
+                );
+                Error::unfit("duct.length", found, reason)
+            }
             error => error.into(),
         })
     }

@@ -81,12 +81,9 @@ fn check_length(scene: &Scene, period: &Period, method: SolverMethod, seconds: f
         } else {
             "solver.method = \"pass-law\" computes any number".to_owned()
         };
+        let (key, found) = ("traffic.passes", "more than a million passes");
         let reason = format!("at most 1 000 000 are simulated one by one; {why}");
-        return Err(Error::unfit(
-            "traffic.passes",
-            "more than a million passes",
-            reason,
-        ));
+        return Err(Error::unfit(key, found, reason));
     }
     if scene.solver.method == SolverMethod::Auto && !has_rest && seconds > LONGEST_WITHOUT_REST {
         let reason = format!(

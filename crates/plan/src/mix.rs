@@ -14,23 +14,23 @@ pub struct Mix {
     pub counts: Vec<usize>,
     /// By how much their shares differ from the wanted ones, as a share of these.
     off: Vec<f64>,
-    /// Whether they do not differ at all.
-    pub is_exact: bool,
 }
 
 impl Mix {
     /// These numbers for vehicles whose `shares` sum to 1; none of those without a share.
     pub fn new(counts: Vec<usize>, shares: &[f64]) -> Self {
-        let length: usize = counts.iter().sum();
-        let off = |(&count, share): (&usize, &f64)| count as f64 / length as f64 - share;
-        let all = || counts.iter().zip(shares);
-        Self {
-            is_exact: all().all(|pair| off(pair).abs() <= SAME),
-            off: all()
-                .map(|pair| if *pair.1 > 0.0 { off(pair) / pair.1 } else { 0.0 })
-                .collect(),
-            counts,
-        }
+        let length = counts.iter().sum::<usize>() as f64;
+        let off = |(&count, &share): (&usize, &f64)| {
+            let off = count as f64 / length - share;
+            if share > 0.0 { off / share } else { off }
+        };
+        let off = counts.iter().zip(shares).map(off).collect();
+        Self { counts, off }
+    }
+
+    /// Whether its shares do not differ from the wanted ones at all.
+    pub fn is_exact(&self) -> bool {
+        self.distance() <= SAME
     }
 
     /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has
@@ -42,7 +42,7 @@ impl Mix {
         let near = all.clone().find(is_near).or_else(|| nearest_of(all.clone()));
         let near = near.unwrap_or_else(|| Self::nearest(shares, most));
         let longest = SHORT.max(EXACT * near.len());
-        let exact = all.take(longest).find(|mix| mix.is_exact);
+        let exact = all.take(longest).find(Self::is_exact);
         exact.unwrap_or(near)
     }
 
@@ -54,17 +54,12 @@ impl Mix {
         let all =
             (1..=longest).flat_map(|length| [Self::nearest(shares, length), Self::rounded(shares, length)]);
         let all: Vec<Self> = all.filter(|mix| mix.len() <= longest).collect();
-        let opposite = nearest_of(all.iter().filter(|mix| along(mix) < 0.0).cloned());
-        opposite.map_or_else(
-            || {
-                let others = all.into_iter().filter(|mix| mix.off != self.off);
-                (nearest_of(others).unwrap_or_else(|| self.clone()), 1.0)
-            },
-            |opposite| {
-                let share = self.distance() / (self.distance() + opposite.distance());
-                (opposite, share)
-            },
-        )
+        if let Some(opposite) = nearest_of(all.iter().filter(|mix| along(mix) < 0.0).cloned()) {
+            let share = self.distance() / (self.distance() + opposite.distance());
+            return (opposite, share);
+        }
+        let others = all.into_iter().filter(|mix| mix.off != self.off);
+        (nearest_of(others).unwrap_or_else(|| self.clone()), 1.0)
     }
 
     /// The nearest mix of `length` vehicles, or of a few more: those with the largest remainders
@@ -102,10 +97,7 @@ impl Mix {
     /// Its vehicles, as evenly as possible.
     pub fn interleaved(&self) -> Result<Vec<usize>, Error> {
         let present: Vec<usize> = (0..self.counts.len()).filter(|&k| self.counts[k] > 0).collect();
-        let counts: Vec<f64> = present
-            .iter()
-            .map(|&vehicle| self.counts[vehicle] as f64)
-            .collect();
+        let counts: Vec<f64> = present.iter().map(|&k| self.counts[k] as f64).collect();
         let traffic = Traffic::new(&counts, Order::Interleaved)?;
         Ok(traffic.take(self.len()).map(|index| present[index]).collect())
     }
@@ -127,7 +119,7 @@ mod tests {
 
     fn best(weights: &[f64]) -> (usize, bool) {
         let mix = Mix::best(&shares(weights), 2000);
-        (mix.len(), mix.is_exact)
+        (mix.len(), mix.is_exact())
     }
 
     #[test]
@@ -152,7 +144,7 @@ mod tests {
             let shares = shares(&weights);
             let mix = Mix::best(&shares, 2000);
             assert!(
-                mix.is_exact || mix.counts.iter().all(|&count| count > 0),
+                mix.is_exact() || mix.counts.iter().all(|&count| count > 0),
                 "{mix:?}"
             );
             let (other, share) = mix.opposite(&shares, 2000);

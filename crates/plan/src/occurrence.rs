@@ -72,20 +72,19 @@ const POISSON_RATIO: (f64, f64) = (0.4, 0.05);
 /// The row at any Q: straight lines in ln Q between the rows, the first row below, nothing above
 /// the last.
 pub fn at(number: f64) -> Row {
-    let Some(next) = TABLE.iter().position(|row| number <= row.number) else {
+    let next = TABLE.partition_point(|row| row.number < number);
+    if next == TABLE.len() || number.is_nan() {
         return row(number, 0.0, 0.0);
-    };
-    let (before, after) = (&TABLE[next.saturating_sub(1)], &TABLE[next]);
-    let share = if next > 0 {
-        (number / before.number).ln() / (after.number / before.number).ln()
-    } else {
-        1.0
-    };
-    let read = |value: fn(&Row) -> f64| value(before) + share * (value(after) - value(before));
+    }
+    let (before, after) = (TABLE[next.saturating_sub(1)], TABLE[next]);
+    let to_after = (number / before.number).ln() / (after.number / before.number).ln();
+    let share = if next > 0 { to_after } else { 1.0 };
+    let read = |before: f64, after: f64| before + share * (after - before);
+    let locked_share = read(before.locked_share, after.locked_share);
     row(
         number,
-        read(|row| row.locked_share),
-        read(|row| row.advance_share),
+        locked_share,
+        read(before.advance_share, after.advance_share),
     )
 }
 
@@ -120,12 +119,12 @@ impl Occurrence {
             return None;
         }
         let expected = at(number);
+        let by_motion = force * (CEILING * length / depth + CEILING_OF_END);
         Some(Self {
             q_number: number,
             locked_share: expected.locked_share,
             first_advance_m: expected.advance_share * displacement,
-            ceiling_n: force * (CEILING * length / depth + CEILING_OF_END)
-                + scene.body_force().abs() * length,
+            ceiling_n: by_motion + scene.body_force().abs() * length,
             rough: !is_of_the_table(scene),
         })
     }

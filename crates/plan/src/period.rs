@@ -7,6 +7,8 @@
 //! stand in for all (`representatives`), and half as many show what that changes; vehicles that
 //! come in random order are compared with another order.
 
+use std::collections::BTreeSet;
+
 use cable_dem::Order;
 use ground_field::DuctMotion;
 
@@ -94,7 +96,7 @@ impl Period {
             Order::Sequence(sequence) => Ok(Some(sequence)),
             Order::Interleaved => {
                 let mix = Mix::best(&shares(scene)?, most);
-                mix.is_exact.then(|| mix.interleaved()).transpose()
+                mix.is_exact().then(|| mix.interleaved()).transpose()
             }
             Order::Random { .. } => Ok(None),
         }
@@ -132,7 +134,7 @@ fn near(scene: &Scene, shares: &[f64]) -> (Mix, Vec<(Mix, f64)>) {
         .map(|&share| if is_held(share) { share } else { 0.0 });
     let held = normal(held.collect());
     let mix = Mix::best(&held, most);
-    let opposite = (!mix.is_exact).then(|| mix.opposite(&held, most));
+    let opposite = (!mix.is_exact()).then(|| mix.opposite(&held, most));
     let seldom: f64 = shares.iter().filter(|share| !is_held(**share)).sum();
     let with_seldom = (seldom > 0.0).then(|| {
         let count = |&share: &f64| ((share * most as f64) as usize).max(usize::from(share > 0.0));
@@ -150,27 +152,22 @@ fn longest(scene: &Scene) -> usize {
 
 /// The vehicles that come within the passes of the scene, ascending.
 pub fn coming(scene: &Scene) -> Result<Vec<usize>, Error> {
-    let passes = scene.traffic.passes;
-    let kinds = scene.vehicles.len();
-    let mut comes = vec![false; kinds];
+    let (passes, known) = (scene.traffic.passes, known_order(scene));
     if let Order::Sequence(sequence) = scene.order() {
-        for &vehicle in sequence.iter().take(passes as usize) {
-            comes[vehicle] = true;
-        }
-    } else {
-        for (comes, share) in comes.iter_mut().zip(scene.shares()) {
-            *comes = passes > known_order(scene) && share * passes as f64 >= 0.5;
-        }
-        let mut left = comes.iter().filter(|comes| !**comes).count();
-        let traffic = traffic(scene, scene.order())?;
-        for vehicle in traffic.take(passes.min(known_order(scene)) as usize) {
-            left -= usize::from(!std::mem::replace(&mut comes[vehicle], true));
-            if left == 0 {
-                break;
-            }
-        }
+        let coming: BTreeSet<usize> = sequence.into_iter().take(passes as usize).collect();
+        return Ok(coming.into_iter().collect());
     }
-    Ok((0..kinds).filter(|&vehicle| comes[vehicle]).collect())
+    let shares = scene.shares().into_iter();
+    let beyond_known = |share: f64| passes > known && share * passes as f64 >= 0.5;
+    let mut comes: Vec<bool> = shares.map(beyond_known).collect();
+    let mut left = comes.iter().filter(|comes| !**comes).count();
+    let mut traffic = traffic(scene, scene.order())?.take(passes.min(known) as usize);
+    while left > 0
+        && let Some(vehicle) = traffic.next()
+    {
+        left -= usize::from(!std::mem::replace(&mut comes[vehicle], true));
+    }
+    Ok((0..comes.len()).filter(|&vehicle| comes[vehicle]).collect())
 }
 
 /// The shares of the vehicles that come, which sum to 1; of the others none.

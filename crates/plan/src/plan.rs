@@ -7,8 +7,6 @@
 
 use std::sync::Arc;
 
-use ground_field::GroundField;
-
 use creepage_scene::{Scene, SolverMethod};
 
 use crate::cost::Estimates;
@@ -49,17 +47,8 @@ pub struct Plan<'a> {
 ///
 /// [`Error`] when the scene asks for what does not fit together.
 pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
-    plan_on(scene, None)
-}
-
-/// Plans how to compute `scene` on a ground model of the caller's own, where there is one.
-///
-/// # Errors
-///
-/// As for [`plan`].
-pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
     scene.validate()?;
-    let ground = Ground::new(scene, own, road::reach(scene))?;
+    let ground = Ground::new(scene, None, road::reach(scene))?;
     plan_over(scene, Arc::new(ground))
 }
 

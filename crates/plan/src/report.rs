@@ -9,10 +9,11 @@ use crate::method::NO_REST;
 use crate::occurrence::Occurrence;
 use crate::plan::Plan;
 use crate::shown::spacing;
-use creepage_scene::SolverMethod;
+use creepage_scene::SolverMethod::{self, Auto, Explicit, PassLaw, QuasiStatic};
 
-/// Meshes that a plan shows.
+/// Meshes and methods that a plan shows.
 const LISTED: usize = 7;
+const METHODS: [SolverMethod; 3] = [PassLaw, QuasiStatic, Explicit];
 
 /// What a candidate models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -91,7 +92,7 @@ impl Plan<'_> {
     fn foreseen(&self) -> String {
         let (reason, estimates) = (&self.reason, &self.estimates);
         match self.method {
-            SolverMethod::PassLaw => format!(
+            PassLaw => format!(
                 "about {:.0} of {} passes are simulated, with jumps between them; {reason}",
                 estimates.typical, estimates.passes
             ),
@@ -111,12 +112,7 @@ impl Plan<'_> {
             estimated_seconds: None,
             reason: ground.reason.into(),
         };
-        let methods = [
-            SolverMethod::PassLaw,
-            SolverMethod::QuasiStatic,
-            SolverMethod::Explicit,
-        ];
-        let methods = methods.map(|method| self.method(method));
+        let methods = METHODS.map(|method| self.method(method));
         let meshes = (0..=levels.finest).filter(|&level| levels.mesh(level).is_ok());
         let meshes = meshes.take(LISTED).map(|level| self.mesh(level));
         let mesh_error = levels.expected_error(levels.first);
@@ -139,7 +135,7 @@ impl Plan<'_> {
         let (scene, estimates) = (self.scene, &self.estimates);
         let chosen = method == self.method;
         let inertia = match method {
-            SolverMethod::Explicit => Some(0.0),
+            Explicit => Some(0.0),
             _ => scene.friction.law().has_memory().then_some(estimates.inertia),
         };
         let Estimates { passes, most, .. } = estimates;
@@ -152,11 +148,9 @@ impl Plan<'_> {
             reason: match method {
                 _ if chosen => self.foreseen(),
                 _ if inertia.is_none() => NO_REST.into(),
-                _ if scene.solver.method != SolverMethod::Auto => "the scene names another method".into(),
-                SolverMethod::PassLaw => {
-                    format!("jumps might leave {most:.0} of {passes} passes to be simulated")
-                }
-                SolverMethod::Explicit => "only where the scene names it".into(),
+                _ if scene.solver.method != Auto => "the scene names another method".into(),
+                PassLaw => format!("jumps might leave {most:.0} of {passes} passes to be simulated"),
+                Explicit => "only where the scene names it".into(),
                 _ => format!("all {passes} passes would be simulated"),
             },
         }

@@ -18,16 +18,13 @@ use creepage_scene::Scene;
 /// vehicles differ by their load alone.
 pub fn advances(scene: &Scene, motions: &[DuctMotion]) -> Option<Vec<f64>> {
     let (first, others) = scene.vehicles.split_first()?;
-    let alike = others.iter().all(|other| load_ratio(other, first).is_some());
-    if !alike {
+    if others.iter().any(|other| load_ratio(other, first).is_none()) {
         return None;
     }
     let peaks = motions.iter().map(DuctMotion::peak_longitudinal);
     let number = scene.friction_limit() * scene.duct.depth.powi(2) / scene.cable.axial_stiffness;
-    let advances: Vec<f64> = peaks
-        .clone()
-        .map(|peak| peak * occurrence::at(number / peak).advance_share)
-        .collect();
+    let advance = |peak: f64| peak * occurrence::at(number / peak).advance_share;
+    let advances: Vec<f64> = peaks.clone().map(advance).collect();
     // Where nothing creeps it makes no difference.
     let creeps = advances.iter().any(|&advance| advance > 0.0);
     Some(if creeps { advances } else { peaks.collect() })
@@ -40,12 +37,8 @@ pub fn counts(shares: &[f64], advances: &[f64], length: usize) -> Vec<usize> {
     let mut counts = vec![0; shares.len()];
     let mut carried = 0.0;
     for stratum in 0..length {
-        let (from, to) = (
-            stratum as f64 / length as f64,
-            (stratum + 1) as f64 / length as f64,
-        );
-        let mut below = 0.0;
-        let mut mean = 0.0;
+        let [from, to] = [stratum, stratum + 1].map(|edge| edge as f64 / length as f64);
+        let (mut below, mut mean) = (0.0, 0.0);
         for &kind in &order {
             let above = below + shares[kind];
             let inside = (above.min(to) - below.max(from)).max(0.0);

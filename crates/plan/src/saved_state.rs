@@ -79,25 +79,23 @@ impl SavedClamp {
 
 /// What of a scene must agree.
 fn duct(scene: &Scene) -> Vec<Value> {
-    let value = |key: &str, value: f64| Value {
-        key: key.to_owned(),
-        value,
-    };
-    let mut duct = vec![
-        value("duct.length", scene.duct.length),
-        value("cable.axial_stiffness", scene.cable.axial_stiffness),
-        value("cable.weight", scene.cable.weight),
+    let whole = [
+        ("duct.length", scene.duct.length),
+        ("cable.axial_stiffness", scene.cable.axial_stiffness),
+        ("cable.weight", scene.cable.weight),
     ];
-    for (index, section) in scene.sections().into_iter().enumerate() {
+    let whole = whole.map(|(key, value)| (key.to_owned(), value)).into_iter();
+    let sections = (1..).zip(scene.sections()).flat_map(|(number, section)| {
         let of = [
             ("length", section.length),
             ("friction", section.limit),
             ("weight along it", section.body_force),
             ("bend", section.bend),
         ];
-        duct.extend(of.map(|(key, of)| value(&format!("{key} of section {}", index + 1), of)));
-    }
-    duct
+        of.map(|(key, value)| (format!("{key} of section {number}"), value))
+    });
+    let value = |(key, value)| Value { key, value };
+    whole.chain(sections).map(value).collect()
 }
 
 /// Of the values and their names.
@@ -232,12 +230,8 @@ impl SavedState {
                 [Some(spring), Some(saved)] => same(spring, saved),
                 springs => springs == [None, None],
             };
-            let place = end.of([0.0, scene.duct.length]);
-            if is_it {
-                saved.position_m
-            } else {
-                self.displacement(place)
-            }
+            let moved = self.displacement(end.of([0.0, scene.duct.length]));
+            if is_it { saved.position_m } else { moved }
         });
         cable(scene)?.with_end_positions(positions)
     }

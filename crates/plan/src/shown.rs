@@ -19,28 +19,27 @@ pub fn rounded(value: f64, decimals: usize) -> String {
 
 /// A number without zeros at the end of its decimals.
 pub fn without_zeros(number: &str) -> &str {
-    if number.contains('.') {
-        return number.trim_end_matches('0').trim_end_matches('.');
-    }
-    number
+    let decimals = number.contains('.');
+    let short = number.trim_end_matches('0').trim_end_matches('.');
+    if decimals { short } else { number }
 }
 
 /// A node spacing or a vehicle step: three decimals, and two digits of one that is smaller.
 pub fn spacing(length: f64) -> String {
-    let decimals = if length > 0.0 && length < 0.01 {
-        (1.0 - length.log10().floor()) as usize
+    let is_small = length > 0.0 && length < 0.01;
+    let decimals = if is_small {
+        1.0 - length.log10().floor()
     } else {
-        3
+        3.0
     };
-    format!("{length:.decimals$}")
+    rounded(length, decimals as usize)
 }
 
 /// An estimated share as a percentage.
 pub fn percent(share: f64) -> String {
-    if share > 0.0 && share < 5e-5 {
-        "< 0.01 %".into()
-    } else {
-        format!("{:.2} %", 100.0 * share)
+    match share {
+        share if share > 0.0 && share < 5e-5 => "< 0.01 %".into(),
+        share => format!("{:.2} %", 100.0 * share),
     }
 }
 

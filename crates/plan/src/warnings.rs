@@ -36,17 +36,13 @@ pub fn warnings(scene: &Scene, inertia: f64, motions: &[DuctMotion]) -> Result<V
                 .to_owned(),
         );
     }
-    let coming = coming(scene)?;
+    let (coming, passes) = (coming(scene)?, scene.traffic.passes);
     let absent = (0..scene.vehicles.len()).filter(|vehicle| !coming.contains(vehicle));
-    let absent: Vec<String> = absent
-        .map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].name))
-        .collect();
+    let absent = absent.map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].name));
+    let absent: Vec<String> = absent.collect();
     if !absent.is_empty() {
-        let passes = scene.traffic.passes;
-        warnings.push(format!(
-            "no pass among the {passes} is one of {}",
-            absent.join(", ")
-        ));
+        let absent = absent.join(", ");
+        warnings.push(format!("no pass among the {passes} is one of {absent}"));
     }
     if inertia > scene.solver.tolerance {
         let remedy = match scene.warming() {

@@ -111,7 +111,7 @@ fn force_after_passes(report: &Report) -> Chart {
 fn movement_after_passes(report: &Report) -> Chart {
     let is_in = |record: &PassRecord| {
         let mut ends = CableEnd::ALL.into_iter();
-        ends.all(|end| record.movement(end) <= report.reader.most)
+        ends.all(|end| record.displacement(end).abs() <= report.reader.most)
     };
     let passes = drawn(report);
     let inside = passes.partition_point(is_in);

@@ -22,11 +22,11 @@ pub use answer::{
 };
 pub use cable_dem::SlipLengths;
 pub use creepage_plan::{
-    Candidate, Error, ErrorSource, Part, PastPass, Plan, PlanReport, SavedState, occurrence, plan, plan_on,
+    Candidate, Error, ErrorSource, Part, PastPass, Plan, PlanReport, SavedState, occurrence, plan,
     with_causes,
 };
 pub use creepage_scene::{CableEnd, Scene, SceneError, SceneFile};
 pub use passes::{FixedMesh, RunOptions};
 pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
-pub use run::{check, run, run_plan, run_with};
+pub use run::{run, run_plan, run_with};

@@ -57,7 +57,7 @@ pub fn film(
     let (mesh, cable) = (task.mesh, task.cable()?);
     let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
     let passage = solver.passage(motion, road::approach(scene, &ground.motions)?)?;
-    let mut state = task.begin()?.unwrap_or_else(|| solver.at_rest());
+    let mut state = task.begin()?;
     let half = (SEEN * depth / mesh.spacing()) as usize;
     let every = (2 * half).min(mesh.nodes()).div_ceil(NODES).max(1);
     let begin = state.clone();

@@ -45,19 +45,15 @@ pub fn load_ratio(vehicle: &TrafficVehicle, base: &TrafficVehicle) -> Option<f64
         let place = |wheel: &Wheel| (wheel.x, wheel.y, wheel.contact_radius);
         place(a) == place(b) && (a.load - ratio * b.load).abs() <= SAME * a.load
     };
-    let alike = drives(vehicle) == drives(base)
-        && wheels.len() == others.len()
-        && ratio.is_finite()
-        && wheels.iter().zip(&others).all(is_alike);
+    let drive_alike = drives(vehicle) == drives(base) && wheels.len() == others.len();
+    let alike = drive_alike && ratio.is_finite() && wheels.iter().zip(&others).all(is_alike);
     alike.then_some(ratio)
 }
 
 /// max |D_l| under any vehicle \[m\].
 pub fn peak(motions: &[DuctMotion]) -> f64 {
-    motions
-        .iter()
-        .map(DuctMotion::peak_longitudinal)
-        .fold(0.0, f64::max)
+    let peaks = motions.iter().map(DuctMotion::peak_longitudinal);
+    peaks.fold(0.0, f64::max)
 }
 
 /// Length over which a duct at `depth` moves differently under the vehicle that moves it most

@@ -24,11 +24,7 @@ pub fn farthest(scene: &Scene) -> f64 {
 /// How far from a vehicle's origin its motion of the duct has to be known \[m\].
 pub fn reach(scene: &Scene) -> f64 {
     let followed = BEYOND_THE_TURN * farthest(scene);
-    let measured = if scene.warming().is_some() {
-        LAW_LENGTH * scene.duct.depth
-    } else {
-        0.0
-    };
+    let measured = scene.warming().map_or(0.0, |_| LAW_LENGTH * scene.duct.depth);
     scene.duct.length.max(measured) + scene.solver.approach.unwrap_or(0.0).max(followed)
 }
 

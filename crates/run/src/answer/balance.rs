@@ -5,10 +5,10 @@
 //! times their distance and what clamps between them carry; at an end that is free it is at most
 //! (q + |p|) L and the clamps. No solver, law or mesh may break that.
 
-use cable_dem::{CableState, DuctedCable};
+use cable_dem::{CableState, DuctedCable, EndForces};
+use cycle_jump::Record;
 
 use super::differences::larger;
-use super::record::{PassRecord, RestraintRecord};
 use creepage_plan::Error;
 use creepage_scene::{Scene, Section};
 
@@ -22,9 +22,17 @@ pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<()
     if share <= 1.0 + MARGIN {
         Ok(())
     } else {
-        let needed = share * limit;
-        Err(Error::Unbalanced { pass, needed, limit })
+        Err(unbalanced(pass, share * limit, limit))
     }
+}
+
+/// Forces after `pass` that need more friction than there can be \[N/m\].
+fn unbalanced(pass: u64, needed: f64, limit: f64) -> Error {
+    let reason = format!(
+        "after pass {pass} the forces need a friction of {needed:.4e} N/m where its limit is {limit:.4e} N/m: this is no answer; \
+         solver.method = \"quasi-static\" simulates every pass"
+    );
+    Error::NoAnswer { reason }
 }
 
 /// The most \[N\] by which the forces on both ends differ where nothing else than friction and the
@@ -36,27 +44,21 @@ pub fn carried(scene: &Scene, largest: f64) -> f64 {
     sections.map(on).sum()
 }
 
-/// Checks the forces on the ends of a cable whose clamps carry `restraints`.
-pub fn of_records(
-    scene: &Scene,
-    records: &[PassRecord],
-    restraints: &[RestraintRecord],
-) -> Result<(), Error> {
-    let limit = scene.friction_limit();
-    for (index, record) in records.iter().enumerate() {
-        // Of this pass: where it is warm, others find other forces on the clamps.
-        let clamps = restraints.iter().map(|clamp| clamp.after_passes_n[index].abs());
-        let clamps: f64 = clamps.sum();
-        let (upstream, downstream) = (record.upstream_force_n, record.downstream_force_n);
-        let forces = [upstream, downstream, record.max_compression_n];
+/// Checks the forces on the ends that passes leave.
+pub fn of_records(scene: &Scene, records: &[Record]) -> Result<(), Error> {
+    for Record { pass, outcome, .. } in records {
+        let EndForces { upstream, downstream } = outcome.force;
+        let forces = [upstream, downstream, outcome.max_compression];
         let friction = carried(scene, forces.into_iter().fold(0.0, larger).abs());
+        // Of this pass: where it is warm, others find other forces on the clamps.
+        let clamps: f64 = outcome.restraints.iter().map(|force| force.abs()).sum();
         let carried = (downstream - upstream).abs();
         if carried > (1.0 + MARGIN) * friction + clamps {
-            return Err(Error::Unbalanced {
-                pass: record.pass,
-                needed: carried / scene.duct.length,
-                limit,
-            });
+            return Err(unbalanced(
+                *pass,
+                carried / scene.duct.length,
+                scene.friction_limit(),
+            ));
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Passes as days and years, where the vehicles a day are known.
 
-use creepage_plan::shown::without_zeros;
+use creepage_plan::shown::{without_zeros, words_if};
 use creepage_scene::{DAYS_PER_YEAR, Traffic};
 
 /// Days of a month, on average.
@@ -11,12 +11,8 @@ const POWERS: std::ops::Range<i32> = 0..4;
 /// Times that a reader looks for \[days\], with their names.
 fn times() -> impl Iterator<Item = (f64, String)> {
     let years = POWERS.flat_map(|power| [1.0, 2.0, 5.0].map(|leading| leading * 10_f64.powi(power)));
-    let years = years.map(|years| {
-        (
-            years * DAYS_PER_YEAR,
-            format!("{years} year{}", if years == 1.0 { "" } else { "s" }),
-        )
-    });
+    let named = |years: f64| format!("{years} year{}", words_if(years != 1.0, "s"));
+    let years = years.map(move |years| (years * DAYS_PER_YEAR, named(years)));
     let short = [(1.0, "1 day"), (MONTH, "1 month")].map(|(days, name)| (days, name.to_owned()));
     short.into_iter().chain(years)
 }
@@ -28,8 +24,8 @@ pub fn calendar(traffic: &Traffic) -> Vec<(u64, String)> {
         return Vec::new();
     };
     let at = times().map(|(days, name)| ((days * per_day).round() as u64, name));
-    at.filter(|(pass, _)| (1..=traffic.passes).contains(pass))
-        .collect()
+    let comes = |(pass, _): &(u64, _)| (1..=traffic.passes).contains(pass);
+    at.filter(comes).collect()
 }
 
 /// A time \[years\] in words, to three digits.
@@ -46,8 +42,7 @@ pub fn after(years: f64) -> String {
         _ => (years, "years"),
     };
     let decimals = (2 - number.max(1e-9).log10().floor() as i32).max(0) as usize;
-    let text = format!("{number:.decimals$}");
-    format!("{} {unit}", without_zeros(&text))
+    format!("{} {unit}", without_zeros(&format!("{number:.decimals$}")))
 }
 
 #[cfg(test)]

@@ -33,10 +33,8 @@ pub struct Shares {
 impl Shares {
     /// The same share of both.
     pub fn both(share: f64) -> Self {
-        Self {
-            force: share,
-            movement: share,
-        }
+        let (force, movement) = (share, share);
+        Self { force, movement }
     }
 
     /// `f` of each share and that of another.
@@ -115,12 +113,18 @@ impl Scale {
     }
 }
 
+/// The record of this `pass`, if it is among these.
+pub fn record_of(records: &[Record], pass: u64) -> Option<&Record> {
+    let place = records.binary_search_by_key(&pass, |record| record.pass);
+    place.ok().map(|place| &records[place])
+}
+
 /// Difference of every pass that both have.
 pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
     let whole = Whole::of(a, scale);
     let of_both = a.iter().filter_map(|record| {
-        let same = b.binary_search_by_key(&record.pass, |other| other.pass).ok()?;
-        let (a, b) = (places(&record.outcome), places(&b[same].outcome));
+        let same = record_of(b, record.pass)?;
+        let (a, b) = (places(&record.outcome), places(&same.outcome));
         let own = |place: usize| match place {
             MOVEMENT.. => whole.places[place],
             _ => largest(&a[place]).max(whole.force),
@@ -139,13 +143,9 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
 /// the largest at its place.
 pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     let whole = Whole::of(a, scale);
-    let bounds: [fn(f64, f64) -> f64; 2] = [f64::min, f64::max];
-    let of_bound = |bound| {
-        apart(&extremes(a, bound), &extremes(b, bound), |place| {
-            whole.places[place]
-        })
-    };
-    bounds.into_iter().map(of_bound).collect()
+    let at = |place: usize| whole.places[place];
+    let least = apart(&extremes(a, f64::min), &extremes(b, f64::min), at);
+    least.max(apart(&extremes(a, f64::max), &extremes(b, f64::max), at))
 }
 
 /// Largest force on an end during a pass or in the cable after it, in size \[N\].

@@ -47,16 +47,9 @@ impl ErrorShares {
     /// The part that comes from `source`: those of all sources sum to the whole error of the
     /// forces.
     pub fn of(&self, source: ErrorSource) -> f64 {
-        let Self {
-            mesh,
-            ground,
-            inertia,
-            road,
-            passes,
-            temperature,
-            ..
-        } = *self;
-        [mesh, ground, inertia, road, passes, temperature][source as usize]
+        let first = [self.mesh, self.ground, self.inertia];
+        let others = [self.road, self.passes, self.temperature];
+        [first, others].as_flattened()[source as usize]
     }
 }
 
@@ -89,15 +82,11 @@ impl ErrorParts {
 
     /// What comes from each of [`ErrorSource::ALL`].
     fn parts(&self) -> impl Iterator<Item = (ErrorSource, Shares)> {
-        let parts = [
-            self.mesh,
-            self.ground,
-            self.inertia,
-            self.road,
-            self.passes,
-            self.days,
-        ];
-        ErrorSource::ALL.into_iter().zip(parts)
+        let (first, others) = (
+            [self.mesh, self.ground, self.inertia],
+            [self.road, self.passes, self.days],
+        );
+        ErrorSource::ALL.into_iter().zip(first.into_iter().chain(others))
     }
 
     pub fn total(&self) -> Shares {
@@ -106,16 +95,21 @@ impl ErrorParts {
     }
 
     /// The same for a reader.
-    pub fn shares(&self) -> ErrorShares {
-        ErrorShares {
-            mesh: self.mesh.force,
-            ground: self.ground.force,
-            inertia: self.inertia.force,
-            road: self.road.force,
-            passes: self.passes.force,
-            temperature: self.days.force,
-            law: self.passes.force,
-            movement: self.total().movement,
+    pub fn estimate(&self) -> ErrorEstimate {
+        let total = self.total();
+        ErrorEstimate {
+            relative: total.force,
+            method: self.to_string(),
+            parts: ErrorShares {
+                mesh: self.mesh.force,
+                ground: self.ground.force,
+                inertia: self.inertia.force,
+                road: self.road.force,
+                passes: self.passes.force,
+                temperature: self.days.force,
+                law: self.passes.force,
+                movement: total.movement,
+            },
         }
     }
 
@@ -137,21 +131,19 @@ impl ErrorParts {
 
 impl std::fmt::Display for ErrorParts {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(if self.measured {
-            "measured by a run on a mesh twice as fine: "
+        let found = if self.measured {
+            "measured by a run on a mesh twice as fine"
         } else {
-            "from runs on coarser meshes: "
-        })?;
-        let is_shown =
-            |(source, part): &(ErrorSource, Shares)| !source.is_skipping() || *part != Shares::default();
-        let shown = self.parts().filter(is_shown);
-        let parts = shown.map(|(source, part)| format!("{} {}", source.name(), percent(part.force)));
-        let parts = parts.collect::<Vec<_>>().join(", ");
-        write!(
-            f,
-            "{parts}; movement of the ends {}",
-            percent(self.total().movement)
-        )
+            "from runs on coarser meshes"
+        };
+        let shown = (self.parts())
+            .filter(|(source, part)| !source.is_skipping() || *part != Shares::default())
+            .map(|(source, part)| format!("{} {}", source.name(), percent(part.force)));
+        let (parts, moved) = (
+            shown.collect::<Vec<_>>().join(", "),
+            percent(self.total().movement),
+        );
+        write!(f, "{found}: {parts}; movement of the ends {moved}")
     }
 }
 

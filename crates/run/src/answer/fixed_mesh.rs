@@ -7,15 +7,8 @@ use super::differences::Shares;
 pub struct FixedMesh {
     /// Error of the mesh.
     pub error: Shares,
-    /// Jumps that were good enough.
-    pub jumps: Option<KnownJumps>,
-}
-
-/// Jumps that are good enough, and what they leave wrong.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownJumps {
-    pub size: JumpSize,
-    pub error: Shares,
+    /// Jumps that were good enough, and what they leave wrong.
+    pub jumps: Option<(JumpSize, Shares)>,
 }
 
 /// How large jumps are.

@@ -105,15 +105,18 @@ impl DayExtremes {
 
     /// The least and the largest force on an end \[N\], and displacement of it \[m\].
     pub fn of(&self, end: CableEnd) -> [[f64; 2]; 2] {
-        let upstream = [self.upstream_displacement_min_m, self.upstream_displacement_max_m];
-        let downstream = [
-            self.downstream_displacement_min_m,
-            self.downstream_displacement_max_m,
-        ];
-        end.of([
-            [[self.upstream_min_n, self.upstream_max_n], upstream],
-            [[self.downstream_min_n, self.downstream_max_n], downstream],
-        ])
+        let of = |least: [f64; 2], most: [f64; 2]| [end.of(least), end.of(most)];
+        let (least, most) = (self.upstream_displacement_min_m, self.upstream_displacement_max_m);
+        [
+            of(
+                [self.upstream_min_n, self.downstream_min_n],
+                [self.upstream_max_n, self.downstream_max_n],
+            ),
+            of(
+                [least, self.downstream_displacement_min_m],
+                [most, self.downstream_displacement_max_m],
+            ),
+        ]
     }
 
     /// The force on the end that is largest in size \[N\].

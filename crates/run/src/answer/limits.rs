@@ -94,7 +94,7 @@ impl Limited {
         self.unit_in(units).0.symbol()
     }
 
-    /// A value of it in that unit.
+    /// A value of it in that unit, as many digits as 0.1 N or 0.1 µm needs.
     pub fn number_in(self, units: &Units, value: f64) -> String {
         let (unit, digit) = self.unit_in(units);
         in_unit(value, unit, digit)
@@ -158,11 +158,10 @@ impl Verdict {
     fn new(run: &Run, place: Place, quantity: Limited, limit: f64) -> Self {
         let farthest = run.farthest(place, quantity);
         let (pulled, largest) = (quantity == Limited::Force && farthest < 0.0, farthest.abs());
-        let at_rest = run.values(place, quantity).map(|value| value.at_rest.abs());
-        let exceeding = run
-            .values(place, quantity)
-            .filter(|value| value.largest.abs() > limit);
-        let first = exceeding.map(|value| value.pass).min();
+        let values = || run.values(place, quantity);
+        let at_rest = values().map(|(_, [at_rest, _])| at_rest.abs());
+        let exceeding = values().filter(|(_, [_, largest])| largest.abs() > limit);
+        let first = exceeding.map(|(pass, _)| pass).min();
         let years = |pass| {
             let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
             Some(listed.years? * pass as f64 / listed.pass as f64)
@@ -223,17 +222,14 @@ impl Verdict {
         let verdict = match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
-                format!(
-                    "limit exceeded: {what} up to {largest}{when}, limit {limit}, first at pass {pass}{time}"
-                )
+                let first = format!("first at pass {pass}{time}");
+                format!("limit exceeded: {what} up to {largest}{when}, limit {limit}, {first}")
             }
             None => format!("limit kept: {what} at most {largest}{when}, limit {limit}"),
         };
         let level = self.levels_off_above.map_or_else(String::new, |level| {
-            format!(
-                "; with more passes it levels off at {}, above the limit",
-                shown(level)
-            )
+            let level = shown(level);
+            format!("; with more passes it levels off at {level}, above the limit")
         });
         let doubt = words_if(self.doubtful, "; nearer to the limit than the estimated error");
         format!("{verdict}{level}{doubt}")

@@ -1,7 +1,8 @@
 //! Which passes an answer lists.
 
 use super::calendar::calendar;
-use creepage_scene::Traffic;
+use creepage_plan::Period;
+use creepage_scene::Scene;
 
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
@@ -39,14 +40,16 @@ pub fn beyond(count: u64) -> Vec<u64> {
     listed(far).into_iter().filter(|&pass| pass > count).collect()
 }
 
-/// The passes that a run of this traffic lists, which repeats itself after a `period` of so many
-/// passes.
-pub fn simulated(traffic: &Traffic, period: usize) -> Vec<u64> {
+/// The passes that a run of `scene` lists whose traffic has this `period`: where it is the traffic's
+/// own, all of the last period among them.
+pub fn listed_passes(scene: &Scene, period: &Period) -> Vec<u64> {
+    let traffic = &scene.traffic;
     if traffic.passes <= ALL_LISTED {
         return (1..=traffic.passes).collect();
     }
     let mut passes = listed(traffic.passes);
     passes.extend(calendar(traffic).into_iter().map(|(pass, _)| pass));
+    let period = if period.is_own() { period.len() } else { 1 };
     let last = LAST.max(period as u64).min(traffic.passes);
     passes.extend(traffic.passes - last + 1..traffic.passes);
     passes.sort_unstable();

@@ -17,12 +17,12 @@ mod units;
 
 pub use along_cable::*;
 pub use calendar::after;
-pub use differences::larger;
+pub use differences::{larger, record_of};
 pub use error_estimate::{ErrorEstimate, ErrorShares};
-pub use fixed_mesh::{FixedMesh, JumpSize, KnownJumps};
+pub use fixed_mesh::{FixedMesh, JumpSize};
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
-pub use listed::{beyond, listed, simulated};
+pub use listed::{beyond, listed, listed_passes};
 pub use place::{Limited, Place, largest_movement_in_duct};
 pub use record::*;
 pub use saturation::saturation;

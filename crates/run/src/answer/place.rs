@@ -7,7 +7,6 @@ use super::record::{PassRecord, Run};
 use super::units::Units;
 use creepage_plan::shown::exact;
 use creepage_scene::{CableEnd, Scene};
-use ground_field::Direction;
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
@@ -20,9 +19,6 @@ const LEAVES: f64 = 0.01;
 pub fn largest_movement_in_duct(scene: &Scene) -> f64 {
     LEAVES * scene.duct.length
 }
-
-/// Share of the largest force that an end must bear the other way after the last pass for the cable to creep backward.
-const BACKWARD: f64 = 0.05;
 
 /// Where a cable is held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -73,12 +69,13 @@ impl Place {
 
     /// It in words, in units of a reader.
     pub(super) fn shown_in(self, units: &Units) -> String {
-        match (self, self.end()) {
-            (Self::Clamp(position), _) => {
+        match self {
+            Self::Upstream => "upstream end".to_owned(),
+            Self::Downstream => "downstream end".to_owned(),
+            Self::Clamp(position) => {
                 let position = exact(units.length.of_si(position));
                 format!("clamp at {position} {}", units.length.symbol())
             }
-            (_, end) => format!("{} end", end.map_or("", CableEnd::name)),
         }
     }
 }
@@ -95,14 +92,9 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// A force \[N\] or movement \[m\] at one place in one pass or on one day; forces on ends have a sign.
-pub(super) struct Value {
-    pub pass: u64,
-    /// With the cable at rest.
-    pub at_rest: f64,
-    /// While a vehicle is above the duct, or at rest if that is larger.
-    pub largest: f64,
-}
+/// A pass or the last one of a day, and a force \[N\] or movement \[m\] at one place: with the cable
+/// at rest, and while a vehicle is above the duct if that is larger. Forces on ends have a sign.
+type Value = (u64, [f64; 2]);
 
 impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all
@@ -116,7 +108,7 @@ impl Run {
     /// The same with its sign.
     pub(super) fn farthest(&self, place: Place, quantity: Limited) -> f64 {
         let values = self.values(place, quantity);
-        values.fold(0.0, |most, value| larger(most, value.largest))
+        values.fold(0.0, |most, (_, [_, largest])| larger(most, largest))
     }
 
     /// Warns where the cable leaves its duct.
@@ -124,35 +116,11 @@ impl Run {
         let most = largest_movement_in_duct(scene);
         let leaves = |end: &CableEnd| self.largest(*end, Limited::Movement) > most;
         if let Some(end) = CableEnd::ALL.into_iter().find(leaves) {
+            let (end, percent) = (end.name(), 100.0 * LEAVES);
             self.warnings.push(format!(
-                "the {} end moves by more than {} % of the duct's length: the cable leaves the duct, and larger movements say no more \
-                 than that",
-                end.name(),
-                100.0 * LEAVES
+                "the {end} end moves by more than {percent} % of the duct's length: the cable leaves the duct, and larger movements say \
+                 no more than that"
             ));
-        }
-    }
-
-    /// Warns of a cable that creeps against the only direction of traffic, where neither weight nor heat does that.
-    pub(crate) fn warn_where_it_creeps_back(&mut self, scene: &Scene) {
-        let forward = scene.vehicles[0].direction;
-        let one_way = scene.vehicles.iter().all(|vehicle| vehicle.direction == forward);
-        let is_pulled_otherwise = scene.body_force() != 0.0 || scene.heat.is_some() || self.start.is_some();
-        let Some(last) = self.passes.last().filter(|_| one_way && !is_pulled_otherwise) else {
-            return;
-        };
-        let sign = if forward == Direction::Forward { 1.0 } else { -1.0 };
-        let pushed = sign * (last.downstream_force_n - last.upstream_force_n);
-        let moved = sign * (last.upstream_displacement_m + last.downstream_displacement_m);
-        let forces = CableEnd::ALL.map(|end| self.largest(end, Limited::Force));
-        let is_held = forces[0].max(forces[1]) > 0.0;
-        let is_pushed_back = pushed < -BACKWARD * forces[0].max(forces[1]);
-        if is_pushed_back && moved <= 0.0 || !is_held && moved < -self.duct_motion.peak_longitudinal_m {
-            self.warnings.push(
-                "the cable creeps against the traffic: where axles stand so far apart that the backward slip of one falls into the forward \
-                 slip of the next, a soft cable near the state in which nothing creeps moves backward; check the places of the wheels"
-                    .to_owned(),
-            );
         }
     }
 
@@ -160,7 +128,6 @@ impl Run {
     /// `place`, or of a tenth of the largest at any place if that is more; and of the largest
     /// movement of an end.
     pub(super) fn error_of_largest(&self, place: Place, quantity: Limited) -> f64 {
-        let ends = CableEnd::ALL.map(|end| self.largest(end, quantity));
         let of = match (quantity, place) {
             (Limited::Force, _) => SMALL * self.largest_force(),
             (Limited::Movement, Place::Clamp(_)) => {
@@ -169,30 +136,30 @@ impl Run {
                 let stiffnesses = clamps.map(|clamp| clamp.stiffness_n_per_m);
                 SMALL * self.largest_force() / stiffnesses.fold(f64::INFINITY, f64::min)
             }
-            (Limited::Movement, _) => ends[0].max(ends[1]),
+            (Limited::Movement, _) => self.largest_on_ends(quantity),
         };
         let error = &self.error_estimate;
         quantity.of([error.relative, error.parts.movement]) * of.max(self.largest(place, quantity))
+    }
+
+    fn largest_on_ends(&self, quantity: Limited) -> f64 {
+        let [upstream, downstream] = CableEnd::ALL.map(|end| self.largest(end, quantity));
+        upstream.max(downstream)
     }
 
     /// The largest force on an end, on a clamp, or inside the cable after a listed pass, in size
     /// \[N\].
     fn largest_force(&self) -> f64 {
         let clamps = self.restraints.iter().map(|clamp| Place::Clamp(clamp.position_m));
-        let places = CableEnd::ALL.map(Place::from).into_iter().chain(clamps);
+        let on_clamps = clamps.map(|place| self.largest(place, Limited::Force));
         let inside = self.passes.iter().map(|record| record.max_compression_n);
-        let at_places = places.map(|place| self.largest(place, Limited::Force));
-        at_places.chain(inside).fold(0.0, f64::max)
+        let on_ends = self.largest_on_ends(Limited::Force);
+        on_clamps.chain(inside).fold(on_ends, f64::max)
     }
 
     /// What there is at `place` in all listed passes, on all days, and in the passes beside them.
     pub(super) fn values(&self, place: Place, quantity: Limited) -> impl Iterator<Item = Value> {
         let last = self.passes.last().map_or(u64::MAX, |record| record.pass);
-        let value = move |pass: u64, [at_rest, largest]: [f64; 2]| Value {
-            pass: pass.min(last),
-            at_rest,
-            largest,
-        };
         let listed = self.passes.iter().enumerate().map(move |(index, record)| {
             let clamps = self.restraints.iter();
             let forces = clamps.map(|clamp| [clamp.after_passes_n[index], clamp.during_passes_n[index]]);
@@ -202,7 +169,7 @@ impl Run {
             };
             // On days of heat passes between simulated ones have the peaks of others.
             let has_peaks = self.heat.is_none() || !record.interpolated;
-            value(record.pass, [at_rest, if has_peaks { largest } else { at_rest }])
+            (record.pass, [at_rest, if has_peaks { largest } else { at_rest }])
         });
         let extremes = self.extremes.iter().map(move |extreme| {
             let forces = extreme.restraints_n.iter().zip(&extreme.restraint_peaks_n);
@@ -212,20 +179,19 @@ impl Run {
                 Some(end) => self.on_end(&extreme.after, end, quantity, 0.0),
                 None => self.on_clamps(place, quantity, pass, forces),
             };
-            value(pass, both)
+            (pass.min(last), both)
         });
         let days = self.heat.iter().flat_map(move |heat| {
             let days = self.days.iter().chain([&heat.all_days]);
             days.map(move |day| {
-                let pass = day.day * heat.passes_per_day;
+                let pass = last.min(day.day * heat.passes_per_day);
                 let clamps = day.restraints.iter();
                 let forces = clamps.map(|clamp| [larger(clamp.max_n, clamp.min_n); 2]);
-                let both = match (place.end(), quantity) {
-                    (Some(end), Limited::Force) => [day.largest_force(end); 2],
-                    (Some(end), Limited::Movement) => [day.movement(end); 2],
-                    (None, _) => self.on_clamps(place, quantity, pass.min(last), forces),
+                let both = match place.end() {
+                    Some(end) => [quantity.of([day.largest_force(end), day.movement(end)]); 2],
+                    None => self.on_clamps(place, quantity, pass, forces),
                 };
-                value(pass, both)
+                (pass, both)
             })
         });
         listed.chain(extremes).chain(days)
@@ -258,21 +224,15 @@ impl Run {
     /// passes may show `scatter` more force than this one. During a pass an end on a spring moves
     /// with its force; how far a free one moves to and fro then, some micrometres, is left out.
     fn on_end(&self, record: &PassRecord, end: CableEnd, quantity: Limited, scatter: f64) -> [f64; 2] {
-        let wider = |force: f64| force + scatter.copysign(force);
-        let movement = record.movement(end);
-        let spring = end.of([self.upstream_spring_n_per_m, self.downstream_spring_n_per_m]);
-        match (quantity, spring) {
-            (Limited::Force, _) => [record.force_after(end), record.largest_force(end)].map(wider),
-            (Limited::Movement, None) => [movement; 2],
-            (Limited::Movement, Some(spring)) => {
-                let outward = end.of([-1.0, 1.0]);
-                let during = record.extremes(end).map(|force| {
-                    let further = outward * (force - record.force_after(end)) / spring;
-                    (record.displacement(end) + further).abs()
-                });
-                [movement, during.into_iter().fold(movement, f64::max)]
-            }
+        let after = record.force_after(end);
+        if quantity == Limited::Force {
+            return [after, record.largest_force(end)].map(|force| force + scatter.copysign(force));
         }
+        let spring = end.of([self.upstream_spring_n_per_m, self.downstream_spring_n_per_m]);
+        let (outward, spring) = (end.of([-1.0, 1.0]), spring.unwrap_or(f64::INFINITY));
+        let moved = |force: f64| (record.displacement(end) + outward * (force - after) / spring).abs();
+        let during = record.extremes(end).map(moved);
+        [moved(after), during.into_iter().fold(moved(after), f64::max)]
     }
 }
 
@@ -294,11 +254,6 @@ impl PassRecord {
     /// Force on an end after the pass \[N\].
     pub fn force_after(&self, end: CableEnd) -> f64 {
         end.of([self.upstream_force_n, self.downstream_force_n])
-    }
-
-    /// How far an end is displaced after the pass, whichever way \[m\].
-    pub fn movement(&self, end: CableEnd) -> f64 {
-        self.displacement(end).abs()
     }
 
     /// Displacement of an end after the pass \[m\].

@@ -218,13 +218,14 @@ impl Run {
     /// what one pass in twenty leaves less and more than.
     pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
         let extremes = |end: CableEnd| {
-            let of_random = self.random.map(|random| random.of(end));
-            let of_random = of_random.map(|random| [random.q05_n, random.q95_n]);
-            let of_period = self.range.map(|range| {
-                let downstream = [range.downstream_min_n, range.downstream_max_n];
-                end.of([[range.upstream_min_n, range.upstream_max_n], downstream])
-            });
-            let [least, most] = of_random.or(of_period)?;
+            let [least, most] = match (self.random, self.range) {
+                (Some(random), _) => [random.of(end).q05_n, random.of(end).q95_n],
+                (None, Some(range)) => [
+                    end.of([range.upstream_min_n, range.downstream_min_n]),
+                    end.of([range.upstream_max_n, range.downstream_max_n]),
+                ],
+                (None, None) => return None,
+            };
             (most - least > NOTICEABLE * larger(most, least).abs()).then_some((end, least, most))
         };
         CableEnd::ALL.into_iter().filter_map(extremes).collect()
@@ -233,33 +234,22 @@ impl Run {
     /// How much larger single passes may be than the mean of many that `record` shows, on one end
     /// \[N\]: zero but in random order.
     pub fn scatter(&self, end: CableEnd, record: &PassRecord) -> f64 {
-        let random = self.random.as_ref().filter(|_| record.interpolated);
-        random.map_or(0.0, |random| random.of(end).scatter())
+        let random = self.random.filter(|_| record.interpolated);
+        random.map_or(0.0, |random| {
+            let Quantiles { q50_n, max_n, .. } = random.of(end);
+            (max_n.abs() - q50_n.abs()).max(0.0)
+        })
     }
 }
 
 impl Saturation {
     /// Whether it is noticeably larger than all of `passes` leave.
     pub fn is_beyond(&self, passes: &[PassRecord]) -> bool {
-        let forces = passes.iter().flat_map(|record| {
-            let ends = CableEnd::ALL.map(|end| record.force_after(end));
-            [ends[0], ends[1], record.max_compression_n]
-        });
+        let on_ends = |record: &PassRecord| larger(record.upstream_force_n, record.downstream_force_n);
+        let forces = passes
+            .iter()
+            .map(|record| larger(on_ends(record), record.max_compression_n));
         self.force_n.abs() > (1.0 + NOTICEABLE) * forces.fold(0.0, larger).abs()
-    }
-}
-
-impl RandomSpread {
-    /// That of one end.
-    pub fn of(&self, end: CableEnd) -> Quantiles {
-        end.of([self.upstream, self.downstream])
-    }
-}
-
-impl Quantiles {
-    /// How much larger than the median a single pass leaves the force at most \[N\].
-    pub fn scatter(&self) -> f64 {
-        (self.max_n.abs() - self.q50_n.abs()).max(0.0)
     }
 }
 
@@ -270,6 +260,13 @@ pub struct RandomSpread {
     pub downstream: Quantiles,
     /// Of the upstream end.
     pub upstream: Quantiles,
+}
+
+impl RandomSpread {
+    /// That of one end.
+    pub fn of(&self, end: CableEnd) -> Quantiles {
+        end.of([self.upstream, self.downstream])
+    }
 }
 
 /// Forces after passes in random order.

@@ -57,28 +57,23 @@ pub fn saturation(
         scale: peaks.fold(0.0, f64::max),
     };
     let [upstream, downstream] = CableEnd::ALL.map(|end| end.held_in(scene) != End::Free);
-    let leads_to = |is_held: bool, force: fn(&PassOutcome) -> f64| {
+    let leads_to = |counts: bool, force: fn(&PassOutcome) -> f64| {
         let nothing = Some((0.0, 0.0));
-        if is_held { course.leads_to(force) } else { nothing }
+        if counts { course.leads_to(force) } else { nothing }
     };
-    let (Some(upstream_n), Some(downstream_n)) = (
-        leads_to(upstream, |outcome| outcome.force.upstream),
-        leads_to(downstream, |outcome| outcome.force.downstream),
-    ) else {
-        return (None, None);
-    };
-    let range = ForceRange {
-        downstream_min_n: downstream_n.0,
-        downstream_max_n: downstream_n.1,
-        upstream_min_n: upstream_n.0,
-        upstream_max_n: upstream_n.1,
-    };
+    let on_ends = leads_to(upstream, |outcome| outcome.force.upstream)
+        .zip(leads_to(downstream, |outcome| outcome.force.downstream));
     let inside = leads_to(!upstream && !downstream, |outcome| outcome.max_compression);
-    let saturation = inside.and_then(|inside| {
-        let largest = [downstream_n, upstream_n, inside].map(|(a, b)| larger(a, b));
-        course.levels_off(largest)
+    let saturation = on_ends.zip(inside).and_then(|((upstream, downstream), inside)| {
+        course.levels_off([downstream, upstream, inside].map(|(a, b)| larger(a, b)))
     });
-    (saturation, Some(range))
+    let range = on_ends.map(|(upstream, downstream)| ForceRange {
+        downstream_min_n: downstream.0,
+        downstream_max_n: downstream.1,
+        upstream_min_n: upstream.0,
+        upstream_max_n: upstream.1,
+    });
+    (saturation, range)
 }
 
 /// The course of the forces of a run.
@@ -107,11 +102,8 @@ impl Course<'_> {
         let reached = forces.fold(0.0, larger);
         let largest = larger(least, most).abs();
         let is_near = (largest..=(1.0 + NEARLY) * largest).contains(&reached.abs());
-        Some(if is_near {
-            (least.min(reached), most.max(reached))
-        } else {
-            (least, most)
-        })
+        let with_reached = (least.min(reached), most.max(reached));
+        Some(if is_near { with_reached } else { (least, most) })
     }
 
     /// The force of a pass by which the saturation is told: the largest on an end, or inside a
@@ -128,10 +120,8 @@ impl Course<'_> {
     /// is negligible compared with the largest force, or if the force falls.
     fn levels_off(&self, largest: [f64; 3]) -> Option<Saturation> {
         let force_n = largest.into_iter().fold(0.0, larger);
-        let one_free = CableEnd::ALL
-            .map(|end| end.held_in(self.scene))
-            .contains(&End::Free)
-            && self.scene.restraints.is_empty();
+        let ends = CableEnd::ALL.map(|end| end.held_in(self.scene));
+        let one_free = ends.contains(&End::Free) && self.scene.restraints.is_empty();
         let reached = self.records.iter().map(|record| self.shown(&record.outcome));
         let negligible = force_n.abs() < NOTHING * self.scale;
         let impossible =
@@ -177,10 +167,10 @@ impl Course<'_> {
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
-    values.fold(None, |range: Option<Range>, value| {
-        let (least, most) = range.unwrap_or((value, value));
-        Some((least.min(value), most.max(value)))
-    })
+    let wider = |(least, most): Range, value: f64| (least.min(value), most.max(value));
+    values
+        .map(|value| (value, value))
+        .reduce(|range, (value, _)| wider(range, value))
 }
 
 /// Range over the last `period` of `forces` \[N\], one entry a pass, with what is still to come;

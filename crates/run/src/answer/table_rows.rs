@@ -45,10 +45,7 @@ pub fn in_rows(
         return None;
     }
     let own = Period::own(scene).ok()?;
-    let last = rows
-        .last()
-        .filter(|_| own.is_none())
-        .map_or(0, |record| record.pass);
+    let last = rows.last().filter(|_| own.is_none()).map_or(0, |row| row.pass);
     let order = traffic(scene, scene.order()).ok()?;
     let first: Vec<usize> = order.take(last.min(known_order(scene)) as usize).collect();
     let name = |record: &&PassRecord| {
@@ -67,10 +64,9 @@ pub fn in_rows(
 /// the day `periodic_from` on.
 pub fn table_days(days: &[DayExtremes], periodic_from: Option<u64>) -> Vec<&DayExtremes> {
     let last = days.last().map_or(0, |day| day.day);
-    let is_shown = |day: u64| is_round(day) && periodic_from.is_none_or(|from| day <= from);
-    days.iter()
-        .filter(|day| day.day == last || is_shown(day.day))
-        .collect()
+    let is_round = |day: u64| is_round(day) && periodic_from.is_none_or(|from| day <= from);
+    let is_shown = |day: &&DayExtremes| day.day == last || is_round(day.day);
+    days.iter().filter(is_shown).collect()
 }
 
 fn is_round(number: u64) -> bool {

@@ -43,51 +43,52 @@ pub struct Units {
 
 impl Default for Units {
     fn default() -> Self {
-        Self {
-            force: Unit::NEWTON,
-            movement: Unit::MILLIMETRE,
-            stiffness: Unit::NEWTON_PER_METRE,
-            length: Unit::METRE,
-            weight: Unit::NEWTON_PER_METRE,
-            modulus: Unit::MEGAPASCAL,
-        }
+        Self::of(Unit::NEWTON, [Unit::MILLIMETRE, Unit::METRE])
     }
 }
 
 impl Units {
-    /// Those that were typed in the scene and in limits of force and movement.
-    pub fn typed(file: &SceneFile, limit_force: Option<Unit>, limit_movement: Option<Unit>) -> Self {
-        let stiffness = |key: &str| file.typed_unit(key, Dimension::ForcePerLength);
-        let holds = |key: &str| key.starts_with("ends.") || key.starts_with("restraints.");
-        let typed = file.typed();
-        let spring = typed
-            .iter()
-            .filter(|typed| holds(&typed.key))
-            .find_map(|typed| stiffness(&typed.key));
-        let suits = |force: &Unit| SUITABLE.contains(&force.symbol());
-        let weight = stiffness("cable.weight");
-        let of_scene = spring.or(weight).and_then(|unit| unit.force()).filter(suits);
-        let force = limit_force.or(of_scene).unwrap_or(Unit::NEWTON);
-        let modulus = typed
-            .iter()
-            .filter(|typed| typed.key.starts_with("ground."))
-            .find_map(|typed| file.typed_unit(&typed.key, Dimension::Pressure));
-        let length = file.typed_unit("duct.length", Dimension::Length);
-        let in_feet = length.is_some_and(|unit| ["ft", "in", "yd", "mi"].contains(&unit.symbol()));
-        let [length, movement] = if in_feet {
-            [Unit::FOOT, Unit::INCH]
-        } else {
-            [Unit::METRE, Unit::MILLIMETRE]
-        };
+    /// Those that go with this unit of force and these of movement and length.
+    fn of(force: Unit, [movement, length]: [Unit; 2]) -> Self {
         Self {
             force,
-            movement: limit_movement.unwrap_or(movement),
-            stiffness: spring.or(force.per_length()).unwrap_or(Unit::NEWTON_PER_METRE),
+            movement,
+            stiffness: force.per_length().unwrap_or(Unit::NEWTON_PER_METRE),
             length,
-            weight: weight.unwrap_or(Unit::NEWTON_PER_METRE),
-            modulus: modulus
-                .filter(|unit| !TOO_SMALL.contains(&unit.symbol()))
-                .unwrap_or(Unit::MEGAPASCAL),
+            weight: Unit::NEWTON_PER_METRE,
+            modulus: Unit::MEGAPASCAL,
+        }
+    }
+
+    /// Those that were typed in the scene and in limits of force and movement.
+    pub fn typed(file: &SceneFile, limit_force: Option<Unit>, limit_movement: Option<Unit>) -> Self {
+        let typed = file.typed();
+        let first = |sections: &[&str], dimension| {
+            let is_there = |key: &str| sections.iter().any(|section| key.starts_with(section));
+            let keys = typed.iter().map(|typed| &typed.key);
+            keys.filter(|key| is_there(key))
+                .find_map(|key| file.typed_unit(key, dimension))
+        };
+        let spring = first(&["ends.", "restraints."], Dimension::ForcePerLength);
+        let weight = file.typed_unit("cable.weight", Dimension::ForcePerLength);
+        let suits = |force: &Unit| SUITABLE.contains(&force.symbol());
+        let of_scene = spring.or(weight).and_then(|unit| unit.force()).filter(suits);
+        let length = file.typed_unit("duct.length", Dimension::Length);
+        let in_feet = length.is_some_and(|unit| ["ft", "in", "yd", "mi"].contains(&unit.symbol()));
+        let lengths = if in_feet {
+            [Unit::INCH, Unit::FOOT]
+        } else {
+            [Unit::MILLIMETRE, Unit::METRE]
+        };
+        let default = Self::of(limit_force.or(of_scene).unwrap_or(Unit::NEWTON), lengths);
+        let modulus = first(&["ground."], Dimension::Pressure);
+        let modulus = modulus.filter(|unit| !TOO_SMALL.contains(&unit.symbol()));
+        Self {
+            movement: limit_movement.unwrap_or(default.movement),
+            stiffness: spring.unwrap_or(default.stiffness),
+            weight: weight.unwrap_or(default.weight),
+            modulus: modulus.unwrap_or(default.modulus),
+            ..default
         }
     }
 
@@ -98,16 +99,6 @@ impl Units {
             self.stiffness = Unit::KILONEWTON_PER_METRE;
         }
         self
-    }
-
-    /// A force \[N\] in its unit, as many digits as 0.1 N needs.
-    pub fn force(&self, newtons: f64) -> String {
-        in_unit(newtons, self.force, FORCE_DIGIT)
-    }
-
-    /// A movement \[m\] in its unit, as many digits as 0.1 µm needs.
-    pub fn movement(&self, metres: f64) -> String {
-        in_unit(metres, self.movement, MOVEMENT_DIGIT)
     }
 
     /// The name of a field of an answer without the unit at its end, and the unit in which it is
@@ -132,15 +123,9 @@ impl Units {
 /// The name of a field of an answer without the unit at its end, and that unit:
 /// `downstream_force_n` and N.
 pub fn si_of_field(field: &str) -> Option<(&str, &'static str)> {
-    let ends = [
-        ("_n_per_m", "N/m"),
-        ("_n", "N"),
-        ("_m", "m"),
-        ("_j", "J"),
-        ("_k", "K"),
-    ];
-    ends.into_iter()
-        .find_map(|(end, unit)| Some((field.strip_suffix(end)?, unit)))
+    let (ends, units) = (["_n_per_m", "_n", "_m", "_j", "_k"], ["N/m", "N", "m", "J", "K"]);
+    let mut units = ends.iter().zip(units);
+    units.find_map(|(end, unit)| Some((field.strip_suffix(end)?, unit)))
 }
 
 /// A value in SI in a unit, rounded to the decimal that is nearest to `digit`, in SI; of large
@@ -155,6 +140,7 @@ pub fn in_unit(si: f64, unit: Unit, digit: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Limited;
 
     fn units(scene: &str, limit_force: &str, limit_movement: &str) -> [&'static str; 4] {
         let file = SceneFile::from_toml("scene", scene).expect("a file");
@@ -208,7 +194,11 @@ mod tests {
                 movement: Unit::of(Dimension::Length, movement).expect("a unit"),
                 ..Units::default()
             };
-            (units.force(1234.56), units.movement(-0.001_234_56))
+            let [force, movement] = [Limited::Force, Limited::Movement];
+            (
+                force.number_in(&units, 1234.56),
+                movement.number_in(&units, -0.001_234_56),
+            )
         };
         let pair = |force: &str, movement: &str| (force.to_owned(), movement.to_owned());
         assert_eq!(shown("N", "mm"), pair("1234.6", "-1.2346"));
@@ -216,8 +206,9 @@ mod tests {
         // 1 lbf = 4.4482216 N, 1 in = 25.4 mm.
         assert_eq!(shown("lbf", "in"), pair("277.54", "-0.04860"));
         assert_eq!(shown("kip", "um"), pair("0.27754", "-1234.6"));
-        assert_eq!(Units::default().movement(521.195_086_7), "521195");
-        assert_eq!(Units::default().force(-10_234.56), "-10235");
+        let units = Units::default();
+        assert_eq!(Limited::Movement.number_in(&units, 521.195_086_7), "521195");
+        assert_eq!(Limited::Force.number_in(&units, -10_234.56), "-10235");
     }
 
     #[test]

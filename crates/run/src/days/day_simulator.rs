@@ -2,13 +2,13 @@
 
 use cable_dem::{CableState, EndForces};
 use cycle_jump::days::{DailyHeat, Day, DaysRequest, Extremes, evolve_days};
-use cycle_jump::{Guide, Jumps, Next};
+use cycle_jump::{Guide, Jumps, Next, Record};
 
 use super::locked_law::locked_law;
 use crate::Progress;
 use crate::answer::differences::{Scale, Shares};
-use crate::answer::listed;
-use crate::passes::{Passes, Simulation, Task, listed_passes};
+use crate::answer::{listed, listed_passes};
+use crate::passes::{Passes, Simulation, Task};
 use crate::refine::{OnMeshes, Work};
 use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use creepage_plan::{Error, Plan, cable::traffic};
@@ -50,12 +50,13 @@ impl DaySimulator<'_> {
     pub fn day(&self) -> Result<Day, Error> {
         let passes = a_day(self.plan.scene);
         let force = |kelvin: f64| self.per_kelvin() * (self.heat.offset + kelvin);
-        let heat = if let Some(points) = &self.heat.profile {
-            let point = |(seconds, kelvin): &(f64, f64)| (seconds / SECONDS_A_DAY, force(*kelvin));
-            DailyHeat::Profile(points.iter().map(point).collect())
-        } else {
-            let (lowest, highest) = (force(0.0), force(self.heat.daily_swing.unwrap_or(0.0)));
-            DailyHeat::Cosine { lowest, highest }
+        let point = |(seconds, kelvin): &(f64, f64)| (seconds / SECONDS_A_DAY, force(*kelvin));
+        let heat = match &self.heat.profile {
+            Some(points) => DailyHeat::Profile(points.iter().map(point).collect()),
+            None => DailyHeat::Cosine {
+                lowest: force(0.0),
+                highest: force(self.heat.daily_swing.unwrap_or(0.0)),
+            },
         };
         let few = passes <= FEW.max(self.vehicles.len() as u64) || self.every_pass;
         let periods = if few { passes } else { self.periods_a_day };
@@ -65,11 +66,8 @@ impl DaySimulator<'_> {
     /// Vehicles after which the traffic of a day repeats.
     fn sequence_of_a_day(&self) -> usize {
         // What only measures drives the vehicles of the sequence too.
-        if self.every_pass {
-            1
-        } else {
-            self.vehicles.len().min(a_day(self.plan.scene) as usize)
-        }
+        let most = if self.every_pass { 1 } else { self.vehicles.len() };
+        most.min(a_day(self.plan.scene) as usize)
     }
 
     /// Where the next day goes on in the sequence of the traffic, if days do not begin with the same
@@ -78,7 +76,8 @@ impl DaySimulator<'_> {
         let (passes, period) = (a_day(self.plan.scene), self.vehicles.len() as u64);
         let (left, several) = (passes % period, self.plan.scene.traffic.passes > passes);
         let whole = (passes / period * period).max(period);
-        (several && !self.every_pass && !self.plan.period.reordered && left > 0).then(|| {
+        let goes_on = !self.every_pass && !self.plan.period.reordered;
+        (several && goes_on && left > 0).then(|| {
             let warning = format!(
                 "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
                  began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {whole} has none of \
@@ -132,22 +131,20 @@ impl OnMeshes for DaySimulator<'_> {
     ) -> Result<Passes, Error> {
         let Self { plan, vehicles, .. } = *self;
         let mesh = plan.levels.mesh(level)?;
-        let task = Task {
-            progress,
-            ..Task::of(plan, scene, mesh)
-        };
+        let mut task = Task::of(plan, scene, mesh);
+        task.progress = progress;
         let mut simulation = Simulation::new(&task)?;
         let day = self.day()?;
         let (law, of_law) = locked_law(&task, vehicles, self.sequence_of_a_day())?;
         let count = scene.traffic.passes;
-        let (cable, start) = (task.cable()?, task.begin()?);
+        let (cable, start) = (simulation.cable.clone(), simulation.passes.state.clone());
         let schedule = other.and_then(|other| other.days.as_ref());
         let request = DaysRequest {
             passes: count,
             wanted: &listed_passes(scene, &plan.period),
             wanted_days: &listed(count.div_ceil(day.passes())),
             every_day: self.every_pass,
-            start: start.as_ref(),
+            start: Some(&start),
             guide: schedule.map_or(Guide::Free, |days| Guide::Follow(&days.schedule)),
         };
         // Where every pass is simulated the vehicles come in their own order.
@@ -161,16 +158,20 @@ impl OnMeshes for DaySimulator<'_> {
             simulation.pass(own.unwrap_or(vehicles[place as usize]), next.number, state)
         };
         let days = evolve_days(&cable, &mesh, (&day, law), &self.jumps()?, &request, pass)?;
-        simulation.statistics += of_law;
-        simulation.statistics.sweeps += days.sweeps as usize;
-        simulation.statistics.node_updates += days.sweeps as usize * mesh.nodes();
-        self.work.add(simulation.statistics);
-        let passes = simulation.passes(days.records.clone(), days.state.clone(), days.simulated);
+        let mut statistics = simulation.passes.statistics;
+        statistics += of_law;
+        statistics.sweeps += days.sweeps as usize;
+        statistics.node_updates += days.sweeps as usize * mesh.nodes();
+        *self.work.borrow_mut() += statistics;
         Ok(Passes {
-            peaks: days.peaks.clone(),
+            records: days.records.clone(),
+            state: days.state.clone(),
+            statistics,
+            simulated: days.simulated,
             schedule: days.schedule.clone(),
+            peaks: days.peaks.clone(),
             days: Some(days),
-            ..passes
+            ..simulation.passes
         })
     }
 
@@ -178,26 +179,24 @@ impl OnMeshes for DaySimulator<'_> {
     /// days, of a movement as a share of the day's range or, where that is larger, of the movement
     /// since laying.
     fn difference(&self, one: &Passes, other: &Passes) -> Shares {
-        let of_all = one
-            .days
-            .as_ref()
-            .map_or(0.0, |days| days.extremes.largest_force());
+        let of_all = one.days.iter().map(|days| days.extremes.largest_force());
+        let of_all = of_all.fold(self.scale().force, f64::max);
         let apart = |a: EndForces, b: EndForces| {
-            let apart = [a.upstream - b.upstream, a.downstream - b.downstream];
-            apart[0].abs().max(apart[1].abs())
+            let upstream = (a.upstream - b.upstream).abs();
+            upstream.max((a.downstream - b.downstream).abs())
         };
-        let mut worst = 0.0_f64;
-        for (a, b) in one.records.iter().zip(&other.records) {
-            worst = worst.max(apart(a.outcome.force, b.outcome.force));
+        let of_pass = |(one, other): (&Record, &Record)| {
+            let (a, b) = (&one.outcome, &other.outcome);
+            let after = apart(a.force, b.force);
             // Passes between simulated ones have the peaks of others.
-            if !a.interpolated && !b.interpolated {
-                let (a, b) = (&a.outcome, &b.outcome);
-                worst = worst.max(apart(a.peak, b.peak)).max(apart(a.lowest, b.lowest));
-            }
-        }
+            let has_peaks = !one.interpolated && !other.interpolated;
+            let during = || apart(a.peak, b.peak).max(apart(a.lowest, b.lowest));
+            if has_peaks { after.max(during()) } else { after }
+        };
+        let worst = one.records.iter().zip(&other.records).map(of_pass);
         let days = self.difference_of_days(one, other);
         Shares {
-            force: days.force.max(worst / of_all.max(self.scale().force)),
+            force: days.force.max(worst.fold(0.0, f64::max) / of_all),
             ..days
         }
     }
@@ -208,11 +207,8 @@ impl OnMeshes for DaySimulator<'_> {
         };
         // Place of the mesh among those with typical errors.
         let fineness = self.plan.levels.fineness(level).min(TYPICAL.len() - 1);
-        let weight = if fineness < RESOLVED {
-            WEIGHT_UNRESOLVED
-        } else {
-            WEIGHT
-        };
+        let is_resolved = fineness >= RESOLVED;
+        let weight = if is_resolved { WEIGHT } else { WEIGHT_UNRESOLVED };
         let typical = Shares::both(TYPICAL[fineness]);
         self.difference(fine, coarse).times(weight).max(typical)
     }
@@ -220,8 +216,5 @@ impl OnMeshes for DaySimulator<'_> {
 
 /// Whole passes of a day.
 pub fn a_day(scene: &Scene) -> u64 {
-    scene
-        .traffic
-        .per_day
-        .map_or(1, |per_day| per_day.round().max(1.0) as u64)
+    scene.traffic.per_day.unwrap_or(1.0).round().max(1.0) as u64
 }

@@ -11,7 +11,6 @@ mod locked_law;
 mod record;
 
 use crate::Progress;
-use crate::answer::DayExtremes;
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::ErrorParts;
 use crate::passes::{Passes, RunOptions};
@@ -54,14 +53,12 @@ pub fn solve(
     };
     let mut solved = meshes.refine(first, options.progress.part(FINDING, 1.0), error)?;
     solved.error.days = error.days + error_of_days(&days, solved.level, &solved.passes)?;
-    solved.statistics = work.get();
+    solved.statistics = *work.borrow();
     let broken = days.broken_sequence();
     solved.warnings.extend(broken.map(|(_, warning)| warning));
     let known = solved.passes.days.as_ref().ok_or(Error::NoPass)?;
     solved.reasons.push(days.reason(known)?);
     solved.heat = Some(days.record(solved.mesh, known)?);
-    let of_day = |(day, extremes): &(u64, _)| DayExtremes::new(*day, extremes);
-    solved.days = known.days.iter().map(of_day).collect();
     Ok(solved)
 }
 
@@ -77,9 +74,9 @@ fn first_level(plan: &Plan<'_>) -> usize {
 
 /// The days on a level that is coarse relative to `level`, if there is one, and that level.
 fn coarse(days: &DaySimulator<'_>, level: usize) -> Result<(usize, Passes), Error> {
-    let Plan { scene, levels, .. } = days.plan;
-    let simulate = |level| days.simulate(scene, level, None, Progress::default(), false);
-    on_coarse_level(levels, level, COARSER, simulate)
+    on_coarse_level(&days.plan.levels, level, COARSER, |level| {
+        days.simulate(days.plan.scene, level, None, Progress::default(), false)
+    })
 }
 
 /// Gives `days` as many simulated periods as are enough for `level`, found on a coarser one; and
@@ -127,10 +124,9 @@ fn error_of_days(days: &DaySimulator<'_>, level: usize, finest: &Passes) -> Resu
     if !are_jumped && others.is_empty() {
         return Ok(Shares::default());
     }
-    let scene = days.plan.scene;
     let (level, own) = coarse(days, level)?;
     let simulate = |days: &DaySimulator<'_>, like: Option<&Passes>| {
-        days.simulate(scene, level, like, Progress::default(), false)
+        days.simulate(days.plan.scene, level, like, Progress::default(), false)
     };
     let mut error = Shares::default();
     if are_jumped {

@@ -5,11 +5,11 @@
 
 use cycle_jump::Record;
 
-use super::PassesOnMeshes;
-use super::draws::Draws;
+use super::PassSimulator;
+use super::random_order::Draws;
 use crate::Progress;
 use crate::answer::differences::{Shares, difference, extremes_difference};
-use crate::passes::{JumpSize, KnownJumps, Passes};
+use crate::passes::{JumpSize, Jumping, Passes};
 use crate::refine::{OnMeshes, on_coarse_level};
 use crate::tuning::jumps::{
     FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, SHARE, SHORT,
@@ -28,28 +28,29 @@ pub struct Found {
     /// The level they were found on, and its passes.
     pub level: usize,
     pub passes: Passes,
-    pub known: KnownJumps,
+    pub size: JumpSize,
+    /// What they leave wrong, as periods do that stand in for the traffic.
+    pub error: Shares,
     /// What a random order changes.
     pub draws: Option<Draws>,
 }
 
-/// Finds jumps for `passes` that take at most their share of the tolerance, or the best that are
-/// affordable.
-pub fn find<'a>(passes: PassesOnMeshes<'a>, progress: Progress<'a>) -> Result<Found, Error> {
-    let Plan { scene, period, .. } = passes.plan;
+/// Finds jumps for the passes of a plan that take at most their share of the tolerance, or the best
+/// that are affordable.
+pub fn find<'a>(simulator: PassSimulator<'a>, progress: Progress<'a>) -> Result<Found, Error> {
     let mut search = Search {
-        passes,
-        allowed: Shares::both(SHARE * scene.solver.tolerance),
+        allowed: Shares::both(SHARE * simulator.plan.scene.solver.tolerance),
+        first: first_passes(simulator.plan),
+        simulator,
         progress,
     };
     let mut found = search.jumps()?;
-    let mut error = found.known.error + search.mix_error(&found)?;
-    if period.is_drawn {
+    found.error = found.error + search.mix_error(&found)?;
+    if simulator.plan.period.is_drawn {
         let draws = search.draws(&found)?;
-        error = error + draws.error;
+        found.error = found.error + draws.error;
         found.draws = Some(draws);
     }
-    found.known.error = error;
     Ok(found)
 }
 
@@ -74,37 +75,38 @@ impl JumpSize {
     }
 }
 
+/// The first passes, by which periods that stand in for the traffic are not compared: those of a
+/// random order are a draw that no mix foretells, and means over periods of other lengths hold
+/// other passes. They are two periods, or half of the traffic if that is less.
+fn first_passes(plan: &Plan<'_>) -> u64 {
+    (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2)
+}
+
 /// Runs with jumps of one plan, each compared with others.
 struct Search<'a> {
-    passes: PassesOnMeshes<'a>,
+    simulator: PassSimulator<'a>,
     /// Error that jumps may leave.
     allowed: Shares,
+    /// Passes by which periods are not compared.
+    first: u64,
     progress: Progress<'a>,
 }
 
 impl Search<'_> {
     /// The passes by jumps of this `size` over `period`.
     fn simulate(&mut self, level: usize, size: JumpSize, period: &Period) -> Result<Passes, Error> {
-        let jumps = Some(size);
-        let passes = PassesOnMeshes {
-            period,
-            jumps,
-            ..self.passes
+        let simulator = PassSimulator {
+            jumping: Some(Jumping::new(period, size)),
+            ..self.simulator
         };
         // How many runs it takes is not known: each is half of what is left.
-        passes.simulate(
-            self.passes.plan.scene,
-            level,
-            None,
-            self.progress.next(0.5),
-            false,
-        )
+        simulator.simulate(simulator.plan.scene, level, None, self.progress.next(0.5), false)
     }
 
     /// The largest jumps whose error is allowed.
     fn jumps(&mut self) -> Result<Found, Error> {
-        let PassesOnMeshes { plan, period, .. } = self.passes;
-        let (scene, levels) = (plan.scene, &plan.levels);
+        let plan = self.simulator.plan;
+        let (scene, levels, period) = (plan.scene, &plan.levels, &plan.period);
         let mut size = JumpSize::largest(plan);
         // A short duct costs little, and the few nodes of a coarser mesh behave differently.
         let below = usize::from(scene.duct.length > SHORT * scene.duct.depth);
@@ -118,7 +120,7 @@ impl Search<'_> {
                 Err(Error::Jumps(_)) if error.is_some() => break,
                 finer => finer?,
             };
-            let off = self.passes.difference(&finer, &passes);
+            let off = self.simulator.difference(&finer, &passes);
             (size, passes, error) = (size.finer(), finer, Some(off));
             if off.is_within(self.allowed) || cost * passes.statistics.node_updates > MAX_NODE_UPDATES {
                 break;
@@ -130,12 +132,13 @@ impl Search<'_> {
             let mut others = size.finer();
             others.first_periods *= 2;
             let others = self.simulate(level, others, period)?;
-            error = self.passes.difference(&passes, &others);
+            error = self.simulator.difference(&passes, &others);
         }
         Ok(Found {
             level,
             passes,
-            known: KnownJumps { size, error },
+            size,
+            error,
             draws: None,
         })
     }
@@ -143,7 +146,7 @@ impl Search<'_> {
     /// The passes of `vehicles` in place of the period of the plan, by jumps as good as those that
     /// were found.
     fn in_place(&mut self, found: &Found, vehicles: Vec<usize>) -> Result<Passes, Error> {
-        let (mut size, period) = (found.known.size, self.passes.period);
+        let (mut size, period) = (found.size, &self.simulator.plan.period);
         let first = size.first_periods * period.len() as u64;
         size.first_periods = first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS);
         let period = Period {
@@ -158,12 +161,12 @@ impl Search<'_> {
     fn draws(&mut self, found: &Found) -> Result<Draws, Error> {
         let (mut all, mut work) = (Vec::new(), 0);
         loop {
-            let passes = self.in_place(found, self.passes.period.shuffled(all.len() as u64))?;
+            let order = self.simulator.plan.period.shuffled(all.len() as u64);
+            let passes = self.in_place(found, order)?;
             work += passes.statistics.node_updates;
             all.push(passes.records);
             if all.len() >= FEWEST_DRAWS {
-                let first = first_passes(self.passes.plan);
-                let draws = Draws::new(&found.passes.records, &all, first, self.passes.scale);
+                let draws = Draws::new(&found.passes.records, &all, self.first, self.simulator.scale);
                 let is_enough = work > MAX_NODE_UPDATES / 4 || all.len() >= MOST_DRAWS;
                 if is_enough || draws.error.is_within(self.allowed) {
                     return Ok(draws);
@@ -175,34 +178,28 @@ impl Search<'_> {
     /// What a period that stands in for the traffic changes: its share of what each other one does,
     /// forces and movements on the passes that both show, and the largest of all.
     fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
-        let (period, scale) = (self.passes.period, self.passes.scale);
-        let first = first_passes(self.passes.plan);
-        let later = |passes: &Passes| -> [Vec<Record>; 2] {
-            let later = passes.records.iter().filter(|record| record.pass > first);
-            let rows: Vec<Record> = later.cloned().collect();
-            let all = [&rows[..], &passes.peaks].concat();
-            [rows, all]
-        };
-        let [rows, all] = later(&found.passes);
+        let (period, scale) = (&self.simulator.plan.period, self.simulator.scale);
         let mut error = Shares::default();
         for (vehicles, share) in &period.others {
-            let [other_rows, all_other] = later(&self.in_place(found, vehicles.clone())?);
+            let other = self.in_place(found, vehicles.clone())?;
+            let [rows, other_rows] = [&found.passes, &other].map(|passes| self.later(passes));
+            let all = [rows, &found.passes.peaks].concat();
+            let all_other = [other_rows, &other.peaks].concat();
             // The largest of all passes are not between those of two mixes; of absent vehicles
             // single passes show them.
             let is_absent = vehicles.iter().any(|vehicle| period.absent.contains(vehicle));
             let weight = if is_absent { *share } else { 1.0 };
             let extremes = extremes_difference(&all, &all_other, scale).times(weight);
-            error = error + difference(&rows, &other_rows, scale).times(*share).max(extremes);
+            error = error + difference(rows, other_rows, scale).times(*share).max(extremes);
         }
         Ok(error)
     }
-}
 
-/// The first passes, by which periods that stand in for the traffic are not compared: those of a
-/// random order are a draw that no mix foretells, and means over periods of other lengths hold
-/// other passes. They are two periods, or half of the traffic if that is less.
-fn first_passes(plan: &Plan<'_>) -> u64 {
-    (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2)
+    /// The passes by which periods are compared.
+    fn later<'p>(&self, passes: &'p Passes) -> &'p [Record] {
+        let records = &passes.records;
+        &records[records.partition_point(|record| record.pass <= self.first)..]
+    }
 }
 
 #[cfg(test)]

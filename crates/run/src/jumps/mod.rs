@@ -1,33 +1,31 @@
 //! The passes of a plan, every one simulated or few with jumps between them that are good enough,
 //! on one mesh after the other.
 
-mod draws;
 mod jump_search;
-mod random_spread;
+mod random_order;
 
 use cycle_jump::Guide;
 
 use crate::Progress;
 use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::ErrorParts;
-use crate::passes::{FixedMesh, JumpSize, Jumping, Passes, RunOptions, Task, listed_passes};
+use crate::answer::listed_passes;
+use crate::passes::{FixedMesh, Jumping, Passes, RunOptions, Task};
 use crate::refine::{MeshLoop, OnMeshes, Solved, Work};
 use crate::tuning::meshes::{FINDING, MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
-use creepage_plan::{Error, Levels, Period, Plan};
+use creepage_plan::{Error, Levels, Plan};
 use creepage_scene::{Scene, SolverMethod};
 use jump_search::Found;
 
-/// A plan's passes, on whatever level.
+/// Simulates the passes of a plan.
 #[derive(Clone, Copy)]
-struct PassesOnMeshes<'a> {
+struct PassSimulator<'a> {
     plan: &'a Plan<'a>,
     scale: Scale,
-    /// Of the plan, or another one to compare it with.
-    period: &'a Period,
     stages: &'a [u64],
-    /// The jumps that are taken; none where every pass is simulated.
-    jumps: Option<JumpSize>,
-    /// Where they were found.
+    /// How jumps are taken on any level; none where every pass is simulated.
+    jumping: Option<Jumping<'a>>,
+    /// Where they were found: passes that are not simulated again.
     found: Option<&'a Found>,
     /// What all passes have cost.
     work: &'a Work,
@@ -41,12 +39,11 @@ pub fn solve(
     mut error: ErrorParts,
 ) -> Result<Solved, Error> {
     let work = Work::default();
-    let mut passes = PassesOnMeshes {
+    let mut simulator = PassSimulator {
         plan,
         scale: Scale::new(plan.scene, &plan.ground.motions),
-        period: &plan.period,
         stages: options.stages,
-        jumps: None,
+        jumping: None,
         found: None,
         work: &work,
     };
@@ -56,18 +53,25 @@ pub fn solve(
     let known = options.mesh.filter(|_| plan.levels.named).filter(fits);
     let is_found = jumps && known.is_none();
     let begin = if is_found { FINDING } else { 0.0 };
-    let search = || jump_search::find(passes, options.progress.part(0.0, begin));
+    let search = || jump_search::find(simulator, options.progress.part(0.0, begin));
     let found = is_found.then(search).transpose()?;
     let known_jumps = known.and_then(|known| known.jumps).filter(|_| jumps);
-    let good_enough = found.as_ref().map(|found| found.known).or(known_jumps);
-    if let Some(jumps) = good_enough {
-        (passes.jumps, error.passes) = (Some(jumps.size), jumps.error);
+    let good_enough = found
+        .as_ref()
+        .map(|found| (found.size, found.error))
+        .or(known_jumps);
+    if let Some((size, left)) = good_enough {
+        let mut jumping = Jumping::new(&plan.period, size);
+        if let Some(found) = &found {
+            jumping.guide = Guide::Follow(&found.passes.schedule);
+        }
+        (simulator.jumping, error.passes) = (Some(jumping), left);
     }
-    passes.found = found.as_ref();
+    simulator.found = found.as_ref();
     let meshes = MeshLoop {
         plan,
         options,
-        simulation: &passes,
+        simulation: &simulator,
         below: if known.is_some() { 0 } else { plan.levels.first },
         known_error: known.map(|known| known.error),
     };
@@ -81,15 +85,13 @@ pub fn solve(
             draws.correct(&mut solved.passes);
         }
         let task = Task::of(plan, plan.scene, plan.levels.mesh(found.level)?);
-        let (spread, cost) = random_spread::spread(&task, &found.passes.state, &solved.passes)?;
-        solved.random = spread;
-        work.add(cost);
+        solved.random = random_order::spread(&task, &found.passes.state, &solved.passes, &work)?;
     }
-    solved.statistics = work.get();
+    solved.statistics = work.into_inner();
     Ok(solved)
 }
 
-impl OnMeshes for PassesOnMeshes<'_> {
+impl OnMeshes for PassSimulator<'_> {
     fn simulate(
         &self,
         scene: &Scene,
@@ -103,25 +105,18 @@ impl OnMeshes for PassesOnMeshes<'_> {
         if let Some(found) = self.found.filter(|found| is_plain && found.level == level) {
             return Ok(found.passes.clone());
         }
-        let task = Task {
-            stages: if answer { self.stages } else { &[] },
-            progress,
-            ..Task::of(self.plan, scene, levels.mesh(level)?)
-        };
-        let jumping = self.jumps.map(|size| Jumping {
-            period: self.period,
-            size,
-            most_passes: levels.affordable_passes(level),
-            guide: self
-                .found
-                .map_or(Guide::Free, |found| Guide::Follow(&found.passes.schedule)),
-            beyond: answer,
-        });
-        let passes = match jumping {
-            Some(jumping) => task.with_jumps(&jumping, &listed_passes(scene, self.period)),
+        let mut task = Task::of(self.plan, scene, levels.mesh(level)?);
+        task.stages = if answer { self.stages } else { &[] };
+        task.progress = progress;
+        let passes = match self.jumping {
+            Some(mut jumping) => {
+                jumping.most_passes = levels.affordable_passes(level);
+                jumping.beyond = answer;
+                task.with_jumps(&jumping, &listed_passes(scene, jumping.period))
+            }
             None => task.every_pass(),
         }?;
-        self.work.add(passes.statistics);
+        *self.work.borrow_mut() += passes.statistics;
         Ok(passes)
     }
 

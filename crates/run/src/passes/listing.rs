@@ -2,44 +2,39 @@
 //! where the period is the traffic's own. Where it only stands in for the traffic, a pass after the
 //! first ones is shown by the mean over a period around it.
 
+use std::ops::RangeInclusive;
+
 use cable_dem::PassOutcome;
 use cycle_jump::Record;
 
-use crate::answer::simulated;
+use crate::answer::record_of;
 use creepage_plan::Period;
-use creepage_scene::Scene;
 
-/// The passes that a run lists whose traffic has this `period`: where it is the traffic's own, all
-/// of the last period among them.
-pub fn listed_passes(scene: &Scene, period: &Period) -> Vec<u64> {
-    simulated(&scene.traffic, if period.is_own() { period.len() } else { 1 })
-}
-
-/// Listed passes, each with those whose mean is shown for it.
-pub struct Listing(Vec<(u64, Vec<u64>)>);
+/// Listed passes, each with the range of those whose mean is shown for it.
+pub struct Listing(Vec<(u64, RangeInclusive<u64>)>);
 
 impl Listing {
     /// Of `count` passes in all.
     pub fn new(period: &Period, listed: impl IntoIterator<Item = u64>, count: u64) -> Self {
         let length = period.len() as u64;
         let shown = |pass: u64| match () {
-            () if period.is_own() || pass <= period.first.len() as u64 => vec![pass],
-            () if pass + length / 2 <= count => mean_around(pass, length),
+            () if period.is_own() || pass <= period.first.len() as u64 => pass..=pass,
+            () if pass + length / 2 <= count => around(pass, length),
             // The last passes are the mean of a whole period too: the last vehicle says nothing.
-            () => ((count + 1).saturating_sub(length).max(1)..=count).collect(),
+            () => (count + 1).saturating_sub(length).max(1)..=count,
         };
         Self(listed.into_iter().map(|pass| (pass, shown(pass))).collect())
     }
 
     /// The passes that have to be known.
     pub fn wanted(&self) -> impl Iterator<Item = u64> {
-        self.0.iter().flat_map(|(_, shown)| shown.iter().copied())
+        self.0.iter().flat_map(|(_, shown)| shown.clone())
     }
 
     /// The listed passes from those that are `known`.
     pub fn records(&self, known: &[Record]) -> Vec<Record> {
-        let row = |(pass, shown): &(u64, Vec<u64>)| {
-            let shown: Vec<&Record> = shown.iter().filter_map(|&pass| record_of(known, pass)).collect();
+        let row = |(pass, shown): &(u64, RangeInclusive<u64>)| {
+            let shown: Vec<&Record> = shown.clone().filter_map(|pass| record_of(known, pass)).collect();
             Some(Record {
                 pass: *pass,
                 outcome: mean(&shown),
@@ -50,21 +45,14 @@ impl Listing {
     }
 }
 
-/// The record of this `pass`, if it is among these.
-pub fn record_of(records: &[Record], pass: u64) -> Option<&Record> {
-    let place = records.binary_search_by_key(&pass, |record| record.pass);
-    place.ok().map(|place| &records[place])
-}
-
 /// Passes of a whole period of `length` around `pass`, or as many on either side as there are.
-fn mean_around(pass: u64, length: u64) -> Vec<u64> {
-    let (before, after) = ((length - 1) / 2, length / 2);
-    let (from, to) = if pass > before {
-        (pass - before, pass + after)
+fn around(pass: u64, length: u64) -> RangeInclusive<u64> {
+    let before = (length - 1) / 2;
+    if pass > before {
+        pass - before..=pass + length / 2
     } else {
-        (1, 2 * pass - 1)
-    };
-    (from..=to).collect()
+        1..=2 * pass - 1
+    }
 }
 
 /// Mean of what passes did.
@@ -85,12 +73,12 @@ mod tests {
     fn a_mean_over_a_period_counts_every_vehicle_of_it_once() {
         for length in 1..=48 {
             for pass in 25..=176 {
-                let shown = mean_around(pass, length);
+                let shown: Vec<u64> = around(pass, length).collect();
                 assert!(shown.contains(&pass));
                 assert_eq!(shown.len() as u64, length, "pass {pass}");
             }
             // At the beginning as many on either side.
-            assert_eq!(mean_around(1, length).len(), if length == 2 { 2 } else { 1 });
+            assert_eq!(around(1, length).count(), if length == 2 { 2 } else { 1 });
         }
     }
 

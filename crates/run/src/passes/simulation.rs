@@ -7,9 +7,8 @@ use cycle_jump::days::Days;
 use cycle_jump::{Beyond, Jumps, Next, Record, Request, evolve, peaks};
 
 use super::listing::Listing;
-use super::options::Jumping;
 use super::solver::PassSolver;
-use super::task::Task;
+use super::task::{Jumping, Task};
 use crate::answer::differences::Scale;
 use crate::answer::{ForceProfile, Stage, balance, beyond};
 use crate::tuning::jumps::PATIENCE;
@@ -41,27 +40,35 @@ pub struct Passes {
 /// Passes under way.
 pub struct Simulation<'a> {
     task: &'a Task<'a>,
-    pub solver: PassSolver,
+    solver: PassSolver,
     pub cable: DuctedCable,
-    slip: Option<SlipLengths>,
-    stages: Vec<Stage>,
-    /// The work so far.
-    pub statistics: Statistics,
+    /// What is known of them: as yet they begin in its state.
+    pub passes: Passes,
     /// Whether passes come in leaps.
-    pub jumps: bool,
+    jumps: bool,
     /// The farthest pass so far.
     reached: u64,
 }
 
 impl<'a> Simulation<'a> {
     pub fn new(task: &'a Task<'a>) -> Result<Self, Error> {
+        let passes = Passes {
+            records: Vec::new(),
+            state: task.begin()?,
+            slip: None,
+            stages: Vec::new(),
+            statistics: Statistics::default(),
+            simulated: 0,
+            schedule: Vec::new(),
+            beyond: None,
+            peaks: Vec::new(),
+            days: None,
+        };
         Ok(Self {
             solver: PassSolver::new(task)?,
             cable: task.cable()?,
             task,
-            slip: None,
-            stages: Vec::new(),
-            statistics: Statistics::default(),
+            passes,
             jumps: false,
             reached: 0,
         })
@@ -75,17 +82,17 @@ impl<'a> Simulation<'a> {
         number: Option<u64>,
         state: &mut CableState,
     ) -> Result<PassOutcome, Error> {
-        let count = self.task.scene.traffic.passes;
-        let stage = number.filter(|pass| self.task.stages.contains(pass));
+        let (task, count) = (self.task, self.task.scene.traffic.passes);
+        let stage = number.filter(|pass| task.stages.contains(pass));
         let outcome = if stage.is_some() || number == Some(count) {
-            let (outcome, friction) =
-                self.solver
-                    .pass_and_look(vehicle, &self.cable, self.task.mesh, state)?;
+            let (outcome, friction) = self
+                .solver
+                .pass_and_look(vehicle, &self.cable, task.mesh, state)?;
             if number == Some(count) {
-                self.slip = friction.as_ref().map(|friction| friction.slip_lengths);
+                self.passes.slip = friction.as_ref().map(|friction| friction.slip_lengths);
             }
             if let Some(pass) = stage {
-                self.stages.push(Stage {
+                self.passes.stages.push(Stage {
                     pass,
                     force_profile: ForceProfile::new(&self.cable, state)?,
                     friction,
@@ -95,34 +102,14 @@ impl<'a> Simulation<'a> {
         } else {
             self.solver.pass(vehicle, state)?
         };
-        balance::of_state(&self.cable, state, number.unwrap_or(0))?;
-        self.statistics += outcome.statistics;
-        self.reached = self.reached.max(number.unwrap_or(0).min(count));
-        let (pass, count) = (self.reached as f64, count as f64);
-        let share = if self.jumps {
-            pass.ln_1p() / count.ln_1p()
-        } else {
-            pass / count
-        };
-        self.task.progress.report(share)?;
+        let number = number.unwrap_or(0);
+        balance::of_state(&self.cable, state, number)?;
+        self.passes.statistics += outcome.statistics;
+        self.reached = self.reached.max(number.min(count));
+        let work = |passes: f64| if self.jumps { passes.ln_1p() } else { passes };
+        let share = work(self.reached as f64) / work(count as f64);
+        task.progress.report(share)?;
         Ok(outcome)
-    }
-
-    pub fn passes(mut self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
-        // Those within a jump are looked at after the passes at its end.
-        self.stages.sort_by_key(|stage| stage.pass);
-        Passes {
-            records,
-            state,
-            slip: self.slip,
-            stages: self.stages,
-            statistics: self.statistics,
-            simulated,
-            schedule: Vec::new(),
-            beyond: None,
-            peaks: Vec::new(),
-            days: None,
-        }
     }
 }
 
@@ -132,30 +119,29 @@ impl Task<'_> {
         let mut simulation = Simulation::new(self)?;
         let traffic = traffic(self.scene, self.scene.order())?;
         let count = self.scene.traffic.passes;
-        let mut state = self.begin()?.unwrap_or_else(|| simulation.solver.at_rest());
-        let record = |(vehicle, pass)| {
-            Ok(Record {
+        let mut state = simulation.passes.state.clone();
+        for (vehicle, pass) in traffic.zip(1..=count) {
+            let outcome = simulation.pass(vehicle, Some(pass), &mut state)?;
+            simulation.passes.records.push(Record {
                 pass,
-                outcome: simulation.pass(vehicle, Some(pass), &mut state)?,
+                outcome,
                 interpolated: false,
-            })
-        };
-        let records = traffic.zip(1..=count).map(record);
-        let records = records.collect::<Result<_, Error>>()?;
-        Ok(simulation.passes(records, state, count))
+            });
+        }
+        (simulation.passes.state, simulation.passes.simulated) = (state, count);
+        Ok(simulation.passes)
     }
 
     /// The jumps of cycle-jump.
     fn jumps(&self, jumping: &Jumping<'_>) -> Result<Jumps, Error> {
-        let scale = Scale::new(self.scene, self.motions);
+        let (scale, size) = (Scale::new(self.scene, self.motions), jumping.size);
+        let length_scale = length_scale(self.motions, self.scene.duct.depth);
+        let jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?;
         let length = jumping.period.len() as u64;
         let (passes, fewest, most) = PATIENCE;
         let patience = length * (passes / length).clamp(fewest, most);
-        let length_scale = length_scale(self.motions, self.scene.duct.depth);
-        let size = jumping.size;
-        let jumps = Jumps::new(size.tolerance, length_scale, (scale.force, scale.movement))?
-            .with_start(size.first_periods, size.first_jump)?;
-        Ok(jumps.with_most_passes(patience, jumping.most_passes.max(patience)))
+        let jumps = jumps.with_most_passes(patience, jumping.most_passes.max(patience));
+        Ok(jumps.with_start(size.first_periods, size.first_jump)?)
     }
 
     /// Simulates few passes, with jumps between them; the passes `listed` and the stages are
@@ -170,13 +156,13 @@ impl Task<'_> {
         let listed: BTreeSet<u64> = listed.iter().chain(stages.clone()).copied().collect();
         let listing = Listing::new(period, listed, count);
         let wanted: BTreeSet<u64> = listing.wanted().chain(stages.copied()).collect();
-        let wanted: Vec<u64> = wanted.into_iter().collect();
+        let wanted = Vec::from_iter(wanted);
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
-        let begin = self.begin()?;
+        let begin = simulation.passes.state.clone();
         let mut request = Request::new(count, &period.vehicles)?;
         (request.wanted, request.beyond) = (&wanted, &beyond);
         (request.looked_at, request.guide) = (self.stages, jumping.guide);
-        request.start = begin.as_ref();
+        request.start = Some(&begin);
         request.first_passes = period.first.len() as u64;
         let cable = simulation.cable.clone();
         let pass = |Next { phase, number }, state: &mut CableState| {
@@ -185,12 +171,17 @@ impl Task<'_> {
             simulation.pass(vehicle, number, state)
         };
         let evolution = evolve(&cable, &self.mesh, &jumps, &request, pass)?;
+        // Those within a jump were looked at after the passes at its end.
+        simulation.passes.stages.sort_by_key(|stage| stage.pass);
         let records = listing.records(&evolution.records);
         Ok(Passes {
             peaks: peaks(&records, evolution.records),
+            records,
+            state: evolution.state,
+            simulated: evolution.simulated,
             schedule: evolution.schedule,
             beyond: evolution.beyond,
-            ..simulation.passes(records, evolution.state, evolution.simulated)
+            ..simulation.passes
         })
     }
 }

@@ -41,14 +41,6 @@ impl PassSolver {
         })
     }
 
-    /// The cable as laid.
-    pub fn at_rest(&self) -> CableState {
-        match self {
-            Self::QuasiStatic(solver, _) => solver.at_rest(),
-            Self::Explicit(solver, _) => solver.at_rest(),
-        }
-    }
-
     /// Lets `vehicle` pass.
     pub fn pass(&mut self, vehicle: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
         // A pass with an observer is compiled with this crate, which is not optimised.
@@ -99,9 +91,7 @@ impl PassSolver {
             return Ok(());
         };
         let limits = solver.limits();
-        let step = ducts
-            .first()
-            .map_or(limits.advised(), |duct| solver.time_step(duct));
+        let step = (ducts.first()).map_or(limits.advised(), |duct| solver.time_step(duct));
         let (margin, elastic, friction) = (limits.together() / step, limits.elastic, limits.friction);
         reasons.push(format!(
             "time step {step:.3e} s, a margin of {margin:.2} to the limit: {elastic:.3e} s of the springs and {friction:.3e} s of \

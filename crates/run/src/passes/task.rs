@@ -1,11 +1,32 @@
-//! What is to be simulated on one mesh.
+//! What is to be simulated on one mesh, and how.
 
-use cable_dem::{CableError, CableState, DuctedCable, Mesh};
-use ground_field::DuctMotion;
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, laid};
+use cycle_jump::Guide;
+use ground_field::{DuctMotion, GroundField};
 
 use crate::Progress;
-use creepage_plan::{Plan, SavedState, cable::cable};
+use crate::answer::{FixedMesh, JumpSize};
+use creepage_plan::{Period, Plan, SavedState, cable::cable};
 use creepage_scene::{Scene, SolverMethod};
+
+/// How to run.
+#[derive(Default, Clone, Copy)]
+pub struct RunOptions<'a> {
+    /// Measure the error by a run on a mesh twice as fine instead of estimating it.
+    pub verify: bool,
+    /// What another run has shown of the mesh that the scene names: then no coarser ones are
+    /// computed, and no jumps are looked for.
+    pub mesh: Option<FixedMesh>,
+    /// Called after each pass; it may stop the run.
+    pub progress: Progress<'a>,
+    /// A ground model of one's own, in place of the scene's.
+    pub ground: Option<&'a dyn GroundField>,
+    /// The state that another run has left, with which this one begins; else the cable as laid.
+    pub start: Option<&'a SavedState>,
+    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's
+    /// are left out.
+    pub stages: &'a [u64],
+}
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -42,10 +63,36 @@ impl<'a> Task<'a> {
             .map_or_else(|| cable(self.scene), |start| start.cable(self.scene))
     }
 
-    /// The cable before the first pass, if not as laid.
-    pub fn begin(&self) -> Result<Option<CableState>, CableError> {
-        self.start
-            .map(|start| start.on(self.scene, &self.mesh))
-            .transpose()
+    /// The cable before the first pass.
+    pub fn begin(&self) -> Result<CableState, CableError> {
+        match self.start {
+            Some(start) => start.on(self.scene, &self.mesh),
+            None => laid(&self.cable()?, &self.mesh),
+        }
+    }
+}
+
+/// How jumps are taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Jumping<'a> {
+    pub period: &'a Period,
+    pub size: JumpSize,
+    /// Passes after which it is given up.
+    pub most_passes: u64,
+    pub guide: Guide<'a>,
+    /// Whether it is followed where the forces lead.
+    pub beyond: bool,
+}
+
+impl<'a> Jumping<'a> {
+    /// Free jumps of this `size` over `period`, whatever they cost.
+    pub fn new(period: &'a Period, size: JumpSize) -> Self {
+        Self {
+            period,
+            size,
+            most_passes: u64::MAX,
+            guide: Guide::Free,
+            beyond: false,
+        }
     }
 }

@@ -1,14 +1,14 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
-use cable_dem::{CableState, DuctedCable, PassOutcome, Restraint};
+use cable_dem::{CableState, DuctedCable, Restraint};
 use cycle_jump::{Record, peaks};
 
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
-    Cost, DuctMotionSummary, ErrorEstimate, ExtremePass, ForceProfile, PassRecord, PlanSummary,
-    RestraintRecord, Run, Stage, Start, balance, larger, listed, saturation,
+    Cost, DayExtremes, DuctMotionSummary, ExtremePass, ForceProfile, PassRecord, PlanSummary,
+    RestraintRecord, Run, Start, balance, larger, listed, listed_passes, saturation,
 };
-use crate::passes::{Passes, Simulation, Task, listed_passes};
+use crate::passes::{Passes, Simulation, Task};
 use crate::refine::Solved;
 use creepage_plan::{Error, PastPass, Plan, SavedState};
 use creepage_scene::{CableEnd, End, Scene, SolverMethod};
@@ -22,12 +22,13 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: Sol
     let restraints = restraints(plan, &cable, &found.state, &shown)?;
     let passes = shown.iter().map(|record| PassRecord::new(record, &scene.traffic));
     let passes: Vec<PassRecord> = passes.collect();
-    balance::of_records(scene, &passes, &restraints)?;
+    balance::of_records(scene, &shown)?;
     let (saturation, range) = match solved.heat {
         Some(_) => (None, None),
         None => saturation(scene, &plan.period, &found.records, found.beyond.as_ref()),
     };
     let past = past(scene, &passes);
+    let days = found.days.iter().flat_map(|days| &days.days);
     let first = &ground.motions[0];
     // A free end is a spring of no stiffness.
     let spring = |end: End| end.stiffness().filter(|stiffness| *stiffness > 0.0);
@@ -55,11 +56,7 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: Sol
         force_profile: ForceProfile::new(&cable, &found.state)?,
         restraints,
         slip_lengths: found.slip,
-        error_estimate: ErrorEstimate {
-            relative: solved.error.total().force,
-            method: solved.error.to_string(),
-            parts: solved.error.shares(),
-        },
+        error_estimate: solved.error.estimate(),
         start: plan.start.map(|start| Start {
             passes: start.passes(),
         }),
@@ -71,12 +68,13 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: Sol
             node_updates: solved.statistics.node_updates as u64,
         },
         warnings: [plan.warnings.clone(), solved.warnings].concat(),
-        days: solved.days,
+        days: days
+            .map(|(day, extremes)| DayExtremes::new(*day, extremes))
+            .collect(),
         heat: solved.heat,
-        stages: solved.passes.stages,
+        stages: found.stages.clone(),
     };
     run.warn_where_it_leaves(scene);
-    run.warn_where_it_creeps_back(scene);
     Ok(run)
 }
 
@@ -105,10 +103,11 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
         } else {
             format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
         };
-        let first = first.pass;
-        reasons.push(format!(
-            "{of}; from pass {first} on, passes between these are interpolated"
-        ));
+        let why = format!(
+            "from pass {} on, passes between these are interpolated",
+            first.pass
+        );
+        reasons.push(format!("{of}; {why}"));
     }
     reasons
 }
@@ -118,20 +117,21 @@ fn reasons(plan: &Plan<'_>, reason: &str, solved: &Solved, passes: &[PassRecord]
 /// as the next one over the cable as it is left.
 fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Vec<ExtremePass>, Error> {
     let Plan { scene, period, .. } = plan;
-    let a_day = solved.heat.as_ref().map_or(u64::MAX, |heat| heat.passes_per_day);
     let extreme = |vehicle: usize, record: &Record| ExtremePass {
         vehicle: scene.vehicles[vehicle].name.clone(),
         after: PassRecord::new(record, &scene.traffic),
         restraints_n: record.outcome.restraints.clone(),
         restraint_peaks_n: record.outcome.restraint_ranges.iter().map(peak).collect(),
     };
-    let of_period = solved.passes.peaks.iter().filter(|_| !period.is_own());
-    let of_period = of_period.map(|record| {
-        let place = ((record.pass - 1) % a_day) as usize % period.len();
-        extreme(period.vehicles[place], record)
-    });
-    let mut extremes: Vec<ExtremePass> = of_period.collect();
-    if method == SolverMethod::PassLaw {
+    let mut extremes = Vec::new();
+    if !period.is_own() {
+        let a_day = solved.heat.as_ref().map_or(u64::MAX, |heat| heat.passes_per_day);
+        extremes.extend(solved.passes.peaks.iter().map(|record| {
+            let place = ((record.pass - 1) % a_day) as usize % period.len();
+            extreme(period.vehicles[place], record)
+        }));
+    }
+    if method == SolverMethod::PassLaw && !period.absent.is_empty() {
         let task = Task::of(plan, scene, solved.mesh);
         let mut simulation = Simulation::new(&task)?;
         for &vehicle in &period.absent {
@@ -147,37 +147,22 @@ fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Ve
 }
 
 /// Without friction every pass leaves the cable as the first one did: where it was laid.
-pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error> {
-    let (level, count) = (plan.levels.first, plan.scene.traffic.passes);
-    let mesh = plan.levels.mesh(level)?;
-    let mut scene = plan.scene.clone();
+pub fn without_friction(plan: &Plan<'_>) -> Result<Solved, Error> {
+    let (level, mut scene) = (plan.levels.first, plan.scene.clone());
     scene.traffic.passes = 1;
-    let task = Task::of(plan, &scene, mesh);
-    let mut passes = task.every_pass()?;
-    let force_profile = ForceProfile::new(&task.cable()?, &passes.state)?;
-    let stage = |&pass| Stage {
-        pass,
-        force_profile: force_profile.clone(),
-        friction: None,
-    };
-    let stages = stages.iter().filter(|pass| (1..=count).contains(*pass));
-    (passes.stages, passes.slip) = (stages.map(stage).collect(), None);
+    let mesh = plan.levels.mesh(level)?;
+    let mut passes = Task::of(plan, &scene, mesh).every_pass()?;
+    passes.slip = None;
     let first = passes.records.pop().ok_or(Error::NoPass)?;
-    let listed = listed_passes(plan.scene, &plan.period).into_iter();
-    passes.records = listed
-        .map(|pass| Record {
+    for pass in listed_passes(plan.scene, &plan.period) {
+        passes.records.push(Record {
             pass,
             ..first.clone()
-        })
-        .collect();
+        });
+    }
     let reason = "without friction nothing drags the cable: every pass is like the first";
-    Ok(Solved::new(
-        level,
-        mesh,
-        passes,
-        ErrorParts::new(0.0, 0.0),
-        reason.into(),
-    ))
+    let error = ErrorParts::new(0.0, 0.0);
+    Ok(Solved::new(level, mesh, passes, error, reason.into()))
 }
 
 /// The largest in size of a range.
@@ -194,20 +179,22 @@ fn restraints(
     let forces = state.restraint_forces(cable)?;
     let slips = state.clamp_slips(cable);
     let of_clamp = |(i, clamp): (usize, &Restraint)| {
-        let of_passes = |of: &dyn Fn(&PassOutcome) -> f64| -> Vec<f64> {
-            records.iter().map(|record| of(&record.outcome)).collect()
-        };
+        let outcomes = || records.iter().map(|record| &record.outcome);
         let slips_at_all = plan.scene.restraints[i].holds.is_some();
         // One may have been put on later, where the cable had moved.
         let put_on = plan.start.map_or(0.0, |start| start.put_on(clamp));
-        let slipped = of_passes(&|outcome| outcome.restraint_slips[i] - put_on);
+        let slipped = outcomes().filter(|_| slips_at_all);
         RestraintRecord {
             position_m: clamp.position,
             stiffness_n_per_m: clamp.stiffness,
             force_n: forces[i],
-            after_passes_n: of_passes(&|outcome| outcome.restraints[i]),
-            during_passes_n: of_passes(&|outcome| peak(&outcome.restraint_ranges[i])),
-            slipped_after_passes_m: if slips_at_all { slipped } else { Vec::new() },
+            after_passes_n: outcomes().map(|outcome| outcome.restraints[i]).collect(),
+            during_passes_n: outcomes()
+                .map(|outcome| peak(&outcome.restraint_ranges[i]))
+                .collect(),
+            slipped_after_passes_m: slipped
+                .map(|outcome| outcome.restraint_slips[i] - put_on)
+                .collect(),
             slipped_m: slips_at_all.then(|| slips[i] - put_on),
         }
     };

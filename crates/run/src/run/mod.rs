@@ -12,7 +12,7 @@ use assemble::{assemble, without_friction};
 use creepage_plan::{
     Error, Plan, finite,
     ground::{Ground, road},
-    plan, plan_over,
+    plan_over,
 };
 use creepage_scene::{Scene, SolverMethod};
 
@@ -43,15 +43,6 @@ pub fn run_over(scene: &Scene, ground: Arc<Ground>, options: &RunOptions<'_>) ->
     run_plan(&plan, options)
 }
 
-/// Checks that `scene` can be computed, without computing its passes.
-///
-/// # Errors
-///
-/// As for [`run`].
-pub fn check(scene: &Scene) -> Result<(), Error> {
-    plan(scene).map(|_| ())
-}
-
 /// Carries `plan` out; its ground is that of the plan.
 ///
 /// # Errors
@@ -68,16 +59,16 @@ pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error>
     let is_free = plan.scene.friction_limit() == 0.0;
     let mut method = if is_free { every_pass } else { plan.method };
     let mut reason = plan.reason.clone();
-    let solved = match solve(plan, method, options) {
-        Err(error) if may_help(&error) && plan.may_simulate_all() => {
-            method = every_pass;
-            reason =
-                format!("{reason}; jumps gave no answer here ({error}): every pass was simulated after all");
-            solve(plan, method, options)
-        }
-        solved => solved,
-    }?;
-    let run = assemble(plan, method, &reason, solved)?;
+    let mut solved = solve(plan, method, options);
+    if let Err(error) = &solved
+        && may_help(error)
+        && plan.may_simulate_all()
+    {
+        reason = format!("{reason}; jumps gave no answer here ({error}): every pass was simulated after all");
+        method = every_pass;
+        solved = solve(plan, method, options);
+    }
+    let run = assemble(plan, method, &reason, solved?)?;
     finite::check(&run)?;
     Ok(run)
 }
@@ -97,7 +88,7 @@ fn solve(plan: &Plan<'_>, method: SolverMethod, options: &RunOptions<'_>) -> Res
     // What no mesh makes smaller.
     error_estimate::judge(&error, scene.solver.tolerance)?;
     if scene.friction_limit() == 0.0 {
-        return without_friction(plan, options.stages);
+        return without_friction(plan);
     }
     let mut solved = match scene.warming() {
         Some(heat) => days::solve(plan, heat, method, options, error),
