@@ -13,6 +13,7 @@ mod server;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -59,9 +60,11 @@ struct Page {
 
 impl Page {
     fn open(width: u32, dark: bool, more: &[&str]) -> Self {
-        let name = format!("explore_in_browser/{}-{width}-{dark}", std::process::id());
+        // Every browser has a profile of its own.
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("explore_in_browser/{}-{number}", std::process::id());
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(folder.join("downloads")).expect("a folder");
         let explored = Explored::new(more);
         let mut browser = Browser::start(&folder);
