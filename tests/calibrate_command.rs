@@ -8,6 +8,7 @@ use serde_json::Value;
 use crate::command::{
     SERIES, UPPER, answered, assert_says, folder, json, list, number, output, printed, read, table,
 };
+use crate::scenes::assert_near;
 
 const FIT: &str = "calibrate UPPER --data SERIES";
 
@@ -39,20 +40,16 @@ fn json_and_csv_of_the_synthetic_series() {
         let parameter = parameter(&answer, name);
         let [value, error] = ["value", "standard_error"].map(|field| number(&parameter[field]));
         // Forty readings with a noise of 4 N tell both, to a tenth of them.
-        assert!(
-            (value - truth).abs() < 2.0 * error && error < 0.1 * truth,
-            "{parameter}"
-        );
+        let off = (value - truth).abs();
+        assert!(off < 2.0 * error && error < 0.1 * truth, "{parameter}");
         let [low, high] = interval(parameter);
         assert!(low < value.min(truth) && value.max(truth) < high, "{parameter}");
         assert_eq!(parameter["identifiable"], true);
     }
     let correlation = list(&answer["correlation"]);
     assert_eq!(correlation.len(), 2);
-    assert_eq!(
-        (&correlation[0][1], number(&correlation[0][0])),
-        (&correlation[1][0], 1.0)
-    );
+    assert_eq!(correlation[0][1], correlation[1][0]);
+    assert_eq!(number(&correlation[0][0]), 1.0);
     let rms = number(&answer["residual_rms_n"]);
     assert!((2.0..6.0).contains(&rms), "{rms}");
     assert!(number(&answer["r_squared"]) > 0.99 && number(&answer["evaluations"]) <= 200.0);
@@ -107,22 +104,14 @@ fn robust_and_overridden() {
     assert_eq!((&size["left_out"], &size["readings"]), (&1.into(), &39.into()));
     let kept = list(&answer["fit"]).iter().filter(|row| row["pass"] != 13);
     let squares: f64 = kept.map(|row| number(&row["residual"]).powi(2)).sum();
-    assert!(
-        (number(&size["rms"]) - (squares / 39.0).sqrt()).abs() < 1e-9,
-        "{size}"
-    );
+    assert_near(number(&size["rms"]), (squares / 39.0).sqrt(), 1e-9, size);
     assert_says(&errors, &["pass 13 (line 16)"]);
     let (status, said, _) = output(&line);
     assert_eq!(status, 0);
-    let coefficient = said
-        .lines()
-        .find_map(|line| line.strip_prefix("dynamic_coefficient"));
-    let value = coefficient.and_then(|rest| rest.split_whitespace().next()?.parse::<f64>().ok());
-    assert!(
-        (value.expect("a line with the coefficient") / 0.25 - 1.0).abs() < 0.02,
-        "{said}"
-    );
-    assert_says(&said, &["N rms of 39 readings, 1 left out"]);
+    let mut lines = said.lines();
+    let coefficient = lines.find_map(|line| line.strip_prefix("dynamic_coefficient"));
+    let value = coefficient.and_then(|rest| rest.split_whitespace().next()?.parse().ok());
+    assert_near(value.expect("the coefficient"), 0.25, 0.02, &said);
 }
 
 /// At one pass readings say nothing of it, and the friction is as uncertain as was said.
@@ -135,8 +124,6 @@ fn a_discrepancy_widens_what_readings_do_not_tell() {
             "calibrate UPPER --data {} '--discrepancy={share}' --fit dynamic_coefficient",
             once.display()
         ));
-        let intervals = answer["method"]["intervals"].as_str().unwrap();
-        assert_says(intervals, &[&format!("smooth error of the model of {share}")]);
         assert_eq!(list(&answer["parameters"]).len(), 1);
         number(&answer["parameters"][0]["standard_error"])
     });
@@ -168,11 +155,8 @@ fn a_drift_is_told_and_fitted_when_asked() {
         &errors,
         &["a drift", "--fit dynamic_coefficient,shape_factor,drift"],
     );
-    assert!(
-        list(&answer["parameters"])
-            .iter()
-            .all(|parameter| parameter["identifiable"] == false)
-    );
+    let mut parameters = list(&answer["parameters"]).iter();
+    assert!(parameters.all(|parameter| parameter["identifiable"] == false));
     let line = format!("{line} --fit dynamic_coefficient,shape_factor,drift");
     let (answer, _) = answered(&line);
     for (name, truth) in [("dynamic_coefficient", 0.25), ("drift", 0.8)] {
@@ -196,10 +180,8 @@ fn two_scenes_are_fitted_jointly() {
     ));
     let value = |k: usize| number(&answer["parameters"][k]["value"]);
     assert_eq!(list(&answer["titles"]).len(), 2);
-    assert!(
-        (value(0) / value(1) - 1.0).abs() < 1e-3 && (value(0) / 0.25 - 1.0).abs() < 0.05,
-        "{answer}"
-    );
+    assert_near(value(0), value(1), 1e-3, ());
+    assert_near(value(0), 0.25, 0.05, ());
     assert_eq!(list(&answer["fit"]).len(), 80);
 }
 
@@ -217,7 +199,7 @@ fn whatever_is_measured_is_fitted() {
         table.display()
     ));
     let value = number(&answer["parameters"][0]["value"]);
-    assert!((value / 0.3 - 1.0).abs() < 0.02, "{value}");
+    assert_near(value, 0.3, 0.02, ());
     let rows = list(&answer["fit"]);
     let kinds = rows
         .iter()
@@ -227,11 +209,8 @@ fn whatever_is_measured_is_fitted() {
     assert_eq!(kinds, ["force downstream", "force upstream", "movement upstream"]);
     assert_eq!(rows.len(), 75);
     assert!(rows[2]["force_n"].is_null() && rows[2]["unit"] == "m");
-    let units: Vec<&Value> = list(&answer["residuals"])
-        .iter()
-        .map(|size| &size["unit"])
-        .collect();
-    assert_eq!(units, ["N", "m"]);
+    let units = list(&answer["residuals"]).iter().map(|size| &size["unit"]);
+    assert!(units.eq(["N", "m"]));
 }
 
 /// A thousandth of what the model moves: no friction explains that, and the answer says so.

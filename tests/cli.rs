@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::command::{
     answered, assert_says, command, folder, json, list, number, numbers, output, printed, read, table,
 };
+use crate::scenes::assert_near;
 
 const PASS_FIELDS: [&str; 11] = [
     "pass",
@@ -62,78 +63,25 @@ fn run_answers_with_every_field_of_its_document() {
     assert!(number(&run["plan"]["node_spacing_m"]) > 0.0 && number(&run["plan"]["vehicle_step_m"]) > 0.0);
     let reasons = list(&run["plan"]["reasons"]);
     assert!(!reasons.is_empty() && reasons.iter().all(Value::is_string));
-    // Boussinesq's closed form: (1+ν)P/(2πE)·(2−2ν+1)/z below the load.
-    let below = 1.4 * 196_133.0 / (std::f64::consts::TAU * 800e6) * 2.2 / 1.2;
-    assert!((number(&run["duct_motion"]["peak_vertical_m"]) / below - 1.0).abs() < 1e-6);
-    assert!((number(&run["duct_motion"]["peak_longitudinal_m"]) / 15.19e-6 - 1.0).abs() < 1e-3);
-
     let passes = list(&run["passes"]);
     assert_eq!(passes.len(), 200);
     for (pass, index) in passes.iter().zip(1_u64..) {
         assert_eq!(pass["pass"].as_u64(), Some(index));
         let [after, peak, free, fixed] = [1, 2, 3, 7].map(|field| number(&pass[PASS_FIELDS[field]]));
-        assert!(
-            PASS_FIELDS.iter().all(|field| number(&pass[field]).is_finite()),
-            "{pass}"
-        );
+        let finite = |field: &&str| number(&pass[*field]).is_finite();
+        assert!(PASS_FIELDS.iter().all(finite), "{pass}");
         assert!(peak >= after && free == 0.0 && fixed == 0.0, "{pass}");
     }
-    // Forces that a program of its own gave for this scene.
-    for (pass, force) in [
-        (1, 102.08),
-        (5, 210.46),
-        (10, 283.68),
-        (60, 519.70),
-        (200, 527.84),
-    ] {
-        let found = number(&passes[pass - 1]["downstream_force_n"]);
-        assert!((found / force - 1.0).abs() < 0.01, "pass {pass}: {found} N");
-    }
-    assert!((number(&run["saturation"]["force_n"]) / 527.84 - 1.0).abs() < 0.01);
-    let nearly = run["saturation"]["passes_to_95_percent"]
-        .as_u64()
-        .expect("a whole number");
-    assert!((30..60).contains(&nearly), "{nearly}");
+    // An independent program's force, before passes of which the last are alike.
+    assert_near(number(&run["saturation"]["force_n"]), 527.84, 0.01, "saturation");
+    let nearly = run["saturation"]["passes_to_95_percent"].as_u64();
+    assert!(
+        nearly.is_some_and(|nearly| (30..60).contains(&nearly)),
+        "{nearly:?}"
+    );
     let error = number(&run["error_estimate"]["relative"]);
     assert!((0.0..=0.01).contains(&error) && run["error_estimate"]["method"].is_string());
     assert_eq!(run["warnings"], Value::Array(vec![]));
-}
-
-#[test]
-fn run_prints_a_short_table_and_the_plan() {
-    let line = "run UPPER --set traffic.passes=40";
-    let (said, run) = (printed(line), json(line));
-    assert!(
-        said.lines().count() < 40 && said.starts_with("Full-scale experiment, upper phase\n"),
-        "{said}"
-    );
-    for pass in [1, 40] {
-        let record = &run["passes"][pass - 1];
-        let numbers =
-            |line: &str| -> Vec<f64> { line.split_whitespace().map_while(|n| n.parse().ok()).collect() };
-        let mut rows = said.lines().map(numbers);
-        let row = rows
-            .find(|row| row.first() == Some(&(pass as f64)))
-            .expect("a row for the pass");
-        // Nothing is on a free end, and a fixed one does not move.
-        let shown = [
-            ("downstream_force_n", 1.0),
-            ("upstream_displacement_m", 1e3),
-            ("max_compression_n", 1.0),
-        ];
-        assert_eq!(row.len(), 1 + shown.len());
-        for ((field, factor), shown) in shown.into_iter().zip(&row[1..]) {
-            let value = factor * number(&record[field]);
-            assert!((shown - value).abs() < 0.06, "pass {pass}, {field}: {row:?}");
-        }
-    }
-    for reason in list(&run["plan"]["reasons"]) {
-        assert_says(
-            &said,
-            &[reason.as_str().expect("a text"), "it has not levelled off"],
-        );
-    }
-    assert!(run["saturation"].is_null());
 }
 
 #[test]
@@ -162,8 +110,6 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
     // The same keys on the other commands, and a time in days or years.
     let plan = printed("plan UPPER --years 20 --trucks-per-day 800 --json");
     assert_says(&plan, &["of 5844000 passes"]);
-    let few = printed("run UPPER --trucks-per-day 2 --set traffic.passes=3");
-    assert_says(&few, &["  3  1.5 days"]);
     for time in ["--days 2", "--years 0.0054757"] {
         let run = json(&format!("run UPPER --trucks-per-day 3 {time}"));
         assert_eq!(list(&run["passes"]).len(), 6, "{time}");
@@ -183,7 +129,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     let first = rows
         .iter()
         .find(|row| largest(row) > limit)
-        .expect("a pass above the limit");
+        .expect("a pass above it");
     assert_ne!(first["pass"], 1);
     let broken = run(&format!("--limit-force {limit}"));
     for field in ["pass", "years"] {
@@ -217,23 +163,14 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
         ("--set ends.downstream=free", [(1e-6, true), (1e-6, true)]),
     ] {
         let document = run(&format!("--limit-movement '1 um' {more}"));
-        let verdicts = list(&document["limits"]).iter();
-        let verdicts =
-            verdicts.map(|verdict| (number(&verdict["limit"]), !verdict["reached_after"].is_null()));
-        assert_eq!(verdicts.collect::<Vec<_>>(), expected, "{more}");
+        let verdict = |verdict: &Value| (number(&verdict["limit"]), !verdict["reached_after"].is_null());
+        let verdicts: Vec<_> = list(&document["limits"]).iter().map(verdict).collect();
+        assert_eq!(verdicts, expected, "{more}");
     }
+    // With --check an exceeded limit is a failure of its own kind, after the whole answer.
     let both = format!("{RUN} --limit-movement '1 um'");
-    let said = printed(&both);
-    assert_says(
-        &said,
-        &[
-            "limit exceeded: the upstream end moves by up to ",
-            "1 of 2 limits exceeded",
-        ],
-    );
-    // With --check that is a failure of its own kind, after the whole answer.
     let (status, checked, _) = output(&format!("{both} --check"));
-    assert_eq!((status, checked), (3, said));
+    assert_eq!((status, checked), (3, printed(&both)));
     assert_eq!(output(&format!("{RUN} --limit-movement '1 m' --check")).0, 0);
 }
 
@@ -292,45 +229,6 @@ fn the_table_marks_the_passes_that_were_not_simulated() {
     assert!((1..passes.len() - 1).contains(&marked), "{marked}");
 }
 
-/// The same scene by overrides, as an edited file, and once more by the same command.
-#[test]
-fn set_is_as_good_as_an_edit_of_the_file() {
-    let changes = "--set friction.dynamic_coefficient=0.3 --set 'vehicles.0.load=15 tf' --set title=Other";
-    let set = json(&format!("{SHORT} {changes}"));
-    assert_eq!(set["title"], "Other");
-    let change = last_force(&set) / last_force(&json(SHORT)) - 1.0;
-    assert!(change.abs() > 0.05, "changed by {change}");
-    let file = folder("set").join("edited.toml");
-    let edited = read("examples/scenes/full-scale-upper.toml")
-        .replace("dynamic_coefficient = 0.25", "dynamic_coefficient = 0.3")
-        .replace("load = \"20 tf\"", "load = \"15 tf\"")
-        .replace("passes = 200", "passes = 6")
-        .replace("Full-scale experiment, upper phase", "Other");
-    fs::write(&file, edited).expect("a file");
-    assert_eq!(json(&format!("run {}", file.display())), set);
-    let random = "run UPPER --json --set traffic.passes=4 --set traffic.order=random --set traffic.seed=3";
-    assert_eq!(printed(random), printed(random));
-}
-
-#[test]
-fn a_mirrored_scene_has_the_mirrored_answer() {
-    let forward = json(SHORT);
-    let mirrored = json(&format!(
-        "{SHORT} --set vehicles.0.direction=reverse --set ends.upstream=fixed --set ends.downstream=free"
-    ));
-    for (pass, original) in list(&mirrored["passes"]).iter().zip(list(&forward["passes"])) {
-        for (field, other, sign) in [
-            ("upstream_force_n", "downstream_force_n", 1.0),
-            ("downstream_displacement_m", "upstream_displacement_m", -1.0),
-        ] {
-            assert!(
-                (number(&pass[field]) / number(&original[other]) - sign).abs() < 1e-3,
-                "{field}"
-            );
-        }
-    }
-}
-
 #[test]
 fn verify_measures_the_error_and_leaves_the_forces() {
     let (estimated, verified) = (json(SHORT), json(&format!("{SHORT} --verify")));
@@ -347,10 +245,7 @@ fn verify_measures_the_error_and_leaves_the_forces() {
         "{SHORT} --set solver.node_spacing={node} --set solver.vehicle_step={step}"
     ));
     let difference = (last_force(&finer) / last_force(&verified) - 1.0).abs();
-    assert!(
-        difference <= measured * 1.0001,
-        "{difference} where {measured} was measured"
-    );
+    assert!(difference <= measured * 1.0001, "{difference} {measured}");
 }
 
 #[test]
@@ -381,69 +276,29 @@ fn warnings_go_to_standard_error_and_into_the_document() {
 // profile
 
 #[test]
-fn profile_obeys_equation_1_and_the_symmetry_of_one_load() {
-    let profile = json("profile UPPER");
-    assert!(profile["ground"].is_string());
-    let [xi, along, down, velocity] = PROFILE_FIELDS.map(|field| numbers(&profile[field]));
-    assert!(
-        [&along, &down, &velocity]
-            .iter()
-            .all(|list| list.len() == xi.len())
-    );
-    assert!(xi.len() > 100 && xi.is_sorted());
-    let speed = 40.0 / 3.6;
-    let peak = along.iter().fold(0.0_f64, |peak, d| peak.max(d.abs()));
-    for (i, step) in xi.windows(3).enumerate() {
-        let difference = -speed * (along[i + 2] - along[i]) / (step[2] - step[0]);
-        assert!(
-            (difference - velocity[i + 1]).abs() < 0.05 * speed * peak / 1.2,
-            "V_l at {} m",
-            step[1]
-        );
-    }
-    for i in 0..xi.len() {
-        let mirror = xi.len() - 1 - i;
-        assert!((along[i] + along[mirror]).abs() < 1e-9 * peak.max(1e-6) + 1e-12);
-        assert!((down[i] - down[mirror]).abs() < 1e-12);
-    }
-    let middle = xi.len() / 2;
-    assert!(
-        velocity[middle] < 0.0,
-        "the duct moves backward below a forward vehicle"
-    );
-    assert!(along[middle + 3] > 0.0, "the duct moves away from the load");
-}
-
-#[test]
 fn profile_takes_positions_of_any_sign_in_their_order() {
-    for positions in ["--positions -1.5,0,1.5", "--positions=-1.5,0,1.5"] {
+    let profile = json("profile UPPER");
+    let lists = PROFILE_FIELDS.map(|field| numbers(&profile[field]));
+    assert!(lists[0].len() > 100 && lists[0].is_sorted());
+    assert!(lists.iter().all(|list| list.len() == lists[0].len()));
+    for (positions, expected) in [
+        ("--positions -1.5,0,1.5", &[-1.5, 0.0, 1.5][..]),
+        ("--positions=1,-1,1", &[1.0, -1.0, 1.0]),
+        ("--positions -2", &[-2.0]),
+    ] {
         let profile = json(&format!("profile UPPER {positions}"));
-        assert_eq!(numbers(&profile["positions_m"]), [-1.5, 0.0, 1.5]);
-        let along = numbers(&profile["longitudinal_m"]);
-        // Boussinesq's closed form at r = 1.5 m.
-        let (r, z, nu): (f64, f64, f64) = (1.5, 1.2, 0.4);
-        let root = r.hypot(z);
-        let factor = (1.0 + nu) * 196_133.0 / (std::f64::consts::TAU * 800e6);
-        let exact = factor * (r * z / root.powi(3) - (1.0 - 2.0 * nu) * r / (root * (root + z)));
-        assert!((along[2] / exact - 1.0).abs() < 1e-6 && (along[0] / exact + 1.0).abs() < 1e-6);
-        assert_eq!(along[1], 0.0);
+        let lists = PROFILE_FIELDS.map(|field| numbers(&profile[field]));
+        assert_eq!(lists[0], expected);
+        assert!(lists.iter().all(|list| list.len() == expected.len()), "{profile}");
     }
-    let one = json("profile UPPER --positions -2");
-    assert!(
-        PROFILE_FIELDS.iter().all(|field| numbers(&one[field]).len() == 1),
-        "{one}"
-    );
-    let unsorted = json("profile UPPER --positions 1,-1,1");
-    assert_eq!(numbers(&unsorted["positions_m"]), [1.0, -1.0, 1.0]);
-    let said = printed("profile UPPER --positions -1,0,2.5");
-    assert_eq!(said.lines().count(), 5, "{said}");
-    assert_says(&said, &["ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"]);
+    assert_eq!(printed("profile UPPER --positions -1,0,2.5").lines().count(), 5);
 }
 
 // help, explain, presets, new, completions
 
+/// What each command says of itself is on docs/commands.md: generated_pages.rs.
 #[test]
-fn help_and_version_are_no_errors_and_name_every_command() {
+fn every_command_has_its_help_and_every_shell_the_commands() {
     let help = printed("--help");
     let (_, commands) = help.split_once("Commands:\n").expect("the commands");
     let commands = commands.lines().map_while(|line| line.strip_prefix("  "));
@@ -452,49 +307,52 @@ fn help_and_version_are_no_errors_and_name_every_command() {
     let commands: Vec<&str> = commands
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    for command in ["run", "profile", "check", "completions"] {
-        assert!(commands.contains(&command), "{help}");
-    }
+    assert!(commands.len() > 10, "{help}");
     for command in commands.iter().filter(|command| **command != "help") {
-        assert_says(&printed(&format!("{command} --help")), &["Examples:"]);
+        assert_says(
+            &printed(&format!("{command} --help")),
+            &["Examples:", "Exit status:"],
+        );
     }
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert_says(&printed(&format!("completions {shell}")), &commands);
     }
-    for command in "run plan sweep design measures report explain calibrate presets".split(' ') {
-        let help = printed(&format!("{command} --help"));
-        assert!(help.trim_end().ends_with("130 stopped by Ctrl-C."), "{help}");
-    }
-    for command in ["run", "profile", "check"] {
-        assert_says(&printed(&format!("{command} --help")), &["--set <KEY=VALUE>"]);
-    }
-    assert_says(&printed("help run"), &["--json", "--csv <FILE>", "--verify"]);
-    assert_eq!(
-        printed("--version"),
-        format!("creepage {}\n", env!("CARGO_PKG_VERSION"))
+    let version = format!("creepage {}\n", env!("CARGO_PKG_VERSION"));
+    assert_eq!(printed("--version"), version);
+}
+
+#[cfg(unix)]
+#[test]
+fn the_shell_understands_its_script() {
+    let script = folder("completions").join("script");
+    fs::write(&script, printed("completions bash")).expect("a file");
+    let line = "source \"$0\"; complete -p creepage; COMP_WORDS=(creepage ru) COMP_CWORD=1; \
+                _creepage creepage ru creepage; echo \"${COMPREPLY[@]}\"";
+    let bash = std::process::Command::new("bash")
+        .args(["-c", line])
+        .arg(&script)
+        .output();
+    let (_, told, errors) = crate::command::answer(bash.expect("bash starts"));
+    assert!(
+        told.starts_with("complete ") && told.ends_with("\nrun\n"),
+        "{told}{errors}"
     );
 }
 
+/// The keys themselves are on docs/scene.md: generated_pages.rs.
 #[test]
-fn keys_are_listed_and_explained() {
-    let keys = [
+fn keys_are_explained_by_path_and_by_name() {
+    let required = [
         "\n*  duct.depth ",
         "\n   duct.slope ",
-        "\n   traffic.per_day ",
         "\n*  vehicles.wheels.load ",
     ];
-    assert_says(&printed("explain"), &keys);
+    assert_says(&printed("explain"), &required);
     for key in ["duct.depth", "depth", "vehicles.0.speed", "vehicles.speed"] {
-        let said = printed(&format!("explain {key}"));
-        assert_says(&said, &["  allowed: a ", "(units: m", "  required"]);
+        assert_says(&printed(&format!("explain {key}")), &["(units: m", "  required"]);
     }
-    let both = [
-        "duct.lateral_offset\n",
-        "vehicles.lateral_offset\n",
-        "if omitted: 0 m",
-    ];
+    let both = ["duct.lateral_offset\n", "vehicles.lateral_offset\n"];
     assert_says(&printed("explain lateral_offset"), &both);
-    assert_says(&printed("explain friction"), &["friction.law\n"]);
     assert_eq!(json("explain traffic.years")[0]["key"], "traffic.years");
 }
 
@@ -502,26 +360,21 @@ fn keys_are_listed_and_explained() {
 fn presets_are_listed_with_their_sources() {
     let (said, document) = (printed("presets"), json("presets"));
     assert!(list(&document).len() > 15);
-    let text = |value: &Value| value.as_str().expect("a text").to_owned();
     for preset in list(&document) {
-        let [_, name, ..] = ["kind", "name", "summary", "toml"].map(|field| text(&preset[field]));
-        assert_says(&said, &[&name]);
+        assert_says(&said, &[preset["name"].as_str().expect("a name")]);
         for source in list(&preset["sources"]) {
             let assumed = if source["assumed"] == true {
                 "ASSUMED, "
             } else {
                 ""
             };
-            let [key, source] = ["key", "source"].map(|field| text(&source[field]));
+            let [key, source] = ["key", "source"].map(|field| source[field].as_str().expect("a text"));
             assert_says(&said, &[&format!("{key}: {assumed}{source}\n")]);
         }
     }
     let one = printed("presets t-25");
-    assert_says(&one, &["load = \"100 kN\"", "ASSUMED"]);
-    assert!(
-        !one.contains("t-20") && list(&json("presets t-25")).len() == 1,
-        "{one}"
-    );
+    assert!(one.contains("ASSUMED") && !one.contains("t-20"), "{one}");
+    assert_eq!(list(&json("presets t-25")).len(), 1);
 }
 
 #[test]
@@ -541,10 +394,7 @@ fn a_new_scene_passes_the_check_and_runs() {
         let said = printed(&format!("new {path} --passes 3 {flags}"));
         assert_says(&said, &[&format!("creepage run {path}")]);
         let written = fs::read_to_string(&file).expect("the scene");
-        assert!(
-            written.matches('#').count() > 15 && written.contains("passes = 3"),
-            "{written}"
-        );
+        assert!(written.matches('#').count() > 15, "{written}");
         let (status, said, warned) = output(&format!("check {path}"));
         assert!(status == 0 && said.contains("valid"), "{said}{warned}");
         let (document, same) = answered(&format!("run {path}"));
@@ -567,22 +417,6 @@ fn a_new_scene_passes_the_check_and_runs() {
 }
 
 // what goes wrong outside
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_has_status_1() {
-    for line in ["check UPPER", "profile UPPER", "profile UPPER --json"] {
-        let full = fs::OpenOptions::new().write(true).open("/dev/full");
-        let full = Stdio::from(full.expect("the full device"));
-        let output = command(line).stdout(full).output().expect("the command");
-        let (status, _, errors) = crate::command::answer(output);
-        assert_eq!(status, 1, "{line}");
-        assert_says(&errors, &["standard output: cannot be written"]);
-    }
-    let (status, said, errors) = output("profile UPPER --csv /dev/full");
-    assert_eq!((status, &*said), (1, ""));
-    assert_says(&errors, &["/dev/full", "cannot be written"]);
-}
 
 #[test]
 fn a_reader_that_leaves_is_no_error() {

@@ -2,6 +2,8 @@
 
 use creepage::{PassRecord, Run, Scene, SceneFile};
 
+use crate::scenes::{assert_near, last};
+
 fn file(name: &str) -> SceneFile {
     SceneFile::read(format!("examples/scenes/{name}.toml")).expect("a file")
 }
@@ -23,8 +25,7 @@ fn run(name: &str, overrides: &[&str]) -> (Scene, Run) {
 
 /// Forces upstream and downstream after the last pass \[N\].
 fn ends(run: &Run) -> [f64; 2] {
-    let last = run.passes.last().expect("a pass");
-    [last.upstream_force_n, last.downstream_force_n]
+    [last(run).upstream_force_n, last(run).downstream_force_n]
 }
 
 /// Largest forces upstream and downstream of all passes \[N\].
@@ -57,11 +58,7 @@ fn layers_give_the_forces_of_finite_elements() {
         "layers",
         &["traffic.passes=5", "ground.model=fem", "solver.tolerance=2 %"],
     );
-    assert!(
-        transform.plan.ground.starts_with("burmister"),
-        "{}",
-        transform.plan.ground
-    );
+    assert!(transform.plan.ground.starts_with("burmister"));
     assert_agree((&transform, ends(&transform)[1]), (&elements, ends(&elements)[1]));
 }
 
@@ -72,7 +69,7 @@ fn heat_swings_the_force_of_a_held_cable() {
     let swing = scene.cable.axial_stiffness * 17e-6 * 10.0;
     let day = run.days.last().expect("a day");
     let found = day.downstream_max_n - day.downstream_min_n;
-    assert!((found / swing - 1.0).abs() < 0.1, "{found} N, {swing} N");
+    assert_near(found, swing, 0.1, ());
 }
 
 /// Friction can hold back no more than μ N′ a metre: the fixed end bears at most that and the weight's part along the duct.
@@ -127,20 +124,13 @@ fn clamps_spare_the_joint() {
 #[test]
 fn an_axle_table_is_traffic_in_its_shares() {
     let (scene, run) = run("axle-table", &[]);
-    let loads: Vec<f64> = scene
-        .vehicles
-        .iter()
-        .map(|vehicle| vehicle.wheels()[0].load)
-        .collect();
-    assert_eq!(loads, [20e3, 50e3, 100e3]);
+    let loads = scene.vehicles.iter().map(|vehicle| vehicle.wheels()[0].load);
+    assert!(loads.eq([20e3, 50e3, 100e3]));
     for (share, expected) in scene.shares().into_iter().zip([0.6, 0.3, 0.1]) {
-        assert!((share - expected).abs() < 1e-12, "{share}");
+        assert_near(share, expected, 1e-12, ());
     }
-    let force = ends(&run)[1];
-    assert!(
-        force > 0.0 && force < scene.friction_limit() * scene.duct.length,
-        "{force} N"
-    );
+    let (force, limit) = (ends(&run)[1], scene.friction_limit() * scene.duct.length);
+    assert!(force > 0.0 && force < limit, "{force} N");
 }
 
 /// The weight correction factor of pulling calculations for three cables in trefoil, 1/√(1 − (d/(D − d))²), is carried by the two lower
@@ -149,12 +139,10 @@ fn an_axle_table_is_traffic_in_its_shares() {
 fn a_bundle_presses_by_its_weight_correction_factor() {
     let (scene, bundled) = run("bundle", &[]);
     let factor = 1.5 / (1.0 - (60.0_f64 / 140.0).powi(2)).sqrt();
-    assert!((scene.normal_load() / scene.cable.weight / factor - 1.0).abs() < 1e-6);
+    assert_near(scene.normal_load() / scene.cable.weight, factor, 1e-6, ());
     // A cable alone that weighs as much more.
-    let limit = format!(
-        "cable.normal_load_factor={}",
-        scene.normal_load() / scene.cable.weight
-    );
+    let factor = scene.normal_load() / scene.cable.weight;
+    let limit = format!("cable.normal_load_factor={factor}");
     let (_, alone) = run("bundle", &["cable.arrangement=single", &limit]);
     assert_agree((&bundled, ends(&bundled)[1]), (&alone, ends(&alone)[1]));
 }
@@ -183,7 +171,6 @@ fn imperial_units_are_converted_exactly() {
     ];
     let metric: Vec<&str> = metric.iter().map(String::as_str).collect();
     let (other, run) = run("imperial-units", &metric);
-    assert!((scene.cable.weight / other.cable.weight - 1.0).abs() < 1e-12);
-    let [found, expected] = [&imperial, &run].map(|run| ends(run)[1]);
-    assert!((found / expected - 1.0).abs() < 1e-6, "{found} N, {expected} N");
+    assert_near(scene.cable.weight, other.cable.weight, 1e-12, ());
+    assert_near(ends(&imperial)[1], ends(&run)[1], 1e-6, ());
 }

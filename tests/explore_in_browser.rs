@@ -2,7 +2,7 @@
 //! desks, by day and night.
 //!
 //! Needs Chromium (Debian's package `chromium`, or `CHROMIUM` in the environment), so it is run by
-//! `cargo test --test explore_in_browser -- --ignored`; `.ci/run` does. With `SCREENSHOTS=FOLDER` it leaves pictures there.
+//! `cargo test --test explore_in_browser -- --ignored`; `.ci/run` does.
 
 #![cfg(all(feature = "explore", unix))]
 
@@ -13,6 +13,7 @@ mod server;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -59,9 +60,11 @@ struct Page {
 
 impl Page {
     fn open(width: u32, dark: bool, more: &[&str]) -> Self {
-        let name = format!("explore_in_browser/{}-{width}-{dark}", std::process::id());
+        // Every browser has a profile of its own.
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("explore_in_browser/{}-{number}", std::process::id());
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(folder.join("downloads")).expect("a folder");
         let explored = Explored::new(more);
         let mut browser = Browser::start(&folder);
@@ -157,22 +160,13 @@ impl Page {
             "document.documentElement.scrollWidth",
             "document.documentElement.clientWidth",
         );
-        assert!(
-            self.number(wide) <= self.number(room),
-            "{when}: it scrolls sideways"
-        );
+        assert!(self.number(wide) <= self.number(room), "{when}");
         let unnamed = self.browser.value(
             "[...document.querySelectorAll('button, input, select')].filter((node) => !(node.labels?.length
                || node.getAttribute('aria-label') || node.textContent.trim())).map((node) => node.outerHTML)",
         );
         assert_eq!(unnamed, json!([]), "{when}");
         assert_eq!(self.browser.complaints(), Vec::<Value>::new(), "{when}");
-    }
-
-    fn picture(&mut self, name: &str) {
-        if let Some(folder) = std::env::var_os("SCREENSHOTS") {
-            fs::write(Path::new(&folder).join(name), self.browser.screenshot()).expect("a picture");
-        }
     }
 }
 
@@ -238,10 +232,6 @@ fn visit(width: u32, dark: bool) {
     page.browser
         .value("go(Math.round(film.pictures.length * 0.6)), 0");
     page.is_well_made("at last");
-    page.picture(&format!(
-        "explore-{width}-{}.png",
-        if dark { "dark" } else { "light" }
-    ));
 
     let shown = page.force();
     let saved = page.saved("save", "full-scale-upper-explored.toml");
@@ -253,10 +243,7 @@ fn visit(width: u32, dark: bool) {
         .and_then(|passes| passes.last())
         .expect("passes");
     let force = last["downstream_force_n"].as_f64().expect("a force");
-    assert!(
-        (force / shown - 1.0).abs() < 1e-9,
-        "{force} N, the page shows {shown} N"
-    );
+    assert!((force / shown - 1.0).abs() < 1e-9, "{force} {shown}");
 
     page.click("end");
     page.wait("get('problem').textContent.includes('has ended')");
@@ -265,26 +252,12 @@ fn visit(width: u32, dark: bool) {
 
 #[test]
 #[ignore = "needs Chromium"]
-fn a_visit_on_a_desk_by_day() {
-    visit(DESK, false);
-}
-
-#[test]
-#[ignore = "needs Chromium"]
-fn a_visit_on_a_desk_by_night() {
-    visit(DESK, true);
-}
-
-#[test]
-#[ignore = "needs Chromium"]
-fn a_visit_on_a_phone_by_day() {
-    visit(PHONE, false);
-}
-
-#[test]
-#[ignore = "needs Chromium"]
-fn a_visit_on_a_phone_by_night() {
-    visit(PHONE, true);
+fn a_visit_on_a_desk_and_on_a_phone_by_day_and_by_night() {
+    for width in [DESK, PHONE] {
+        for dark in [false, true] {
+            visit(width, dark);
+        }
+    }
 }
 
 /// Clamps and heat come and go, passes become years, and the report is a page.

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use creepage::readings::ReadOptions;
 use creepage::scene::Law;
-use creepage::{CalibrateOptions, Calibrated, Readings, Scene, SceneFile};
+use creepage::{CalibrateOptions, Calibrated, Readings, Scene};
 use rayon::prelude::*;
 
 const FRICTION: f64 = 0.25;
@@ -40,8 +40,7 @@ enum Fault {
 /// The scene with the ground so many times as stiff.
 fn scene(stiffness: f64) -> Scene {
     let modulus = format!("ground.layers.0.young_modulus={} MPa", 800.0 * stiffness);
-    let file = SceneFile::read("examples/scenes/full-scale-upper.toml").unwrap();
-    let mut scene = file.with(&[modulus]).unwrap().scene().unwrap();
+    let mut scene = crate::scenes::upper(&[&modulus]);
     // Coarse, for the mesh is not what is tried: what the next one says more is added, and the readings are of that one.
     scene.solver.node_spacing = Some(0.2);
     scene.solver.vehicle_step = Some(0.1);
@@ -55,8 +54,7 @@ fn forces(stiffness: f64) -> Vec<f64> {
     (scene.friction.law, scene.friction.shape_factor) = (Law::ElasticPlastic, Some(SHAPE_FACTOR));
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.1), Some(0.05));
     scene.traffic.passes = 2 * PASSES as u64;
-    let run = creepage::run(&scene).unwrap();
-    run.passes.iter().map(|pass| pass.downstream_force_n).collect()
+    crate::scenes::forces(&crate::scenes::run(&scene))
 }
 
 /// The file that the cell writes.

@@ -22,10 +22,7 @@ fn compare(page: &str, generated: &str) {
         fs::write(&path, format!("{written}{MARK}{generated}")).expect("a written page");
         return;
     }
-    assert!(
-        found == generated,
-        "docs/{page} is not what the program says: WRITE_PAGES=1 cargo test --test main generated_pages::"
-    );
+    assert!(found == generated, "{page}");
 }
 
 #[test]

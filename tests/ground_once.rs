@@ -36,28 +36,23 @@ fn what_takes_many_runs_takes_little_longer_than_the_ground() {
         .iter()
         .map(|record| Reading::force(record.pass, record.downstream_force_n));
     let readings: Readings = forces.collect();
-    let works: [(&str, f64, &mut dyn FnMut()); 3] = [
+    let works: [(&str, &mut dyn FnMut()); 3] = [
         // Some thirty model runs.
-        ("calibration", 1.5, &mut || {
+        ("calibration", &mut || {
             drop(creepage::calibrate(&scene, &readings, &CalibrateOptions::default()).expect("a fit"));
         }),
         // Some twenty runs.
-        ("design", 1.5, &mut || {
+        ("design", &mut || {
             drop(design(&scene, &options).expect("a design"));
         }),
         // The run, and the motion of the duct.
-        ("report", 1.5, &mut || {
+        ("report", &mut || {
             drop(Report::new(&scene, &ReportOptions::default()).expect("a report"));
         }),
     ];
-    for (name, most, work) in works {
-        // Other tests compute beside this one: the least of several pairs, one after the other.
-        let pair = |_| time(work).div_duration_f64(time(&mut plan));
-        let factor = (0..3).map(pair).fold(f64::INFINITY, f64::min);
-        println!("{name}: {factor:.2} times the ground");
-        assert!(
-            factor < most,
-            "{name} takes {factor:.2} times as long as the ground"
-        );
+    for (name, work) in works {
+        // Other tests compute beside this one: one of several pairs, one after the other.
+        let pair = |_| time(work).div_duration_f64(time(&mut plan)) < 1.5;
+        assert!((0..3).any(pair), "{name} takes far longer than the ground");
     }
 }

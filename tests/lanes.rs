@@ -1,6 +1,8 @@
 //! Lanes: where a vehicle drives across the road counts by its distance from the duct alone.
 
-use creepage::{Run, Scene, SceneFile};
+use creepage::Scene;
+
+use crate::scenes::{self, run, scene_of};
 
 const ROAD: &str = r#"
 [duct]
@@ -35,14 +37,11 @@ vehicle_step = "0.1 m"
 const ROUNDING: f64 = 1e-6;
 
 fn road(overrides: &[&str]) -> Scene {
-    SceneFile::from_toml("road.toml", ROAD)
-        .and_then(|file| file.with(overrides)?.scene())
-        .expect("a scene")
+    scene_of(ROAD, overrides)
 }
 
 fn forces(scene: &Scene) -> Vec<f64> {
-    let run: Run = creepage::run(scene).expect("an answer");
-    run.passes.iter().map(|pass| pass.downstream_force_n).collect()
+    scenes::forces(&run(scene))
 }
 
 #[track_caller]
@@ -101,22 +100,4 @@ fn lanes_as_far_on_either_side_are_alike_and_farther_ones_move_the_cable_less() 
     let last = |scene: &Scene| *forces(scene).last().expect("a pass");
     let (above, beside, far) = (last(&two(0.0, 0.0)), last(&two(0.0, 3.5)), last(&two(3.5, 7.0)));
     assert!(above > beside && beside > far.abs(), "{above} {beside} {far}");
-}
-
-#[test]
-fn the_report_tells_each_lane_from_the_duct() {
-    let scene = road(&[
-        "duct.lateral_offset=0.5",
-        "vehicles=[{ preset = \"t-25\", lateral_offset = 0.5 }, { preset = \"t-14\", lateral_offset = \"-3 m\", direction = \"reverse\" }]",
-        "traffic.passes=2",
-    ]);
-    let page = creepage::report::Report::new(&scene, &creepage::report::ReportOptions::default())
-        .expect("a report")
-        .to_html();
-    for words in [
-        "forward, right above the duct",
-        "reverse, 3.5 m right of the duct",
-    ] {
-        assert!(page.contains(words), "{words}");
-    }
 }

@@ -1,18 +1,11 @@
 //! Does a cable creep: what a plan says of it, and the ceiling against forces.
 
-use creepage::{Scene, occurrence};
+use creepage::occurrence::Occurrence;
 
-fn scene(overrides: &[&str]) -> Scene {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
-    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    creepage::SceneFile::read(&path)
-        .and_then(|file| file.with(&overrides)?.scene())
-        .expect("a scene")
-}
+use crate::scenes::{assert_near, run, upper as scene};
 
-fn expected(overrides: &[&str]) -> occurrence::Occurrence {
-    let scene = scene(overrides);
-    let plan = creepage::plan(&scene).expect("a plan").report();
+fn expected(overrides: &[&str]) -> Occurrence {
+    let plan = creepage::plan(&scene(overrides)).expect("a plan").report();
     plan.occurrence.expect("a half-space is known before the run")
 }
 
@@ -23,8 +16,7 @@ fn the_plan_tells_the_number_of_the_experiment() {
     assert!((upper.q_number - 0.322).abs() < 1e-3, "{upper:?}");
     assert!(upper.creeps() && !upper.rough, "{upper:?}");
     // f* L alone, the ends' part left out, is within 5 % of the independent 527.84 N.
-    let force = upper.locked_share * 27.2 * 30.0;
-    assert!((force / 527.84 - 1.0).abs() < 0.05, "{force} N");
+    assert_near(upper.locked_share * 27.2 * 30.0, 527.84, 0.05, ());
 }
 
 /// From the least friction to too much of it, no force is above the ceiling, and the largest is not far below it.
@@ -33,13 +25,11 @@ fn no_friction_makes_more_than_the_ceiling() {
     let frictions = ["0.1", "0.25", "0.4", "0.6", "1.0"].map(|mu| {
         let friction = format!("friction.dynamic_coefficient={mu}");
         let overrides = [&*friction, "traffic.passes=400", "solver.tolerance=5 %"];
-        let run = creepage::run(&scene(&overrides)).expect("an answer");
+        let run = run(&scene(&overrides));
         (run.passes[399].downstream_force_n, expected(&overrides).ceiling_n)
     });
     let ceiling = frictions[0].1;
-    let largest = frictions
-        .iter()
-        .fold(0.0, |largest: f64, found| largest.max(found.0));
+    let largest = frictions.iter().fold(0.0, |most: f64, found| most.max(found.0));
     assert!(frictions.iter().all(|found| found.1 == ceiling), "{frictions:?}");
     assert!(
         largest < ceiling && largest > 0.7 * ceiling,
@@ -75,9 +65,6 @@ fn other_scenes_are_called_rough() {
 fn the_heaviest_of_several_vehicles_counts() {
     let two = r#"vehicles=[{name="light", load="5 tf", speed="40 km/h"}, {name="heavy", load="20 tf", speed="40 km/h"}]"#;
     let (one, several) = (expected(&[]), expected(&[two]));
-    assert!(
-        (several.q_number / one.q_number - 1.0).abs() < 1e-6,
-        "{several:?}"
-    );
+    assert_near(several.q_number, one.q_number, 1e-6, several);
     assert!(several.rough);
 }

@@ -3,21 +3,22 @@
 use creepage::readings::{Measured, Place, ReadOptions};
 use creepage::{CableEnd, Reading, Readings};
 
+use crate::scenes::assert_near;
+
 /// The series that every readable shape holds: passes and forces \[N\].
 const PASSES: [u64; 6] = [1, 2, 3, 5, 8, 13];
 const FORCES: [f64; 6] = [94.1, 135.8, 160.25, 198.0, 240.5, 1286.7];
 
 fn utf_16(text: &str, marked: bool, big: bool) -> Vec<u8> {
+    let bytes = |unit: u16| {
+        if big {
+            unit.to_be_bytes()
+        } else {
+            unit.to_le_bytes()
+        }
+    };
     let units = marked.then_some(0xFEFF).into_iter().chain(text.encode_utf16());
-    units
-        .flat_map(|unit| {
-            if big {
-                unit.to_be_bytes()
-            } else {
-                unit.to_le_bytes()
-            }
-        })
-        .collect()
+    units.flat_map(bytes).collect()
 }
 
 fn latin_1(text: &str) -> Vec<u8> {
@@ -108,25 +109,25 @@ fn shape(row: &'static str) -> (&'static str, String, &'static str) {
     let lines = PASSES.iter().zip(FORCES).map(|(&n, f)| {
         let comma = |value: &str| value.replace('.', ",");
         let kilo = format!("{:.5}", f / 1e3);
-        let vehicles = n - before;
+        let mut line = plain(inner(row)) + "\n";
+        for (sign, value) in [
+            ("{n}", n.to_string()),
+            ("{v}", (n - before).to_string()),
+            ("{t}", format!("{n:02}")),
+            ("{f}", f.to_string()),
+            ("{c}", comma(&f.to_string())),
+            ("{m}", (1e3 * f).to_string()),
+            ("{d}", (f / 10.0).to_string()),
+            ("{kc}", comma(&kilo)),
+            ("{k}", kilo),
+        ] {
+            line = line.replace(sign, &value);
+        }
         before = n;
-        let line = plain(inner(row))
-            .replace("{n}", &n.to_string())
-            .replace("{v}", &vehicles.to_string());
-        let line = line
-            .replace("{t}", &format!("{n:02}"))
-            .replace("{f}", &f.to_string());
-        let line = line
-            .replace("{c}", &comma(&f.to_string()))
-            .replace("{m}", &(1e3 * f).to_string());
-        let line = line.replace("{d}", &(f / 10.0).to_string()).replace("{k}", &kilo);
-        line.replace("{kc}", &comma(&kilo)) + "\n"
+        line
     });
-    (
-        name.trim(),
-        plain(inner(header)) + &lines.collect::<String>(),
-        words,
-    )
+    let text = plain(inner(header)) + &lines.collect::<String>();
+    (name.trim(), text, words)
 }
 
 /// All shapes with their bytes: those of the table, and others of their bytes, line ends and signs.
@@ -146,40 +147,25 @@ fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         .encode(&japanese.replace("[N]", "［Ｎ］"))
         .0
         .into_owned();
+    let text = |text: String| text.into_bytes();
     shapes.extend([
-        ("byte order mark", format!("\u{feff}{plain}").into_bytes(), ""),
-        (
-            "line ends of Windows",
-            plain.replace('\n', "\r\n").into_bytes(),
-            "",
-        ),
-        (
-            "line ends of old Macs",
-            plain.replace('\n', "\r").into_bytes(),
-            "",
-        ),
-        ("comments at the end", format!("{plain}# end\n").into_bytes(), ""),
+        ("byte order mark", text(format!("\u{feff}{plain}")), ""),
+        ("line ends of Windows", text(plain.replace('\n', "\r\n")), ""),
+        ("line ends of old Macs", text(plain.replace('\n', "\r")), ""),
+        ("comments at the end", text(format!("{plain}# end\n")), ""),
         (
             "rows in any order",
-            format!("{head}\n{}", turned.join("\n")).into_bytes(),
+            text(format!("{head}\n{}", turned.join("\n"))),
             "",
         ),
-        (
-            "thousands apart",
-            german.replace("1286", "1.286").into_bytes(),
-            "",
-        ),
+        ("thousands apart", text(german.replace("1286", "1.286")), ""),
         (
             "thousands by commas",
-            plain.replace("1286.7", "\"1,286.7\"").into_bytes(),
+            text(plain.replace("1286.7", "\"1,286.7\"")),
             "",
         ),
         ("UTF-16", utf_16(&german, true, false), ""),
-        (
-            "UTF-16, the other order of bytes",
-            utf_16(&german, true, true),
-            "",
-        ),
+        ("UTF-16, the other order", utf_16(&german, true, true), ""),
         ("UTF-16 without a mark", utf_16(&german, false, false), ""),
         (
             "UTF-16 by option",
@@ -198,33 +184,33 @@ fn every_shape_of_the_series_is_read_right() {
     let shapes = shapes();
     assert!(shapes.len() >= 40, "{}", shapes.len());
     for (name, bytes, words) in shapes {
-        let data = Readings::from_bytes("cell.csv", &bytes, &options(words))
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
-        let mut found: Vec<(u64, f64)> = data
-            .list
-            .iter()
-            .map(|reading| (reading.pass, reading.value))
-            .collect();
+        let data = Readings::from_bytes("cell.csv", &bytes, &options(words));
+        let data = data.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let mut found = series(&data, 0);
         found.sort_by_key(|reading| reading.0);
-        assert_eq!(found.len(), PASSES.len(), "{name}: {found:?}");
-        for ((pass, force), (&n, f)) in found.iter().zip(PASSES.iter().zip(FORCES)) {
-            assert!(
-                *pass == n && (force / f - 1.0).abs() < 1e-9,
-                "{name}: {pass} {force}"
-            );
+        let passes: Vec<u64> = found.iter().map(|reading| reading.0).collect();
+        assert_eq!(passes, PASSES, "{name}");
+        for ((_, force), expected) in found.into_iter().zip(FORCES) {
+            assert_near(force, expected, 1e-9, name);
         }
+        assert!(data.notes.is_empty(), "{name}: {:?}", data.notes);
+        assert_eq!((data.runs.len(), data.list.len()), (1, PASSES.len()), "{name}");
+        let kinds = kinds(&data).into_iter();
         assert!(
-            data.notes.is_empty() && data.runs.len() == 1,
-            "{name}: {:?}",
-            data.notes
-        );
-        assert!(
-            data.list
-                .iter()
-                .all(|reading| reading.measured == Measured::Force(Place::Natural)),
+            kinds
+                .map(|kind| kind.0)
+                .all(|kind| kind == Measured::Force(Place::Natural)),
             "{name}"
         );
     }
+}
+
+/// What was measured, and the value.
+fn kinds(data: &Readings) -> Vec<(Measured, f64)> {
+    let readings = data.list.iter();
+    readings
+        .map(|reading| (reading.measured, reading.value))
+        .collect()
 }
 
 fn read(text: &str, words: &str) -> Readings {
@@ -243,27 +229,19 @@ fn series(data: &Readings, run: usize) -> Vec<(u64, f64)> {
 
 #[test]
 fn cells_without_a_number_are_told_with_their_lines() {
-    let words = "OVLD #NAME? 1.#QNAN No_Data n.v. k.A. BAD";
-    let rows = words
-        .split(' ')
-        .zip(5..)
-        .map(|(word, pass)| format!("{pass},{}\n", word.replace('_', " ")));
-    let data = read(
-        &format!("pass,force_n\n1,94\n{}4,170\n", rows.collect::<String>()),
-        "",
-    );
+    let words = "OVLD #NAME? 1.#QNAN No_Data n.v. k.A. BAD".split(' ');
+    let rows: Vec<String> = words
+        .map(|word| format!("5,{}", word.replace('_', " ")))
+        .collect();
+    let data = read(&format!("pass,force_n\n1,94\n{}\n4,170\n", rows.join("\n")), "");
     assert_eq!(values(&data), [94.0, 170.0]);
-    assert!(
-        data.notes[0].starts_with("7 cells without a number"),
-        "{:?}",
-        data.notes
-    );
+    assert!(data.notes[0].starts_with("7 cells"), "{:?}", data.notes);
     let data = read("pass,force_n\n1,94\n2,\n3,#N/A\n4,170\n5,---\n", "");
     assert_eq!(series(&data, 0), [(1, 94.0), (4, 170.0)]);
     let notes = data.notes.join("\n");
     for part in [
-        "1 rows without a force",
-        "2 cells without a number",
+        "1 rows",
+        "2 cells",
         "line 3",
         "line 4 (\"#N/A\")",
         "line 6 (\"---\")",
@@ -284,32 +262,21 @@ fn vehicles_count_where_the_force_is_missing() {
 
 #[test]
 fn two_cells_and_a_transducer_in_one_file() {
-    let text =
-        "pass;Kraft upstream [kN];Kraft downstream [kN];movement [mm]\n1;0,05;0,094;0,3\n2;0,07;0,136;0,5\n";
-    let data = read(text, "");
-    let found: Vec<(Measured, f64)> = data
-        .list
-        .iter()
-        .map(|reading| (reading.measured, reading.value))
-        .collect();
-    let expected = [
+    let rows = "1;0,05;0,094;0,3\n2;0,07;0,136;0,5\n";
+    let head = "pass;Kraft upstream [kN];Kraft downstream [kN];movement [mm]";
+    let found = kinds(&read(&format!("{head}\n{rows}"), ""));
+    for ((measured, value), (kind, expected)) in found.iter().zip([
         (Measured::Force(Place::End(CableEnd::Upstream)), 50.0),
         (Measured::Force(Place::End(CableEnd::Downstream)), 94.0),
         (Measured::Movement(Place::Natural), 0.3e-3),
-    ];
-    for ((measured, value), (kind, expected)) in found.iter().zip(expected) {
-        assert!(
-            *measured == kind && (value / expected - 1.0).abs() < 1e-12,
-            "{found:?}"
-        );
+    ]) {
+        assert_eq!(*measured, kind);
+        assert_near(*value, expected, 1e-12, kind);
     }
     assert_eq!(found.len(), 6);
     // Names that say nothing of the end.
     let data = read("pass,A,B\n1,50,94\n", "force=upstream=A force=downstream=B");
-    assert_eq!(
-        data.list[0].measured,
-        Measured::Force(Place::End(CableEnd::Upstream))
-    );
+    assert_eq!(kinds(&data)[0].0, Measured::Force(Place::End(CableEnd::Upstream)));
     // A table of this program's own runs: forces after the pass, not the peaks during it.
     let own = "pass,downstream_force_n,downstream_peak_n,upstream_force_n,upstream_peak_n,downstream_displacement_m\n1,94,99,0,2,0.001\n";
     assert_eq!(values(&read(own, "")), [94.0, 0.0]);
@@ -317,27 +284,18 @@ fn two_cells_and_a_transducer_in_one_file() {
 
 #[test]
 fn places_along_the_cable() {
-    let data = read("pass,force_n,position [m]\n1,94,10\n1,120,0\n", "");
-    let places: Vec<Measured> = data.list.iter().map(|reading| reading.measured).collect();
-    assert_eq!(
-        places,
-        [Measured::Force(Place::At(10.0)), Measured::Force(Place::At(0.0))]
-    );
     for text in [
+        "pass,force_n,position [m]\n1,94,10\n1,120,0\n",
         "pass,force_n,Position [mm]\n1,94,10000\n",
         "pass;force;Ort\n-;N;cm\n1;94;1000\n",
     ] {
-        assert_eq!(
-            read(text, "").list[0].measured,
-            Measured::Force(Place::At(10.0)),
-            "{text}"
-        );
+        let found = kinds(&read(text, ""));
+        assert_eq!(found[0], (Measured::Force(Place::At(10.0)), 94.0), "{text}");
+        let other = (Measured::Force(Place::At(0.0)), 120.0);
+        assert!(found[1..].iter().all(|found| *found == other), "{text}");
     }
     let strain = read("pass,strain [µm/m]\n1,12\n", "");
-    assert_eq!(
-        (strain.list[0].measured, values(&strain)[0]),
-        (Measured::Strain(Place::Natural), 12e-6)
-    );
+    assert_eq!(kinds(&strain), [(Measured::Strain(Place::Natural), 12e-6)]);
 }
 
 #[test]
@@ -370,12 +328,9 @@ fn runs_begin_at_rest_or_go_on() {
 fn forces_a_thousand_times_too_small_are_told_with_the_option_that_reads_them() {
     let scene = creepage::Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let told = |unit: f64| {
-        let forces = [(1, 94.0), (2, 135.0), (5, 190.0), (10, 230.0)];
-        let rows: Vec<String> = forces
-            .iter()
-            .map(|(pass, force)| format!("{pass},{}", force / unit))
-            .collect();
-        let data = read(&format!("pass,force\n{}\n", rows.join("\n")), "");
+        let rows = [(1, 94.0), (2, 135.0), (5, 190.0), (10, 230.0)]
+            .map(|(pass, force)| format!("{pass},{}\n", force / unit));
+        let data = read(&format!("pass,force\n{}", rows.concat()), "");
         match creepage::calibrate(&scene, &data, &creepage::CalibrateOptions::default()) {
             Ok(fit) => fit.warnings.join("; "),
             Err(error) => error.to_string(),
@@ -468,15 +423,9 @@ fn a_header_of_merged_cells_is_read() {
         let book = workbook(rows, merged);
         let read = Readings::from_bytes("cell.xlsx", &book, &ReadOptions::default());
         let read = read.unwrap_or_else(|error| panic!("{name}: {error}"));
-        let found: Vec<(Measured, f64)> = read
-            .list
+        let expected = expected
             .iter()
-            .map(|reading| (reading.measured, reading.value))
-            .collect();
-        let expected: Vec<(Measured, f64)> = expected
-            .iter()
-            .map(|&(place, force)| (Measured::Force(place), force))
-            .collect();
-        assert_eq!(found, expected, "{name}");
+            .map(|&(place, force)| (Measured::Force(place), force));
+        assert!(kinds(&read).into_iter().eq(expected), "{name}");
     }
 }

@@ -2,20 +2,25 @@
 //!
 //! Needs Chromium (Debian's package `chromium`, or `CHROMIUM` in the environment), so it is run by
 //! `cargo test --test report_in_browser -- --ignored`; `.ci/run` does.
-//!
-//! A page is shown in a frame as wide as the screen that it is tested for, since a browser's own window is never as narrow as a
-//! phone. The page around the frame looks into it and writes what it measures into itself, which the browser prints.
+
+#[allow(
+    dead_code,
+    reason = "keys are pressed on the page of `creepage explore` alone"
+)]
+#[path = "explore/devtools.rs"]
+mod devtools;
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::{Dimension, TrafficVehicle, Unit};
 use creepage::{Readings, Scene, Units};
-use serde_json::Value;
+use serde_json::{Value, json};
+
+use devtools::Browser;
 
 const PHONE: u32 = 390;
 const DESK: u32 = 1200;
@@ -25,34 +30,31 @@ const SHEET: u32 = 680;
 const SMALLEST_TEXT: f64 = 10.0;
 /// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
 const LEAST_CONTRAST: f64 = 4.5;
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Runs in the page around the frame.
-const MEASURE: &str = r#"
-const frame = document.querySelector("iframe");
-const channels = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((c) => {
-  const share = c / 255;
-  return share <= 0.03928 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
-});
-const luminance = (colour) => {
-  const [red, green, blue] = channels(colour);
-  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-};
-const contrast = (one, other) => {
-  const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
-  return (high + 0.05) / (low + 0.05);
-};
-const touch = (a, b) =>
-  a.left + 1 < b.right - 1 && b.left + 1 < a.right - 1 && a.top + 1 < b.bottom - 1 && b.top + 1 < a.bottom - 1;
-frame.addEventListener("load", () => {
-  const page = frame.contentDocument, view = frame.contentWindow;
-  const ground = view.getComputedStyle(page.body).backgroundColor;
-  const figures = [...page.querySelectorAll("svg[role=img]")].map((svg) => {
+/// What the page measures of itself.
+const MEASURE: &str = r#"(() => {
+  const channels = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((c) => {
+    const share = c / 255;
+    return share <= 0.03928 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+  });
+  const luminance = (colour) => {
+    const [red, green, blue] = channels(colour);
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  };
+  const contrast = (one, other) => {
+    const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
+    return (high + 0.05) / (low + 0.05);
+  };
+  const touch = (a, b) =>
+    a.left + 1 < b.right - 1 && b.left + 1 < a.right - 1 && a.top + 1 < b.bottom - 1 && b.top + 1 < a.bottom - 1;
+  const ground = getComputedStyle(document.body).backgroundColor;
+  const figures = [...document.querySelectorAll("svg[role=img]")].map((svg) => {
     const box = svg.getBoundingClientRect();
     const scale = box.width / svg.viewBox.baseVal.width;
     const texts = [...svg.querySelectorAll("text")];
     const boxes = texts.map((text) => text.getBoundingClientRect());
-    const styles = texts.map((text) => view.getComputedStyle(text));
+    const styles = texts.map((text) => getComputedStyle(text));
     return {
       width: box.width, height: box.height, right: box.right,
       text: Math.min(...styles.map((style) => parseFloat(style.fontSize) * scale)),
@@ -63,23 +65,17 @@ frame.addEventListener("load", () => {
         .map((text) => text.textContent.trim()),
     };
   });
-  const root = page.documentElement;
+  const root = document.documentElement;
   // What is folded: not a word of it is seen, but for the summary.
-  const folded = [...page.querySelectorAll("details > :not(summary)")];
+  const folded = [...document.querySelectorAll("details > :not(summary)")];
   const unfolded = folded.filter((part) => part.checkVisibility({ contentVisibilityAuto: true })).length;
-  const words = [...page.querySelectorAll("h1, h2, p, li, td, th, dt, dd, figcaption")];
-  const result = {
-    width: view.innerWidth, scroll: root.scrollWidth, room: root.clientWidth,
-    dark: view.matchMedia("(prefers-color-scheme: dark)").matches, ground, figures,
-    folded: folded.length, unfolded,
-    contrast: Math.min(...words.map((word) => contrast(view.getComputedStyle(word).color, ground))),
+  const words = [...document.querySelectorAll("h1, h2, p, li, td, th, dt, dd, figcaption")];
+  return {
+    width: innerWidth, scroll: root.scrollWidth, room: root.clientWidth,
+    dark: matchMedia("(prefers-color-scheme: dark)").matches, figures, folded: folded.length, unfolded,
+    contrast: Math.min(...words.map((word) => contrast(getComputedStyle(word).color, ground))),
   };
-  const out = document.createElement("pre");
-  out.id = "result";
-  out.textContent = JSON.stringify(result);
-  document.body.append(out);
-});
-"#;
+})()"#;
 
 /// What the browser saw of a page.
 struct Seen {
@@ -87,85 +83,34 @@ struct Seen {
     console: Vec<String>,
 }
 
-fn folder() -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report_in_browser");
-    fs::create_dir_all(&folder).expect("a folder for the test");
-    folder
-}
-
-fn chromium() -> String {
-    std::env::var("CHROMIUM").unwrap_or_else(|_| "chromium".into())
-}
-
-/// Shows `page` in a frame of `width` px.
+/// Shows `page` on a screen of `width` px.
 fn show(page: &str, width: u32, dark: bool) -> Seen {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
-    let name = format!("{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-    let folder = folder().join(name);
-    let _ = fs::remove_dir_all(&folder);
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let name = format!("report_in_browser/{}-{number}", std::process::id());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).expect("a folder");
-    fs::write(folder.join("page.html"), page).expect("the page");
-    let frame = folder.join("frame.html");
-    // The script stands first, so that it hears of the frame's loading.
-    let around = format!(
-        "<!DOCTYPE html><meta charset=\"utf-8\"><body style=\"margin:0\"><iframe width=\"{width}\" height=\"844\" style=\"border:0\">\
-         </iframe><script>{MEASURE}\nframe.src = \"page.html\";</script></body>"
-    );
-    fs::write(&frame, around).expect("the frame");
-    let errors = folder.join("errors.txt");
-    let printed = folder.join("printed.html");
-    let mut browser = Command::new(chromium())
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--no-first-run",
-            "--enable-logging=stderr",
-            "--allow-file-access-from-files",
-            "--window-size=1300,900",
-            "--virtual-time-budget=10000",
-            "--dump-dom",
-        ])
-        // Chromium's own name for what a reader prefers: 0 is dark, 1 light.
-        .arg(format!(
-            "--blink-settings=preferredColorScheme={}",
-            u8::from(!dark)
-        ))
-        .arg(format!("--user-data-dir={}", folder.join("profile").display()))
-        .arg(format!("file://{}", frame.display()))
-        .stdin(Stdio::null())
-        .stdout(fs::File::create(&printed).expect("a file"))
-        .stderr(fs::File::create(&errors).expect("a file"))
-        .spawn()
-        .unwrap_or_else(|error| panic!("{} does not start: {error}", chromium()));
-    let start = Instant::now();
-    while browser.try_wait().expect("the browser").is_none() {
-        if start.elapsed() > PATIENCE {
-            let _ = browser.kill();
-            panic!("the browser does not end");
-        }
-        std::thread::sleep(Duration::from_millis(50));
+    let file = folder.join("page.html");
+    fs::write(&file, page).expect("the page");
+    let mut browser = Browser::start(&folder);
+    browser.size(width, 844);
+    browser.media("prefers-color-scheme", if dark { "dark" } else { "light" });
+    let address = format!("file://{}", file.display());
+    browser.call("Page.navigate", &json!({ "url": address }));
+    let begun = Instant::now();
+    let is_there = "document.readyState === 'complete' && location.protocol === 'file:'";
+    while browser.value(is_there) != json!(true) {
+        assert!(begun.elapsed() < PATIENCE, "the page does not come");
+        std::thread::sleep(Duration::from_millis(20));
     }
-    let printed = fs::read_to_string(printed).expect("what it printed");
-    let errors = String::from_utf8_lossy(&fs::read(errors).expect("what it logged")).into_owned();
-    let result = printed
-        .split_once("<pre id=\"result\">")
-        .and_then(|(_, rest)| rest.split_once("</pre>"))
-        .unwrap_or_else(|| panic!("nothing was measured:\n{printed}\n{errors}"));
-    let json = result
-        .0
-        .replace("&lt;", "<")
-        .replace("&gt;", ">")
-        .replace("&amp;", "&");
+    let result = browser.value(MEASURE);
+    let console = browser
+        .complaints()
+        .iter()
+        .map(|event| format!("CONSOLE {event}"))
+        .collect();
     let _ = fs::remove_dir_all(&folder);
-    Seen {
-        result: serde_json::from_str(&json).expect("JSON"),
-        console: errors
-            .lines()
-            .filter(|line| line.contains("CONSOLE"))
-            .map(str::to_owned)
-            .collect(),
-    }
+    Seen { result, console }
 }
 
 /// What is wrong with a page of so many figures; nothing where all is well.
@@ -180,7 +125,7 @@ fn faults(page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
     };
     check(
         number(&result["width"]) == f64::from(width),
-        format!("the frame is {} px wide", result["width"]),
+        format!("the page is {} px wide", result["width"]),
     );
     check(
         result["dark"] == dark,

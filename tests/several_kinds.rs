@@ -4,9 +4,7 @@
 use creepage::calibration::{Quantity, Unknown};
 use creepage::readings::{Measured, Place};
 use creepage::scene::{End, Law};
-use creepage::{
-    CableEnd, CalibrateOptions, Calibrated, Reading, Readings, RunOptions, Scene, SceneFile, calibrate,
-};
+use creepage::{CableEnd, CalibrateOptions, Calibrated, Reading, Readings, RunOptions, Scene, calibrate};
 
 const PASSES: u64 = 24;
 const FRICTION: f64 = 0.3;
@@ -17,8 +15,7 @@ const SPACING: f64 = 0.05;
 /// The full-scale experiment with a spring at its upstream end, on ground so many times as stiff.
 fn scene(stiffness: f64) -> Scene {
     let modulus = format!("ground.layers.0.young_modulus={} MPa", 800.0 * stiffness);
-    let file = SceneFile::read("examples/scenes/full-scale-upper.toml").unwrap();
-    let mut scene = file.with(&[modulus]).unwrap().scene().unwrap();
+    let mut scene = crate::scenes::upper(&[&modulus]);
     scene.ends.upstream = End::Spring(5e6);
     scene.traffic.passes = PASSES;
     scene
@@ -64,10 +61,10 @@ fn measured(instruments: &[(Measured, f64)], stiffness: f64) -> Readings {
 fn fit(readings: &Readings, more: &[Quantity]) -> Calibrated {
     let quantities = [Quantity::DynamicCoefficient, Quantity::ShapeFactor];
     let options = CalibrateOptions {
-        unknowns: quantities
-            .iter()
-            .chain(more)
-            .map(|&quantity| Unknown::shared(quantity))
+        unknowns: [&quantities, more]
+            .concat()
+            .into_iter()
+            .map(Unknown::shared)
             .collect(),
         ..CalibrateOptions::default()
     };

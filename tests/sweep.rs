@@ -11,26 +11,21 @@ use creepage::readings::TableOptions;
 use creepage::sweep::{Axis, Band, Distribution, Samples, Sweep, SweepError, SweepOptions, SweepSummary};
 use creepage::{Error, ErrorSource, Progress, Run, Scene, SceneFile};
 
-use crate::command::{UPPER, folder, table};
+use crate::command::{folder, read, table};
+use crate::scenes::{by_threads, run as run_of, upper_file};
 
 const FRICTION: &str = "friction.dynamic_coefficient";
 
-fn upper(overrides: &[&str]) -> SceneFile {
-    SceneFile::read(UPPER)
-        .and_then(|file| file.with(overrides))
-        .unwrap()
-}
-
-fn sweep_of(axes: &[&str], samples: Samples) -> Result<Sweep, SweepError> {
+fn sweep_of(axes: &[&str], samples: Samples) -> Sweep {
     let axes = axes
         .iter()
         .map(|text| Axis::parse(text))
-        .collect::<Result<_, _>>()?;
-    Sweep::new(upper(&["traffic.passes=1"]), axes, samples)
+        .collect::<Result<_, _>>();
+    Sweep::new(upper_file(&["traffic.passes=1"]), axes.unwrap(), samples).unwrap()
 }
 
 fn sweep(axes: &[&str]) -> Sweep {
-    sweep_of(axes, Samples::default()).unwrap()
+    sweep_of(axes, Samples::default())
 }
 
 /// A path for a test's output, with nothing there.
@@ -42,9 +37,12 @@ fn unfinished(output: &Path) -> PathBuf {
     output.with_extension("csv.unfinished")
 }
 
+/// How a point is answered.
+type Evaluate<'a> = &'a (dyn Fn(&Scene) -> Result<Run, Error> + Sync);
+
 /// A run whose downstream force follows from the scene by a formula; the rest is that of a real run.
 fn formula(force: impl Fn(&Scene) -> f64 + Sync) -> impl Fn(&Scene) -> Result<Run, Error> + Sync {
-    let template = creepage::run(&sweep(&["traffic.passes=1"]).scene(0).unwrap()).unwrap();
+    let template = run_of(&sweep(&["traffic.passes=1"]).scene(0).unwrap());
     move |scene| {
         let mut run = template.clone();
         run.passes[0].downstream_force_n = force(scene);
@@ -56,20 +54,17 @@ fn run_by(
     sweep: &Sweep,
     output: &Path,
     threads: usize,
-    evaluate: &(dyn Fn(&Scene) -> Result<Run, Error> + Sync),
+    evaluate: Evaluate<'_>,
 ) -> Result<SweepSummary, SweepError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.expect("threads").install(|| {
-        let options = SweepOptions {
-            evaluate: Some(evaluate),
-            ..SweepOptions::default()
-        };
-        sweep.run(output, &options)
-    })
+    let options = SweepOptions {
+        evaluate: Some(evaluate),
+        ..SweepOptions::default()
+    };
+    by_threads(threads, || sweep.run(output, &options))
 }
 
 /// A sweep in whose table's place a folder comes while it computes: the rows of all points are left, and nothing else.
-fn blocked(sweep: &Sweep, output: &Path, evaluate: &(dyn Fn(&Scene) -> Result<Run, Error> + Sync)) {
+fn blocked(sweep: &Sweep, output: &Path, evaluate: Evaluate<'_>) {
     let evaluate = |scene: &Scene| {
         let _ = fs::create_dir(output);
         evaluate(scene)
@@ -91,16 +86,11 @@ fn column(file: &Path, name: &str) -> Vec<String> {
 fn the_last_key_changes_fastest() {
     let sweep = sweep(&["friction.dynamic_coefficient=0.2:0.4:0.1", "duct.depth=1m,2m"]);
     assert_eq!(sweep.count(), 6);
-    let values: Vec<Vec<String>> = (0..6).map(|i| sweep.values(i)).collect();
-    let expected = [
-        ["0.2", "1m"],
-        ["0.2", "2m"],
-        ["0.3", "1m"],
-        ["0.3", "2m"],
-        ["0.4", "1m"],
-        ["0.4", "2m"],
-    ];
-    assert_eq!(values, expected);
+    let values: Vec<String> = (0..6).map(|i| sweep.values(i).join(" ")).collect();
+    assert_eq!(
+        values,
+        ["0.2 1m", "0.2 2m", "0.3 1m", "0.3 2m", "0.4 1m", "0.4 2m"]
+    );
     let scene = sweep.scene(3).unwrap();
     assert_eq!((scene.friction.dynamic_coefficient, scene.duct.depth), (0.3, 2.0));
 }
@@ -123,13 +113,10 @@ fn a_row_is_the_run_of_its_point_and_a_failing_point_stops_nothing() {
         let cell = |name: &str| &row[header.iter().position(|found| found == name).unwrap()];
         if (4..8).contains(&index) {
             assert_eq!((&**cell("status"), &**cell("downstream_force_n")), ("error", ""));
-            assert!(
-                cell("error").contains("`friction.dynamic_coefficient`: found -1"),
-                "{row:?}"
-            );
+            assert!(cell("error").contains("found -1"), "{row:?}");
             continue;
         }
-        let run = creepage::run(&sweep.scene(index).unwrap()).unwrap();
+        let run = run_of(&sweep.scene(index).unwrap());
         let last = run.passes.last().unwrap();
         assert_eq!(cell("status"), "ok");
         for (name, expected) in [
@@ -151,32 +138,46 @@ fn a_row_is_the_run_of_its_point_and_a_failing_point_stops_nothing() {
 fn saturation_comes_from_the_run() {
     let output = output("saturation");
     let axis = Axis::parse("duct.length=20m").unwrap();
-    let sweep = Sweep::new(upper(&["traffic.passes=150"]), vec![axis], Samples::default()).unwrap();
+    let sweep = Sweep::new(
+        upper_file(&["traffic.passes=150"]),
+        vec![axis],
+        Samples::default(),
+    )
+    .unwrap();
     sweep.run(&output, &SweepOptions::default()).unwrap();
-    let run = creepage::run(&sweep.scene(0).unwrap()).unwrap();
-    let expected = run.saturation.unwrap();
+    let expected = run_of(&sweep.scene(0).unwrap()).saturation.unwrap();
     let value = |name: &str| column(&output, name)[0].parse::<f64>().unwrap();
     assert_eq!(value("saturation_force_n"), expected.force_n);
-    assert_eq!(
-        value("passes_to_95_percent"),
-        expected.passes_to_95_percent as f64
-    );
+    let passes = value("passes_to_95_percent");
+    assert_eq!(passes, expected.passes_to_95_percent as f64);
 }
 
+/// One that panics, and one whose answer is no number.
 #[test]
-fn a_point_that_panics_is_a_failing_point() {
-    let output = output("panic");
-    let sweep = sweep(&["friction.dynamic_coefficient=0.1:0.5:0.1"]);
-    let good = formula(|scene| scene.friction.dynamic_coefficient);
-    let evaluate = |scene: &Scene| {
-        assert!(
-            scene.friction.dynamic_coefficient != 0.3,
-            "a panic that this test wants"
-        );
-        good(scene)
-    };
+fn points_without_an_answer_fail_alone() {
+    let output = output("failing");
+    let sweep = sweep(&["duct.length=10m,20m,30m,40m"]);
+    let evaluate = formula(|scene| match scene.duct.length {
+        10.0 => f64::NAN,
+        20.0 => f64::INFINITY,
+        30.0 => panic!("a panic that this test wants"),
+        _ => 1.0,
+    });
     let summary = run_by(&sweep, &output, 2, &evaluate).unwrap();
-    assert_eq!((summary.points, summary.failed), (5, 1));
+    assert_eq!((summary.points, summary.failed), (4, 3));
+    let errors = column(&output, "error");
+    for (error, words) in errors
+        .iter()
+        .zip(["came out as NaN", "came out as inf", "broke off", ""])
+    {
+        assert!(
+            error.contains(words) && error.is_empty() == words.is_empty(),
+            "{errors:?}"
+        );
+    }
+    let (_, rows) = table(&output);
+    let is_infinite = |cell: &String| cell.parse().is_ok_and(|value: f64| !value.is_finite());
+    assert!(!rows.iter().flatten().any(is_infinite), "{rows:?}");
 }
 
 #[test]
@@ -245,14 +246,23 @@ fn wherever_a_sweep_was_cut_off_it_ends_with_the_same_file() {
 
 #[test]
 fn rows_of_something_else_are_refused_and_kept() {
-    let output = output("other");
-    let first = sweep(&["friction.dynamic_coefficient=0.1:1:0.1"]);
     let evaluate = formula(|_| 1.0);
+    let text = read("examples/scenes/full-scale-upper.toml");
+    let of = |axis: &str, text: &str| {
+        let file = SceneFile::from_toml("scene", text).unwrap();
+        Sweep::new(file, vec![Axis::parse(axis).unwrap()], Samples::default()).unwrap()
+    };
+    let output = output("other");
+    let first = of("duct.length=10m,20m", &text);
     blocked(&first, &output, &evaluate);
     let left = fs::read(unfinished(&output)).unwrap();
     for other in [
-        sweep(&["friction.dynamic_coefficient=0.1:1:0.3"]),
-        sweep(&["duct.length=10m:100m:10m"]),
+        of("duct.length=10m,30m", &text),
+        of("friction.dynamic_coefficient=0.1,0.2", &text),
+        of(
+            "duct.length=10m,20m",
+            &text.replace("passes = 200", "passes = 201"),
+        ),
     ] {
         let error = run_by(&other, &output, 1, &evaluate).unwrap_err();
         assert!(
@@ -261,106 +271,30 @@ fn rows_of_something_else_are_refused_and_kept() {
         );
         assert_eq!(fs::read(unfinished(&output)).unwrap(), left);
     }
-    fs::write(unfinished(&output), "my notes\n").unwrap();
-    assert!(matches!(
-        run_by(&first, &output, 1, &evaluate),
-        Err(SweepError::OtherRows { .. })
-    ));
-    assert_eq!(fs::read(unfinished(&output)).unwrap(), b"my notes\n");
-}
-
-#[test]
-fn remarks_in_a_scene_make_no_other_sweep() {
-    let output = output("remarks");
-    let evaluate = formula(|_| 1.0);
-    let text = fs::read_to_string("examples/scenes/full-scale-upper.toml").unwrap();
-    let axes = || vec![Axis::parse("duct.length=10m,20m").unwrap()];
-    let of = |text: &str| {
-        let file = SceneFile::from_toml("scene", text).unwrap();
-        Sweep::new(file, axes(), Samples::default()).unwrap()
-    };
-    blocked(&of(&text), &output, &evaluate);
-    let other = of(&text.replace("passes = 200", "passes = 201"));
-    assert!(matches!(
-        run_by(&other, &output, 1, &evaluate),
-        Err(SweepError::OtherRows { .. })
-    ));
-    let remarked = of(&format!(
-        "# a remark\n\n{}",
-        text.replace("passes = 200", "passes  =  200  # enough")
-    ));
+    // Remarks in a scene make no other sweep.
+    let remarked = text.replace("passes = 200", "passes  =  200  # enough");
+    let remarked = of("duct.length=10m,20m", &format!("# a remark\n\n{remarked}"));
     assert_eq!(run_by(&remarked, &output, 1, &evaluate).unwrap().resumed, 2);
-}
-
-#[test]
-fn an_answer_that_is_no_number_is_a_failing_point() {
-    let output = output("infinite");
-    let sweep = sweep(&["duct.length=10m,20m,30m"]);
-    let evaluate = formula(|scene| match scene.duct.length {
-        10.0 => f64::NAN,
-        20.0 => f64::INFINITY,
-        _ => 1.0,
-    });
-    let summary = run_by(&sweep, &output, 1, &evaluate).unwrap();
-    assert_eq!(summary.failed, 2);
-    let (header, rows) = table(&output);
-    let error = header.iter().position(|name| name == "error").unwrap();
-    for (row, words) in rows.iter().zip(["came out as NaN", "came out as inf", ""]) {
-        assert!(row[error].ends_with(words), "{row:?}");
-        let is_number = |cell: &String| cell.parse().is_ok_and(|value: f64| !value.is_finite());
-        assert!(!row[..error].iter().any(is_number), "{row:?}");
-    }
-}
-
-/// An output that is a link to a file which ends otherwise.
-#[cfg(unix)]
-fn linked(name: &str) -> (PathBuf, PathBuf) {
-    let output = output(name);
-    let notes = output.with_file_name(format!("{name} notes"));
-    for file in [&output, &notes] {
-        let _ = fs::remove_file(file);
-    }
-    std::os::unix::fs::symlink(&notes, &output).unwrap();
-    (output, notes)
-}
-
-#[cfg(unix)]
-#[test]
-fn a_file_that_ends_otherwise_is_kept_unless_forced() {
-    let (output, notes) = linked("foreign");
-    let sweep = sweep(&["duct.length=10m,20m"]);
-    let evaluate = formula(|_| 1.0);
-    fs::write(&notes, "notes\n").unwrap();
-    let error = run_by(&sweep, &output, 1, &evaluate).unwrap_err();
-    assert!(
-        matches!(error, SweepError::Output(_)) && error.is_bad_input(),
-        "{error}"
-    );
-    assert_eq!(fs::read(&notes).unwrap(), b"notes\n");
-    assert!(!unfinished(&notes).exists());
-    let options = SweepOptions {
-        evaluate: Some(&evaluate),
-        force: true,
-        ..SweepOptions::default()
-    };
-    sweep.run(&output, &options).unwrap();
-    assert_eq!(table(&notes).1.len(), 2);
+    fs::write(unfinished(&output), "my notes\n").unwrap();
+    let refused = run_by(&first, &output, 1, &evaluate);
+    assert!(matches!(refused, Err(SweepError::OtherRows { .. })));
+    assert_eq!(fs::read(unfinished(&output)).unwrap(), b"my notes\n");
 }
 
 #[cfg(unix)]
 #[test]
 fn what_comes_to_the_output_meanwhile_is_kept() {
-    let (output, notes) = linked("meanwhile");
+    let output = output("meanwhile");
+    let notes = output.with_file_name("notes");
+    std::os::unix::fs::symlink(&notes, &output).unwrap();
     let sweep = sweep(&["duct.length=10m,20m"]);
     let force = formula(|_| 1.0);
     let evaluate = |scene: &Scene| {
         fs::write(&notes, "notes\n").unwrap();
         force(scene)
     };
-    assert!(matches!(
-        run_by(&sweep, &output, 1, &evaluate),
-        Err(SweepError::Output(_))
-    ));
+    let refused = run_by(&sweep, &output, 1, &evaluate);
+    assert!(matches!(refused, Err(SweepError::Output(_))));
     assert_eq!(fs::read(&notes).unwrap(), b"notes\n");
     // With another place for the notes nothing is computed again.
     fs::remove_file(&notes).unwrap();
@@ -388,7 +322,7 @@ fn two_sweeps_do_not_write_the_same_file() {
 /// Runs a Monte Carlo sweep of the friction coefficient and answers its only band.
 fn band(name: &str, axes: &[&str], samples: Samples, threads: usize) -> (Band, Vec<u8>) {
     let output = output(name);
-    let sweep = sweep_of(axes, samples).unwrap();
+    let sweep = sweep_of(axes, samples);
     let evaluate = formula(|scene| 1000.0 * scene.friction.dynamic_coefficient);
     let summary = run_by(&sweep, &output, threads, &evaluate).unwrap();
     assert_eq!(summary.bands.len(), 1);
@@ -439,7 +373,7 @@ fn every_point_of_the_grid_has_a_band_and_failed_samples_are_counted() {
         "friction.dynamic_coefficient=normal(0, 0.1)",
         "duct.length=10m,20m",
     ];
-    let sweep = sweep_of(&axes, samples).unwrap();
+    let sweep = sweep_of(&axes, samples);
     let evaluate = formula(|scene| scene.duct.length * scene.friction.dynamic_coefficient);
     let summary = run_by(&sweep, &output, 2, &evaluate).unwrap();
     assert_eq!(summary.bands.len(), 2);
@@ -457,12 +391,8 @@ fn every_point_of_the_grid_has_a_band_and_failed_samples_are_counted() {
 
 #[test]
 fn an_axis_without_values_and_a_probability_that_is_none_are_no_panics() {
-    let file = SceneFile::read("examples/scenes/full-scale-upper.toml").expect("an example");
-    let axis = Axis {
-        key: "duct.depth".into(),
-        values: Vec::new(),
-    };
-    assert!(Sweep::new(file, vec![axis], Samples::default()).is_err());
+    let (key, values) = ("duct.depth".into(), Vec::new());
+    assert!(Sweep::new(upper_file(&[]), vec![Axis { key, values }], Samples::default()).is_err());
     for law in [
         "normal(1, 2)",
         "lognormal(1, 2)",
@@ -486,26 +416,17 @@ fn a_sweep_that_is_stopped_goes_on_where_it_was() {
     let output = output("stopped");
     let sweep = sweep(&["friction.dynamic_coefficient=0.1:0.5:0.1"]);
     let evaluate = formula(|scene| scene.friction.dynamic_coefficient);
-    let stop = |share: f64| {
-        if share < 0.5 {
-            ControlFlow::Continue(())
-        } else {
-            ControlFlow::Break(())
-        }
+    let stop = |share: f64| match share {
+        ..0.5 => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
     };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("a thread");
     let run = |progress| {
-        pool.install(|| {
-            let options = SweepOptions {
-                evaluate: Some(&evaluate),
-                progress,
-                ..SweepOptions::default()
-            };
-            sweep.run(&output, &options)
-        })
+        let options = SweepOptions {
+            evaluate: Some(&evaluate),
+            progress,
+            ..SweepOptions::default()
+        };
+        by_threads(1, || sweep.run(&output, &options))
     };
     let error = run(Progress::new(&stop)).expect_err("stopped");
     assert!(
@@ -525,7 +446,12 @@ fn rows(name: &str, table: &str) -> (PathBuf, Sweep) {
     let ducts = output.with_file_name("ducts.csv");
     fs::write(&ducts, table).unwrap();
     let options = TableOptions::default();
-    let sweep = Sweep::of_rows(upper(&["traffic.passes=1"]), &ducts, &options, Samples::default());
+    let sweep = Sweep::of_rows(
+        upper_file(&["traffic.passes=1"]),
+        &ducts,
+        &options,
+        Samples::default(),
+    );
     (output, sweep.unwrap())
 }
 
@@ -556,20 +482,16 @@ fn a_row_is_a_duct_with_its_own_values_and_the_scenes_where_it_has_none() {
         );
 
         let evaluate = formula(|scene| scene.duct.length + scene.duct.depth);
-        let options = SweepOptions {
-            evaluate: Some(&evaluate),
-            ..SweepOptions::default()
-        };
-        let summary = sweep.run(&output, &options).unwrap();
+        let summary = run_by(&sweep, &output, 1, &evaluate).unwrap();
         assert_eq!((summary.points, summary.failed), (2, 0));
         let text = fs::read_to_string(&output).unwrap();
-        let lines: Vec<&str> = text.lines().collect();
-        assert!(
-            lines[0].starts_with("id,duct.length,duct.depth,ends.downstream,downstream_force_n,"),
-            "{text}"
-        );
-        assert!(lines[1].starts_with("A-007,40,1.5,,41.5,"), "{text}");
-        assert!(lines[2].starts_with("\"B, north\",,0.9,free,30.9,"), "{text}");
+        for (line, begin) in text.lines().zip([
+            "id,duct.length,duct.depth,ends.downstream,downstream_force_n,",
+            "A-007,40,1.5,,41.5,",
+            "\"B, north\",,0.9,free,30.9,",
+        ]) {
+            assert!(line.starts_with(begin), "{text}");
+        }
     }
 }
 

@@ -7,12 +7,13 @@ use creepage::sweep::{
 };
 use creepage::{CableEnd, Limited, Limits, Progress, SceneFile};
 
-const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+use crate::command::{UPPER, folder, output, read, table as table_of};
+use crate::scenes::{by_threads, last, run, upper_file as file};
+
 const FRICTION: &str = "friction.dynamic_coefficient";
 
-fn file(overrides: &[&str]) -> SceneFile {
-    SceneFile::read(UPPER).unwrap().with(overrides).unwrap()
-}
+/// What makes a run of a few milliseconds.
+const QUICK: [&str; 2] = ["traffic.passes=1", "solver.tolerance=0.1"];
 
 fn table(columns: &[(&str, &[&str])]) -> Vec<(String, Vec<String>)> {
     let texts = |values: &[&str]| values.iter().map(|value| (*value).to_owned()).collect();
@@ -53,20 +54,17 @@ fn a_row_is_the_run_of_its_scene_to_the_last_bit() {
     let columns = keys.iter().enumerate();
     let columns = columns.map(|(at, key)| ((*key).to_owned(), column(at).map(str::to_owned).collect()));
     let sweep = Sweep::of_table(base(), columns.collect(), Samples::default()).unwrap();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let found = pool.install(|| answers(&sweep));
+    let found = by_threads(1, || answers(&sweep));
     for row in 0..9 {
-        let run = creepage::run(&sweep.scene(row).unwrap()).unwrap();
-        let alone = run.passes.last().unwrap();
-        let of = |name| numbers(&found, name)[row].unwrap();
-        assert_eq!(of("downstream_force_n"), alone.downstream_force_n, "{row}");
-        assert_eq!(of("max_compression_n"), alone.max_compression_n, "{row}");
-        assert_eq!(
-            of("upstream_displacement_m"),
-            alone.upstream_displacement_m,
-            "{row}"
-        );
-        assert_eq!(of("error_estimate"), run.error_estimate.relative, "{row}");
+        let run = run(&sweep.scene(row).unwrap());
+        for (name, alone) in [
+            ("downstream_force_n", last(&run).downstream_force_n),
+            ("max_compression_n", last(&run).max_compression_n),
+            ("upstream_displacement_m", last(&run).upstream_displacement_m),
+            ("error_estimate", run.error_estimate.relative),
+        ] {
+            assert_eq!(numbers(&found, name)[row], Some(alone), "{row}: {name}");
+        }
     }
 }
 
@@ -76,9 +74,7 @@ fn rows_are_judged_by_limits() {
     let base = file(&["traffic.passes=20", "traffic.per_day=4", "solver.tolerance=0.05"]);
     let columns = table(&[(FRICTION, &["0.1", "0.3", "0.5"])]);
     let sweep = Sweep::of_table(base, columns, Samples::default()).unwrap();
-    let runs: Vec<_> = (0..3)
-        .map(|row| creepage::run(&sweep.scene(row).unwrap()).unwrap())
-        .collect();
+    let runs: Vec<_> = (0..3).map(|row| run(&sweep.scene(row).unwrap())).collect();
     let largest = |run| creepage::Run::largest(run, CableEnd::Downstream, Limited::Force);
     let limits = Limits::both(Some(0.5 * (largest(&runs[0]) + largest(&runs[1]))), None);
     let own = limits.clone();
@@ -104,37 +100,17 @@ fn rows_are_judged_by_limits() {
 /// Limits of clamps are those of every point; one that a point does not have is its error.
 #[test]
 fn clamps_are_judged_where_they_are() {
-    let table = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("clamps.csv");
-    let _ = std::fs::remove_file(&table);
+    let out = folder("sweep-clamps").join("clamps.csv");
     let sweep = |limit: &str| {
-        let clamp = "restraints=[{ position = 10, stiffness = 1e6 }]";
-        std::process::Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .args([
-                "sweep",
-                UPPER,
-                "--set",
-                clamp,
-                "--set",
-                "traffic.passes=3",
-                "--set",
-                "solver.tolerance=0.1",
-            ])
-            .args([
-                "--vary",
-                "restraints.0.position=10m,20m",
-                "--limit-force",
-                limit,
-                "--out",
-            ])
-            .arg(&table)
-            .output()
-            .unwrap();
-        let text = std::fs::read_to_string(&table).unwrap();
-        let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-        let names = lines.next().unwrap();
-        let flag = names.iter().position(|name| *name == "limit_exceeded").unwrap();
-        lines.map(|cells| cells[flag].to_owned()).collect::<Vec<_>>()
+        let scene = "--set 'restraints=[{ position = 10, stiffness = 1e6 }]' --set traffic.passes=3 --set solver.tolerance=0.1";
+        let vary = "--vary restraints.0.position=10m,20m";
+        output(&format!(
+            "sweep UPPER {scene} {vary} --limit-force '{limit}' --out {}",
+            out.display()
+        ));
+        let (names, rows) = table_of(&out);
+        let flag = names.iter().position(|name| name == "limit_exceeded").unwrap();
+        rows.into_iter().map(|row| row[flag].clone()).collect::<Vec<_>>()
     };
     assert_eq!(sweep("clamp=1N"), ["true", "true"]);
     assert_eq!(sweep("10 m=1N"), ["true", ""]);
@@ -142,7 +118,7 @@ fn clamps_are_judged_where_they_are() {
 
 #[test]
 fn samples_follow_from_the_seed_the_id_the_key_and_their_number_alone() {
-    let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
+    let base = || file(&QUICK);
     let samples = Samples { count: 3, seed: 7 };
     let law = "normal(0.25, 0.03)";
     let both = table(&[
@@ -188,7 +164,7 @@ fn distributions_of_rows_that_do_not_fit_are_refused() {
 /// The errors that samples on coarse meshes state, against runs that find theirs out.
 #[test]
 fn samples_on_a_coarse_mesh_are_as_good_as_they_say_and_cheap() {
-    let base = || file(&["solver.tolerance=0.02"]);
+    let base = || file(&["solver.tolerance=0.02", "traffic.passes=80"]);
     let law = "normal(0.25, 0.04)";
     let samples = Samples { count: 60, seed: 3 };
     let sweep = Sweep::of_table(base(), table(&[(FRICTION, &[law])]), samples).unwrap();
@@ -199,32 +175,13 @@ fn samples_on_a_coarse_mesh_are_as_good_as_they_say_and_cheap() {
             format!("{FRICTION}={}", of(FRICTION)),
             "solver.tolerance=0.005".to_owned(),
         ];
-        let run = creepage::run(&base().with(&row).unwrap().scene().unwrap()).unwrap();
+        let run = run(&base().with(&row).unwrap().scene().unwrap());
         assert!(run.cost.node_updates > 10_000_000);
-        let exact = run.passes.last().unwrap();
-        let off = (of("max_compression_n") / exact.max_compression_n - 1.0).abs();
+        let off = (of("max_compression_n") / last(&run).max_compression_n - 1.0).abs();
         let stated = of("error_estimate");
-        assert!(
-            off <= stated && stated <= 0.05,
-            "sample {sample}: {off} where {stated} is stated"
-        );
+        assert!(off <= stated && stated <= 0.05, "{sample} {off} {stated}");
         assert_ne!(off, 0.0, "it was computed on the same mesh");
     }
-}
-
-#[test]
-fn rows_that_take_long_can_be_stopped_in_between() {
-    let sweep = Sweep::of_table(file(&[]), table(&[("duct.depth", &["1.2"])]), Samples::default()).unwrap();
-    let calls = std::sync::atomic::AtomicUsize::new(0);
-    let stop = |_| match calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) {
-        0..4 => ControlFlow::Continue(()),
-        _ => ControlFlow::Break(()),
-    };
-    let options = SweepOptions {
-        progress: Progress::new(&stop),
-        ..SweepOptions::default()
-    };
-    assert!(matches!(sweep.answers(&options), Err(SweepError::Stopped)));
 }
 
 /// What a row says of an end as a whole counts, also where the scene draws that end's spring.
@@ -246,10 +203,8 @@ fn a_row_replaces_a_section_in_which_the_scene_draws() {
 /// A table of axle loads that only the rows name is part of the sweep: answers of two tables do not mix.
 #[test]
 fn a_sweep_does_not_go_on_with_another_table_of_axles() {
-    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("rows_of_axles");
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let text = std::fs::read_to_string(UPPER).unwrap();
+    let folder = folder("rows-of-axles");
+    let text = read(UPPER);
     let text = text[..text.find("[[vehicles]]").unwrap()].to_owned()
         + "[traffic]\npasses = 2\nspeed = \"40 km/h\"\n[solver]\ntolerance = 0.1\n";
     let axles =
@@ -262,28 +217,16 @@ fn a_sweep_does_not_go_on_with_another_table_of_axles() {
             ("duct.depth", &["1.2", "2"]),
         ]);
         let sweep = Sweep::of_table(file, rows, Samples::default()).unwrap();
-        assert_eq!(
-            sweep.files().into_iter().collect::<Vec<_>>(),
-            [folder.join("axles.csv")]
-        );
-        let halt = |share| {
-            if stop && share > 0.0 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+        assert!(sweep.files().into_iter().eq([folder.join("axles.csv")]));
+        let halt = |share| match share {
+            share if stop && share > 0.0 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(1)
-            .build()
-            .expect("a thread");
-        pool.install(|| {
-            let options = SweepOptions {
-                progress: Progress::new(&halt),
-                ..SweepOptions::default()
-            };
-            sweep.run(&folder.join("out.csv"), &options)
-        })
+        let options = SweepOptions {
+            progress: Progress::new(&halt),
+            ..SweepOptions::default()
+        };
+        by_threads(1, || sweep.run(&folder.join("out.csv"), &options))
     };
     axles("100 kN");
     assert!(matches!(run(true), Err(SweepError::Stopped)));
@@ -296,7 +239,7 @@ fn a_sweep_does_not_go_on_with_another_table_of_axles() {
 
 #[test]
 fn a_text_where_others_draw_fails_in_its_row_alone() {
-    let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
+    let base = || file(&QUICK);
     let samples = Samples { count: 2, seed: 1 };
     let cells = table(&[("id", &["A", "B"]), (FRICTION, &["normal(0.25, 0.03)", "much"])]);
     let whole = answers(&Sweep::of_table(base(), cells, samples).unwrap());
@@ -317,7 +260,7 @@ fn a_text_where_others_draw_fails_in_its_row_alone() {
 
 #[test]
 fn a_row_without_an_id_is_known_by_its_number() {
-    let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
+    let base = || file(&QUICK);
     let law = "normal(0.25, 0.03)";
     let drawn = |ids: &[&str]| {
         let cells = table(&[("id", ids), (FRICTION, &[law; 2])]);
@@ -331,11 +274,7 @@ fn a_row_without_an_id_is_known_by_its_number() {
 /// A grid draws what the scene draws, the same at all its points.
 #[test]
 fn a_grid_draws_what_the_scene_draws() {
-    let drawn = file(
-        &[format!("{FRICTION}=normal(0.25, 0.03)")]
-            .each_ref()
-            .map(|text| &**text),
-    );
+    let drawn = file(&["friction.dynamic_coefficient=normal(0.25, 0.03)"]);
     let axis = || vec![Axis::parse("duct.depth=1 m,2 m").unwrap()];
     assert!(Sweep::new(drawn.clone(), axis(), Samples::default()).is_err());
     let sweep = Sweep::new(drawn, axis(), Samples { count: 3, seed: 1 }).unwrap();

@@ -5,21 +5,18 @@ use std::ops::ControlFlow;
 use std::process::Command;
 use std::sync::Mutex;
 
-use creepage::{Progress, RunOptions, Scene};
+use creepage::{Progress, RunOptions};
 
-const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+use crate::command::{answer, folder, words};
+use crate::scenes::upper;
 
-/// Elapsed and processor time of a command \[s\].
-fn times(threads: &str, arguments: &[&str]) -> (f64, f64) {
+/// Elapsed and processor time of a command on one thread \[s\].
+fn times(line: &str) -> (f64, f64) {
     let shell = "TIMEFORMAT='%R %U %S'; time \"$@\" >/dev/null 2>&1";
-    let output = Command::new("bash")
-        .args(["-c", shell, "bash", env!("CARGO_BIN_EXE_creepage")])
-        .args(arguments)
-        .args(["--threads", threads])
-        .output()
-        .expect("bash starts");
-    assert!(output.status.success(), "{arguments:?}");
-    let text = String::from_utf8(output.stderr).unwrap();
+    let mut command = Command::new("bash");
+    command.args(["-c", shell, "bash", env!("CARGO_BIN_EXE_creepage")]);
+    let (status, _, text) = answer(command.args(words(line)).output().expect("bash starts"));
+    assert_eq!(status, 0, "{line}");
     let times: Vec<f64> = text
         .split_whitespace()
         .map(|time| time.parse().unwrap())
@@ -29,42 +26,29 @@ fn times(threads: &str, arguments: &[&str]) -> (f64, f64) {
 
 #[test]
 fn one_thread_takes_one_core() {
-    let out = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("threads.csv");
-    let out = out.to_str().unwrap();
-    let commands: [&[&str]; 4] = [
-        &["run", UPPER, "--set", "solver.tolerance=0.003"],
-        &["plan", UPPER, "--set", "solver.tolerance=0.001"],
-        &[
-            "design",
-            UPPER,
-            "--limit-force",
-            "500 N",
-            "--set",
-            "solver.tolerance=0.1",
-        ],
-        &[
-            "sweep",
-            UPPER,
-            "--vary",
-            "duct.depth=1m,1.2m,1.4m",
-            "--out",
-            out,
-            "--force",
-        ],
-    ];
-    for arguments in commands {
-        let (elapsed, processor) = times("1", arguments);
+    let out = folder("threads").join("threads.csv");
+    let sweep = format!(
+        "sweep UPPER --vary duct.depth=1m,1.2m,1.4m --out {}",
+        out.display()
+    );
+    for line in [
+        "run UPPER --set solver.tolerance=0.003",
+        "plan UPPER --set solver.tolerance=0.001",
+        "design UPPER --limit-force 500N --set solver.tolerance=0.1",
+        &sweep,
+    ] {
+        let (elapsed, processor) = times(&format!("{line} --threads 1"));
         // A clock tick of 10 ms for each of the two times.
         assert!(
             processor <= 1.05 * elapsed + 0.02,
-            "{arguments:?}: {processor} s in {elapsed} s"
+            "{line}: {processor} s in {elapsed} s"
         );
     }
 }
 
 #[test]
 fn a_run_stays_in_its_pool() {
-    let scene = Scene::from_file(UPPER).unwrap();
+    let scene = upper(&[]);
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -149,12 +149,9 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
 
     // A text is no formula.
     assert_eq!(book.answer("title").0, Data::String("=1+1".into()));
+    let last = &passes[passes.len() - 1];
     for (quantity, value) in [
         ("saturation: force", &document["saturation"]["force_n"]),
-        (
-            "saturation: passes_to_95_percent",
-            &document["saturation"]["passes_to_95_percent"],
-        ),
         (
             "duct_motion: peak_vertical",
             &document["duct_motion"]["peak_vertical_m"],
@@ -165,10 +162,7 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
         ),
         ("plan: node_spacing", &document["plan"]["node_spacing_m"]),
         ("plan: ground", &document["plan"]["ground"]),
-        (
-            "last pass: downstream_force",
-            &passes[passes.len() - 1]["downstream_force_n"],
-        ),
+        ("last pass: downstream_force", &last["downstream_force_n"]),
     ] {
         let (cell, unit) = book.answer(quantity);
         assert_same(&cell, &unit, value);
@@ -295,48 +289,46 @@ fn a_sweep_is_its_table_in_the_units_that_were_typed() {
 
 #[test]
 fn a_list_of_ducts_may_be_a_workbook_with_units_below_its_names() {
-    let folder = folder("rows-book");
-    let ducts = folder.join("ducts.xlsx");
-    let mut book = rust_xlsxwriter::Workbook::new();
-    let sheet = book.add_worksheet();
-    let head = [["id", "duct.depth", "ends.downstream"], ["", "ft", ""]];
-    for (row, texts) in (0..).zip(head) {
-        for (place, text) in (0..).zip(texts) {
-            sheet.write_string(row, place, text).expect("a text");
-        }
-    }
-    sheet.write_string(2, 0, "A").expect("a text");
-    sheet.write_number(2, 1, 4.0).expect("a number");
-    sheet.write_string(2, 2, "free").expect("a text");
-    sheet.write_number(3, 0, 7.0).expect("a number");
-    sheet.write_string(3, 1, "1.5 m").expect("a text");
-    book.save(&ducts).expect("a file");
+    let ducts = folder("rows-book").join("ducts.xlsx");
     let file = creepage::SceneFile::read(UPPER).expect("a scene");
-    let sweep =
-        Sweep::of_rows(file.clone(), &ducts, &TableOptions::default(), Samples::default()).expect("a list");
-    assert_eq!(sweep.count(), 2);
-    let depth = |index| sweep.scene(index).expect("a scene").duct.depth;
-    assert!((depth(0) - 4.0 * 0.3048).abs() < 1e-15 && depth(1) == 1.5);
-    assert_eq!(sweep.values(1), ["7", "1.5 m", ""]);
+    let read = || {
+        let sweep = Sweep::of_rows(file.clone(), &ducts, &TableOptions::default(), Samples::default());
+        sweep.expect("a list")
+    };
+    let write = |rows: &[&[Data]]| {
+        let mut book = rust_xlsxwriter::Workbook::new();
+        let sheet = book.add_worksheet();
+        for (line, cells) in (0..).zip(rows) {
+            for (place, cell) in (0..).zip(*cells) {
+                match cell {
+                    Data::Float(number) => sheet.write_number(line, place, *number),
+                    cell => sheet.write_string(line, place, cell.to_string()),
+                }
+                .expect("a cell");
+            }
+        }
+        book.save(&ducts).expect("a file");
+    };
+    let text = |text: &str| Data::String(text.into());
+    write(&[
+        &["id", "duct.depth", "ends.downstream"].map(text),
+        &["", "ft", ""].map(text),
+        &[text("A"), Data::Float(4.0), text("free")],
+        &[Data::Float(7.0), text("1.5 m")],
+    ]);
+    let sweep = read();
+    let [first, second] = [0, 1].map(|row| sweep.scene(row).expect("a scene"));
+    assert!((first.duct.depth - 4.0 * 0.3048).abs() < 1e-15 && second.duct.depth == 1.5);
     assert_eq!(
-        sweep.scene(0).expect("a scene").ends.downstream,
-        creepage::scene::End::Free
+        (sweep.count(), sweep.values(1)),
+        (2, ["7", "1.5 m", ""].map(String::from).into())
     );
-    assert_eq!(
-        sweep.scene(1).expect("a scene").ends,
-        file.scene().expect("a scene").ends
-    );
+    assert_eq!(first.ends.downstream, creepage::scene::End::Free);
+    assert_eq!(second.ends, file.scene().expect("a scene").ends);
 
     // Without units numbers are SI; a text is read as one, whatever its name.
-    let mut book = rust_xlsxwriter::Workbook::new();
-    let sheet = book.add_worksheet();
-    sheet.write_string(0, 0, "duct.depth").expect("a text");
-    sheet.write_number(1, 0, 2.0).expect("a number");
-    book.save(&ducts).expect("a file");
-    let bare =
-        Sweep::of_rows(file.clone(), &ducts, &TableOptions::default(), Samples::default()).expect("a list");
-    assert_eq!(bare.scene(0).expect("a scene").duct.depth, 2.0);
+    write(&[&[text("duct.depth")], &[Data::Float(2.0)]]);
+    assert_eq!(read().scene(0).expect("a scene").duct.depth, 2.0);
     fs::write(&ducts, "duct.depth\n2\n").expect("a file");
-    let text = Sweep::of_rows(file, &ducts, &TableOptions::default(), Samples::default()).expect("a list");
-    assert_eq!(text.scene(0).expect("a scene").duct.depth, 2.0);
+    assert_eq!(read().scene(0).expect("a scene").duct.depth, 2.0);
 }

@@ -84,18 +84,6 @@ def test_a_study_that_has_no_part_yet_is_empty(study):
     assert study.dataset().to_table().num_rows == 0
 
 
-def test_samples_where_nothing_is_drawn_are_refused_as_on_the_command_line():
-    with pytest.raises(creepage.InputError, match="found samples and no distribution"):
-        creepage.sweep(UPPER, ducts(2), QUICK, samples=3)
-
-
-def test_a_row_without_an_id_is_known_by_its_number():
-    rows = ducts(3, LAW).set_column(0, "id", pyarrow.array(["3", "1", None]))
-    table = creepage.sweep(UPPER, rows, QUICK, samples=2)
-    alone = creepage.sweep(UPPER, ducts(3, LAW).drop_columns(["id"]), QUICK, samples=2)
-    assert table[FRICTION].to_pylist()[2:] == alone[FRICTION].to_pylist()[2:]
-
-
 @pytest.mark.parametrize("ids", [[1, 2], [1.0, 2.0], [Decimal("1"), Decimal("2")], ["1", " 2"]])
 def test_an_id_is_the_same_in_a_study_and_a_sweep(quick_scene, tmp_path, ids):
     rows = ducts(2, LAW).set_column(0, "id", pyarrow.array(ids))
@@ -206,12 +194,6 @@ def test_a_file_of_ducts_is_read_as_the_command_line_reads_it(command, quick_sce
         assert table[name].to_pylist() == expected[name].to_pylist()
 
 
-def test_a_torn_file_of_ducts_is_refused_with_its_line(quick_scene, tmp_path):
-    (tmp_path / "ducts.csv").write_text("id,duct.depth\nA,1.2,3\n")
-    with pytest.raises(creepage.InputError, match="ducts.csv:2: 3 cells"):
-        creepage.study(quick_scene, tmp_path / "ducts.csv", tmp_path / "out")
-
-
 def _in_a_child(send, threads):
     send.send(creepage.sweep(UPPER, ducts(2), QUICK, threads=threads)["downstream_force_n"].to_pylist())
     send.send(creepage.run(UPPER, QUICK, threads=threads).downstream_force_n)
@@ -262,13 +244,6 @@ def test_a_part_that_was_cut_off_is_named(study):
     (Path(study.out) / "ducts.parquet").write_bytes(b"PAR1")
     with pytest.raises(creepage.InputError, match="ducts.parquet"):
         study.compute(1)
-
-
-def test_wrong_ducts_leave_nothing_half_written(quick_scene, tmp_path):
-    for rows in (pyarrow.table({"duct.depht": ["1 m"]}), ducts(2, "normal(1)")):
-        with pytest.raises(creepage.InputError):
-            creepage.study(quick_scene, rows, tmp_path / "out", samples=2)
-    assert not [path for path in (tmp_path / "out").rglob("*") if path.is_file()]
 
 
 def test_two_drivers_at_a_time_make_one_study(quick_scene, tmp_path):

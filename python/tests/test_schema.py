@@ -24,7 +24,7 @@ def validator():
 def mistakes():
     """The scenes of the tables of mistakes: name, text, and the exit status of ``creepage check``."""
     read = lambda path: (ROOT / "tests" / path).read_text(encoding="utf-8")
-    full = re.search(r'const FULL: &str = r#"(.*?)"#;', read("scene/main.rs"), re.S).group(1)
+    full = re.search(r'const FULL: &str = r#"(.*?)"#;', read("scene/mod.rs"), re.S).group(1)
     for scene, rows in [
         (read("messages/scene.toml"), read("messages/scenes.txt")),
         (full, read("messages/full_scenes.txt")),

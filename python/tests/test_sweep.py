@@ -98,26 +98,6 @@ def test_any_other_rows_give_a_table_that_all_take_over():
     assert pyarrow.table(table) == creepage.sweep(UPPER, ducts(2), QUICK)
 
 
-@pytest.mark.parametrize(
-    "columns, part",
-    [
-        ({"duct.depht": ["1 m"]}, "did you mean `duct.depth`"),
-        ({"id": ["a"]}, "no varied key"),
-        ({"duct.depth": ["normal(1, 0.1)"]}, "no samples"),
-    ],
-)
-def test_wrong_rows_are_told(columns, part):
-    with pytest.raises(creepage.InputError, match=part.replace("(", r"\(")):
-        creepage.sweep(UPPER, pyarrow.table(columns), QUICK)
-
-
-def test_rows_that_are_none_are_told():
-    with pytest.raises(creepage.InputError, match="__arrow_c_stream__"):
-        creepage.sweep(UPPER, [{"duct.depth": 1}])
-    with pytest.raises(creepage.InputError, match="column `duct.depth`: found List"):
-        creepage.sweep(UPPER, pyarrow.table({"duct.depth": [[1]]}))
-
-
 def test_missing_cells_leave_the_scenes_own():
     depths = pyarrow.table({"duct.depth": [1.2, None, float("nan")], "traffic.passes": pyarrow.nulls(3)})
     forces = creepage.sweep(UPPER, depths, QUICK)["downstream_force_n"].to_pylist()

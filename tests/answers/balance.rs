@@ -42,10 +42,7 @@ fn a_cable_that_follows_its_duct_is_dragged_by_nothing() {
     many.traffic.passes = 1_000_000;
     if let Some(run) = answer(&many) {
         let last = run.passes.last().expect("passes").downstream_force_n;
-        assert!(
-            (last / simulated - 1.0).abs() < 0.15,
-            "{last} N, simulated {simulated} N"
-        );
+        assert!((last / simulated - 1.0).abs() < 0.15, "{last} {simulated}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! Scenes as text, and what no answer may break.
 
+use crate::scenes::largest;
 use creepage::scene::{End, SolverMethod};
 use creepage::{Error, PassRecord, Run, RunOptions, Scene};
 
@@ -170,10 +171,7 @@ fn assert_ends(scene: &Scene, passes: &[PassRecord]) {
 #[track_caller]
 fn assert_balance(scene: &Scene, run: &Run) {
     let profile = &run.force_profile;
-    let largest = profile
-        .force_n
-        .iter()
-        .fold(0.0_f64, |most, force| most.max(force.abs()));
+    let largest = largest(profile.force_n.iter().copied());
     let places = profile.positions_m.windows(2).zip(profile.force_n.windows(2));
     for (x, force) in places {
         let friction = 1.01 * limit(scene) * (x[1] - x[0]);

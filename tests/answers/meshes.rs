@@ -61,10 +61,7 @@ fn assert_covered(scene: &Scene, exact: &Run, tolerance: f64) {
     let stated = &run.error_estimate;
     // What leaving out inertia costs no run without it can show.
     let of_force = stated.relative - stated.parts.inertia;
-    assert!(
-        force <= of_force,
-        "{force} of the force at {tolerance}: {stated:?}"
-    );
+    assert!(force <= of_force, "{force} {tolerance} {stated:?}");
     assert!(
         movement <= stated.parts.movement,
         "{movement} of the movement at {tolerance}: {stated:?}"

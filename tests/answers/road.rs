@@ -2,9 +2,9 @@
 
 use creepage::scene::GroundModel;
 use creepage::{PassRecord, Run, Scene, Stage};
-use fastrand::Rng;
 
 use super::common::{LOWER_AXLES, UPPER, answer, looked_at, scene};
+use super::long_term;
 
 /// As good as no end of the road \[m\].
 const FAR: f64 = 300.0;
@@ -198,69 +198,11 @@ fn a_short_road_that_the_scene_names_is_stated_as_an_error() {
     assert!(answered >= 24, "{answered} of 48 have an answer");
 }
 
-/// One of many roads: soil or layers, rock or none, one wheel to six, one direction or two.
-fn random(seed: u64) -> Scene {
-    let mut rng = Rng::with_seed(seed);
-    let mut between = |low: f64, high: f64| low + (high - low) * rng.f64();
-    let depth = between(0.6, 3.0);
-    let duct = format!(
-        "duct = {{ length = {}, depth = {depth}, lateral_offset = {} }}",
-        between(12.0, 40.0),
-        between(0.0, 1.0)
-    );
-    let base = if between(0.0, 1.0) < 0.5 {
-        format!("rigid_base_depth = {}, ", between(depth + 2.0, 25.0))
-    } else {
-        String::new()
-    };
-    let top = if between(0.0, 1.0) < 0.5 {
-        format!(
-            "{{ thickness = {}, young_modulus = {}, poisson_ratio = 0.35 }}, ",
-            between(0.05, 0.5),
-            between(1e9, 6e9)
-        )
-    } else {
-        String::new()
-    };
-    let soil = format!(
-        "{{ young_modulus = {}, poisson_ratio = {} }}",
-        between(5e7, 9e8),
-        between(0.2, 0.48)
-    );
-    let friction = format!(
-        "friction = {{ dynamic_coefficient = {}, shape_factor = {} }}",
-        between(0.15, 0.7),
-        10_f64.powf(between(6.0, 8.0))
-    );
-    let axle = |x: f64, load: f64| {
-        format!("{{ x = {x}, y = 0.9, load = {load} }}, {{ x = {x}, y = -0.9, load = {load} }}, ")
-    };
-    let mut wheels = axle(0.0, between(3e4, 8e4));
-    if between(0.0, 1.0) < 0.6 {
-        wheels += &axle(-between(1.3, 7.0), between(3e4, 8e4));
-    }
-    let back = if between(0.0, 1.0) < 0.3 {
-        ", { name = \"b\", speed = 10, load = 1e5, direction = \"reverse\" }"
-    } else {
-        ""
-    };
-    let vehicles = format!("vehicles = [{{ name = \"a\", speed = 10, wheels = [{wheels}] }}{back}]");
-    scene(&[
-        &UPPER,
-        &[
-            &duct,
-            &ground(&base, &format!("layers = [{top}{soil}]")),
-            &friction,
-            &vehicles,
-        ],
-    ])
-}
-
 /// Tries random roads; the share of them that have an answer.
 fn try_seeds(seeds: std::ops::Range<u64>, passes: u64) -> f64 {
     let (mut answered, count) = (0, seeds.end - seeds.start);
     for seed in seeds {
-        let scene = meshed(random(seed), passes);
+        let scene = meshed(long_term::random(seed), passes);
         let Some(far) = followed_far_enough(&scene, &[1, passes]) else {
             continue;
         };

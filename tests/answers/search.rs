@@ -1,53 +1,6 @@
-//! The search for jumps: it reports how far it is and may be stopped, and says what it stands on.
-
-use std::ops::ControlFlow;
-use std::sync::Mutex;
-
-use creepage::{Error, Progress, RunOptions};
+//! Jumps over sequences of any length, and a motion that is known far out.
 
 use super::common::upper;
-
-/// Shares that a run of a million passes reports, until `last` of them.
-fn reported(last: usize) -> (Vec<f64>, Result<creepage::Run, Error>) {
-    let shares = Mutex::new(Vec::new());
-    let callback = |share| {
-        let mut shares = shares.lock().expect("no panic");
-        shares.push(share);
-        if shares.len() < last {
-            ControlFlow::Continue(())
-        } else {
-            ControlFlow::Break(())
-        }
-    };
-    let options = RunOptions {
-        progress: Progress::new(&callback),
-        ..RunOptions::default()
-    };
-    let run = creepage::run_with(
-        &upper(&[
-            "duct = { length = 20, depth = 1.2 }",
-            "traffic = { passes = 1000000 }",
-        ]),
-        &options,
-    );
-    (shares.into_inner().expect("no panic"), run)
-}
-
-#[test]
-fn the_progress_of_jumps_never_falls() {
-    let (shares, run) = reported(usize::MAX);
-    run.expect("an answer");
-    assert!(shares.windows(2).all(|pair| pair[0] <= pair[1]));
-    assert!(shares.first().is_some_and(|&first| first < 0.05));
-    assert!(shares.last().is_some_and(|&last| last > 0.5 && last <= 1.0));
-}
-
-#[test]
-fn the_search_for_jumps_may_be_stopped_at_its_first_pass() {
-    let (shares, run) = reported(1);
-    assert!(matches!(run, Err(Error::Stopped)));
-    assert_eq!(shares.len(), 1);
-}
 
 /// A sequence is computed as it is, however long: written out a hundred times it is the same traffic.
 #[test]

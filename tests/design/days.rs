@@ -2,7 +2,7 @@
 
 use creepage::{Limited, Place, Scene};
 
-use super::grid::{WARM, check_none, designed, excess, held, reached, scene};
+use super::grid::{WARM, check_none, designed, held, reached, scene};
 
 #[test]
 fn heat_counts_with_its_hottest_force_and_its_coldest_movement() {
@@ -26,31 +26,6 @@ fn heat_counts_with_its_hottest_force_and_its_coldest_movement() {
     assert!((with.downstream_movement_m / moved - 1.0).abs() < 1e-12);
     let both = [limit[0], (places[0], Limited::Movement, 0.6 * moved)];
     check_none(&warm, &places, &both);
-}
-
-#[test]
-fn a_slope_counts() {
-    let (level, steep) = (scene(&[]), scene(&["duct.slope=-12 deg"]));
-    let places = [Place::Downstream];
-    let fixed = |scene: &Scene| reached(&held(scene, &[]), places[0], Limited::Force);
-    assert!(
-        fixed(&steep) > 1.1 * fixed(&level),
-        "{} {}",
-        fixed(&steep),
-        fixed(&level)
-    );
-    let limit = [(places[0], Limited::Force, fixed(&level))];
-    assert_eq!(
-        designed(&level, &places, &limit)
-            .answer
-            .expect("kept")
-            .stiffness_n_per_m,
-        None
-    );
-    let spring = designed(&steep, &places, &limit).answer.expect("kept");
-    let stiffness = spring.stiffness_n_per_m.expect("a spring");
-    assert!(excess(&held(&steep, &[(places[0], stiffness)]), &limit) <= 1.0);
-    assert!(excess(&held(&steep, &[(places[0], 1.05 * stiffness)]), &limit) > 1.0);
 }
 
 #[test]

@@ -1,11 +1,8 @@
 //! One spring or clamp.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use creepage::design::{Design, DesignError, DesignOptions, Limits, Place, design};
+use creepage::design::{Design, DesignOptions, Limits, Place, design};
 use creepage::scene::End;
-use creepage::{Error, Limited, Progress, Run, Scene};
+use creepage::{Limited, Run, Scene};
 
 use super::grid::{self, largest_of_ends};
 
@@ -86,61 +83,6 @@ fn both_limits_leave_a_range_or_none() {
     assert!(free.curve[0].within_limits);
 }
 
-#[test]
-fn each_end_has_its_own_limits() {
-    let scene = scene();
-    let mut limits = Limits::default();
-    limits.downstream.force_n = Some(200.0);
-    let force = design(&scene, &DesignOptions::new(Place::Downstream, limits.clone())).unwrap();
-    let spring = force.answer.unwrap();
-    // The upstream end is free: it moves farther, which counts only where it is limited.
-    assert!(spring.upstream_movement_m > spring.downstream_movement_m);
-    limits.downstream.movement_m = Some(1.1 * spring.downstream_movement_m);
-    let own = design(&scene, &DesignOptions::new(Place::Downstream, limits.clone())).unwrap();
-    let answer = own.answer.unwrap();
-    assert!(
-        answer.downstream_movement_m <= 1.1 * spring.downstream_movement_m
-            && answer.downstream_force_n <= 200.0
-    );
-    assert_eq!(own.nearest, None);
-    limits.upstream.movement_m = Some(0.5 * answer.upstream_movement_m);
-    let all = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
-    assert_eq!(all.answer, None);
-}
-
-#[test]
-fn the_nearest_exceeds_its_worst_limit_by_the_smallest_factor() {
-    let scene = scene();
-    let fixed = largest_force(&creepage::run(&scene).unwrap());
-    let (force, movement) = (0.2 * fixed, 0.2e-3);
-    let mut limits = Limits::default();
-    (limits.downstream.force_n, limits.downstream.movement_m) = (Some(force), Some(movement));
-    let design = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
-    assert_eq!(design.answer, None);
-    let nearest = design.nearest.unwrap();
-    let excess = |force_n: f64, moved: f64| (force_n / force).max(moved / movement);
-    let found = excess(nearest.downstream_force_n, nearest.downstream_movement_m);
-    assert!(found > 1.0);
-    // Force and movement weigh the same there, and no stiffness of a scan is better.
-    let own = scene.cable.axial_stiffness / scene.duct.length;
-    for k in -8..=8 {
-        let run = held(&scene, own * 10_f64.powf(f64::from(k) / 6.0));
-        let moved = run
-            .passes
-            .iter()
-            .map(|p| p.downstream_displacement_m.abs())
-            .fold(0.0, f64::max);
-        assert!(excess(largest_force(&run), moved) > 0.98 * found, "{k}");
-    }
-}
-
-#[test]
-fn an_end_that_may_be_fixed_is_fixed() {
-    let design = designed(&scene(), Place::Downstream, 1e4, None);
-    assert_eq!(design.range_n_per_m, Some((0.0, None)));
-    assert_eq!(design.answer.unwrap().stiffness_n_per_m, None);
-}
-
 /// Ten million passes drive a cable that nothing holds out of its duct: a limit of force alone is no leave to do so.
 #[test]
 fn no_answer_lets_the_cable_leave_the_duct() {
@@ -177,37 +119,6 @@ fn a_clamp_is_as_soft_as_the_limit_allows() {
     // None is needed where the ends keep the limit without one.
     let none = designed(&scene, place, 2.0 * fixed, None);
     assert_eq!(none.answer.unwrap().stiffness_n_per_m, Some(0.0));
-}
-
-#[test]
-fn years_of_traffic_are_passes_of_the_law() {
-    let mut scene = scene();
-    scene.solver.tolerance = 0.05;
-    scene.duct.length = 30.0;
-    scene.traffic.passes = 5_844_000;
-    let design = designed(&scene, Place::Downstream, 520.0, None);
-    let answer = design.answer.unwrap();
-    let run = held(&scene, answer.stiffness_n_per_m.unwrap());
-    assert_eq!(run.plan.cable, "pass-law");
-    assert!(answer.force_n <= 520.0 && largest_force(&run) == answer.force_n);
-}
-
-#[test]
-fn the_progress_grows_and_may_stop_the_search() {
-    let mut options = DesignOptions::new(Place::Downstream, Limits::both(Some(150.0), None));
-    let calls = AtomicUsize::new(0);
-    let stop = |share: f64| {
-        assert!((0.0..=1.0).contains(&share), "{share}");
-        match calls.fetch_add(1, Ordering::Relaxed) {
-            // The passes of the run that chooses the mesh, then some of the curve.
-            0..20 => ControlFlow::Continue(()),
-            _ => ControlFlow::Break(()),
-        }
-    };
-    options.progress = Progress::new(&stop);
-    let error = design(&scene(), &options).expect_err("stopped");
-    assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
-    assert!(!error.is_bad_input());
 }
 
 #[test]

@@ -181,15 +181,6 @@ impl Browser {
         let complaints = self.events.iter().filter(is_complaint);
         complaints.filter(|event| !is_refusal(event)).cloned().collect()
     }
-
-    /// The whole page as a PNG.
-    pub fn screenshot(&mut self) -> Vec<u8> {
-        let shot = self.call(
-            "Page.captureScreenshot",
-            &json!({ "captureBeyondViewport": true }),
-        );
-        base64(shot["data"].as_str().expect("a picture"))
-    }
 }
 
 impl Drop for Browser {
@@ -203,22 +194,4 @@ fn bytes(stream: &mut TcpStream, count: usize) -> Vec<u8> {
     let mut bytes = vec![0; count];
     stream.read_exact(&mut bytes).expect("an answer of the browser");
     bytes
-}
-
-/// The bytes of a text in base 64 (RFC 4648).
-fn base64(text: &str) -> Vec<u8> {
-    let digit = |letter: u8| match letter {
-        b'A'..=b'Z' => u32::from(letter - b'A'),
-        b'a'..=b'z' => u32::from(letter - b'a') + 26,
-        b'0'..=b'9' => u32::from(letter - b'0') + 52,
-        b'+' => 62,
-        _ => 63,
-    };
-    let letters: Vec<u8> = text.bytes().filter(|letter| *letter != b'=').collect();
-    let group = |letters: &[u8]| -> Vec<u8> {
-        let bits =
-            letters.iter().fold(0, |bits, letter| bits << 6 | digit(*letter)) << (6 * (4 - letters.len()));
-        bits.to_be_bytes()[1..letters.len()].to_vec()
-    };
-    letters.chunks(4).flat_map(group).collect()
 }

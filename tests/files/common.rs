@@ -1,6 +1,7 @@
 //! A folder of a test's own, commands in it, and what they leave there.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -8,88 +9,51 @@ use std::process::{Command, Output, Stdio};
 
 use calamine::{Reader, Xlsx};
 
+use crate::command::words;
+
 /// A scene that is computed within milliseconds.
-pub const SCENE: &str = "title = \"Small\"
-[duct]
-length = \"20 m\"
-depth = \"1.2 m\"
-[[ground.layers]]
-young_modulus = \"300 MPa\"
-poisson_ratio = 0.4
-[cable]
-weight = \"108.8 N/m\"
-axial_stiffness = \"8.01e6 N\"
-[friction]
-dynamic_coefficient = 0.25
-shape_factor = \"7e6 1/m\"
-[ends]
-upstream = \"free\"
-downstream = \"fixed\"
-[[vehicles]]
-name = \"truck\"
-speed = \"40 km/h\"
-load = \"20 tf\"
-[traffic]
-passes = 5
-[solver]
-method = \"quasi-static\"
-node_spacing = \"0.5 m\"
-tolerance = 0.5
-";
+pub const SCENE: &str = r#"title = "Small"
+duct = { length = "20 m", depth = "1.2 m" }
+ground = { layers = [{ young_modulus = "300 MPa", poisson_ratio = 0.4 }] }
+cable = { weight = "108.8 N/m", axial_stiffness = "8.01e6 N" }
+friction = { dynamic_coefficient = 0.25, shape_factor = "7e6 1/m" }
+ends = { upstream = "free", downstream = "fixed" }
+vehicles = [{ name = "truck", speed = "40 km/h", load = "20 tf" }]
+traffic = { passes = 5 }
+solver = { method = "quasi-static", node_spacing = "0.5 m", tolerance = 0.5 }
+"#;
 /// Readings for it.
 pub const READINGS: &str = "pass,force_n\n1,110\n2,160\n3,200\n4,220\n5,240\n";
 /// What nobody wants to lose.
 pub const PRECIOUS: &str = "notes of a whole year\n";
-/// What reads a scene and writes: each command without its output's flag, which is the last word, and the output's ending.
-pub const WRITERS: [(&[&str], &str); 8] = [
-    (&["run", "scene.toml", "--xlsx"], "xlsx"),
+pub const SWEEP: &str = "sweep scene.toml --vary duct.depth=1,2";
+pub const MAP: &str = "sweep scene.toml --vary duct.depth=1,2 --vary duct.length=20m,30m";
+/// What reads a scene and writes: each command without its output, and the output's ending. OUT is the table of a sweep with a map.
+pub const WRITERS: [(&str, &str); 8] = [
+    ("run scene.toml --xlsx", "xlsx"),
+    ("sweep scene.toml --vary duct.depth=1,2 --out", "xlsx"),
+    ("run scene.toml --csv", "csv"),
+    ("profile scene.toml --positions 0,1 --csv", "csv"),
     (
-        &["sweep", "scene.toml", "--vary", "duct.depth=1,2", "--out"],
-        "xlsx",
-    ),
-    (&["run", "scene.toml", "--csv"], "csv"),
-    (&["profile", "scene.toml", "--positions", "0,1", "--csv"], "csv"),
-    (
-        &[
-            "calibrate",
-            "scene.toml",
-            "--data",
-            "data.csv",
-            "--fit",
-            "dynamic_coefficient",
-            "--csv",
-        ],
+        "calibrate scene.toml --data data.csv --fit dynamic_coefficient --csv",
         "csv",
     ),
+    ("sweep scene.toml --vary duct.depth=1,2 --out", "csv"),
     (
-        &["sweep", "scene.toml", "--vary", "duct.depth=1,2", "--out"],
-        "csv",
-    ),
-    (
-        &[
-            "sweep",
-            "scene.toml",
-            "--vary",
-            "duct.depth=1,2",
-            "--vary",
-            "duct.length=20m,30m",
-            "--out",
-            "table.csv",
-            "--map",
-        ],
+        "sweep scene.toml --vary duct.depth=1,2 --vary duct.length=20m,30m --out OUT --map",
         "svg",
     ),
-    (&["report", "scene.toml", "--data", "data.csv", "-o"], "html"),
+    ("report scene.toml --data data.csv -o", "html"),
 ];
 
-/// A folder with a scene and readings.
+/// A folder with a scene, readings and a folder.
 pub struct Folder(PathBuf);
 
 impl Folder {
     pub fn new(test: &str) -> Self {
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("files").join(test);
         let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).expect("a folder");
+        fs::create_dir_all(path.join("sub")).expect("a folder");
         let folder = Self(path);
         folder.write("scene.toml", SCENE);
         folder.write("data.csv", READINGS);
@@ -108,41 +72,49 @@ impl Folder {
         fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    pub fn command(&self, program: &str, arguments: &[&str]) -> Command {
+    pub fn remove(&self, name: &str) {
+        let _ = fs::remove_file(self.path(name));
+    }
+
+    pub fn command(&self, program: &str, arguments: &[impl AsRef<OsStr>]) -> Command {
         let mut command = Command::new(program);
         command.current_dir(&self.0).args(arguments).stdin(Stdio::null());
         command
     }
 
-    /// Runs the command `creepage` in this folder.
-    pub fn creepage(&self, arguments: &[&str]) -> Output {
-        self.command(creepage(), arguments)
-            .output()
-            .expect("the command starts")
+    /// The command `creepage` with the words of a line, its output piped.
+    pub fn piped(&self, line: &str) -> Command {
+        let mut command = self.command(creepage(), &words(line));
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
     }
 
-    /// Runs `creepage` after a line of shell, such as one that sets limits.
-    pub fn creepage_after(&self, line: &str, arguments: &[&str]) -> Output {
-        let line = format!("{line}\nexec \"$0\" \"$@\"");
-        let arguments = [&["-c", &line, creepage()], arguments].concat();
-        self.command("sh", &arguments).output().expect("the shell starts")
+    pub fn creepage(&self, line: &str) -> Output {
+        self.piped(line).output().expect("the command starts")
+    }
+
+    /// The same after a line of shell, such as one that sets limits.
+    pub fn creepage_after(&self, shell: &str, line: &str) -> Output {
+        let shell = format!("{shell}\nexec \"$0\" \"$@\"");
+        let mut command = self.command("sh", &["-c", &shell, creepage()]);
+        command.args(words(line)).output().expect("the shell starts")
     }
 
     #[track_caller]
-    pub fn succeeds(&self, arguments: &[&str]) -> Output {
-        let output = self.creepage(arguments);
-        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", said(&output));
+    pub fn succeeds(&self, line: &str) -> Output {
+        let output = self.creepage(line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", said(&output));
         output
     }
 
     /// Asserts that the command is refused and changes nothing.
     #[track_caller]
-    pub fn refused(&self, arguments: &[&str], part: &str) {
+    pub fn refused(&self, line: &str, part: &str) {
         let before = self.contents();
-        let output = self.creepage(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));
-        assert!(said(&output).contains(part), "{arguments:?}: {}", said(&output));
-        assert!(self.contents() == before, "{arguments:?} changed a file");
+        let output = self.creepage(line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", said(&output));
+        assert!(said(&output).contains(part), "{line}: {}", said(&output));
+        assert!(self.contents() == before, "{line} changed a file");
     }
 
     pub fn mode(&self, name: &str) -> u32 {
@@ -164,25 +136,25 @@ impl Folder {
 
     /// Everything in the folder by its name: the bytes of files, and where links lead.
     pub fn contents(&self) -> BTreeMap<String, Vec<u8>> {
-        let entries = fs::read_dir(&self.0).expect("the folder");
         let content = |path: &Path| match fs::read_link(path) {
             Ok(link) => format!("-> {}", link.display()).into_bytes(),
             Err(_) if path.is_file() => fs::read(path).expect("a file"),
             Err(_) => b"something else".to_vec(),
         };
-        entries
-            .map(|entry| {
-                let entry = entry.expect("an entry");
-                let name = entry.file_name().into_string().expect("a name");
-                (name, content(&entry.path()))
-            })
+        let names = self.names().into_iter();
+        names
+            .map(|name| (name.clone(), content(&self.path(&name))))
             .collect()
     }
 
+    /// The names in the folder, and in the one within it.
     pub fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).expect("the folder");
-        let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("a name");
-        entries.map(|entry| name(entry.expect("an entry"))).collect()
+        let within = |folder: &Path, begin: &str| -> Vec<String> {
+            let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+            let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("a name");
+            entries.map(|entry| format!("{begin}{}", name(entry))).collect()
+        };
+        [within(&self.0, ""), within(&self.path("sub"), "sub/")].concat()
     }
 }
 
@@ -205,8 +177,7 @@ pub fn assert_complete(content: &[u8], ending: &str) {
             assert!(rows.len() >= 2 && content.ends_with(b"\n"), "{}", text());
         }
         "xlsx" => {
-            let book = Xlsx::new(std::io::Cursor::new(content));
-            let mut book = book.expect("a workbook");
+            let mut book = Xlsx::new(std::io::Cursor::new(content)).expect("a workbook");
             assert_eq!(book.sheet_names().last().map(String::as_str), Some("scene"));
             for (name, sheet) in book.worksheets() {
                 assert!(sheet.height() >= 2, "{name}");

@@ -1,109 +1,51 @@
 //! What a long command says while it goes on, and what it leaves when it is stopped.
 
-use std::os::unix::process::ExitStatusExt;
-use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use super::common::{Folder, creepage};
-use super::signals::send;
+use super::common::{Folder, creepage, said};
+use super::signals::{SIGNALS, ended_by, send};
 
-/// Minutes of work.
-const PASSES: u64 = 900_000;
-
-/// How a command ended that was stopped after `time`, and what it printed.
-struct Stopped {
-    status: ExitStatus,
-    printed: String,
-    said: String,
-}
-
-impl Stopped {
-    fn after(time: Duration, folder: &Folder, arguments: &[&str], signal: &str) -> Self {
-        let child = folder
-            .command(creepage(), arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("a process");
-        std::thread::sleep(time);
-        let asked = Instant::now();
-        send(folder, &child, signal);
-        let output = child.wait_with_output().expect("it ends");
-        let took = asked.elapsed();
-        assert!(
-            took < Duration::from_secs(1),
-            "{arguments:?} took {took:?} to end"
-        );
-        Self {
-            status: output.status,
-            printed: String::from_utf8(output.stdout).expect("UTF-8"),
-            said: String::from_utf8(output.stderr).expect("UTF-8"),
-        }
-    }
-}
-
-#[test]
-fn a_stopped_run_says_so_and_leaves_an_older_table() {
-    let folder = Folder::new("stopped-run");
-    folder.succeeds(&["run", "scene.toml", "--csv", "table.csv"]);
-    let before = folder.read("table.csv");
-    let passes = format!("traffic.passes={PASSES}");
-    for (signal, number) in [("INT", 2), ("TERM", 15)] {
-        for output in [&["--csv", "table.csv"][..], &["--json"]] {
-            let run = [&["run", "scene.toml", "--set", &passes][..], output].concat();
-            let stopped = Stopped::after(Duration::from_millis(500), &folder, &run, signal);
-            let status = stopped.status;
-            let ended = status.signal().or(status.code().map(|code| code - 128));
-            assert_eq!(ended, Some(number), "{}", stopped.said);
-            // What is not finished is no answer.
-            assert_eq!(stopped.printed, "");
-            assert!(stopped.said.contains("stopped: "), "{}", stopped.said);
-            assert_eq!(folder.read("table.csv"), before);
-        }
-    }
-}
-
-#[test]
-fn a_stopped_search_has_no_answer() {
-    let folder = Folder::new("stopped-design");
-    let design = [
-        "design",
-        "scene.toml",
-        "--limit-force",
-        "100N",
-        "--json",
-        "--set",
-        "traffic.passes=40000",
-    ];
-    let stopped = Stopped::after(Duration::from_secs(1), &folder, &design, "INT");
-    assert_eq!(stopped.status.code(), Some(130), "{}", stopped.said);
-    assert_eq!(stopped.printed, "");
-    assert!(stopped.said.contains("stopped: "), "{}", stopped.said);
-}
-
-#[test]
-fn a_stopped_sweep_says_what_it_keeps() {
-    let folder = Folder::new("cut-short-sweep");
-    let sweep = [
-        "sweep",
-        "scene.toml",
-        "--out",
-        "table.csv",
-        "--set",
-        "traffic.passes=300",
-        "--vary",
-    ];
-    let sweep = [&sweep[..], &["friction.dynamic_coefficient=0.001:1:0.001"]].concat();
-    let stopped = Stopped::after(Duration::from_secs(1), &folder, &sweep, "INT");
-    assert_eq!(stopped.status.code(), Some(130), "{}", stopped.said);
-    let said = "the finished points are kept beside table.csv; the same command goes on from there";
-    assert!(stopped.said.contains(said), "{}", stopped.said);
-    let names = folder.names();
+/// Stops a command after `time`, which ends within a second without an answer and says so; what it says.
+#[track_caller]
+fn stopped_after(time: Duration, folder: &Folder, line: &str, (signal, number): (&str, i32)) -> String {
+    let child = folder.piped(line).spawn().expect("a process");
+    std::thread::sleep(time);
+    let asked = Instant::now();
+    send(folder, &child, signal);
+    let output = child.wait_with_output().expect("it ends");
     assert!(
-        names.iter().any(|name| name == "table.csv.unfinished"),
-        "{names:?}"
+        asked.elapsed() < Duration::from_secs(1),
+        "{line} took {:?} to end",
+        asked.elapsed()
     );
-    assert!(!names.iter().any(|name| name == "table.csv"), "{names:?}");
+    let said = said(&output);
+    assert_eq!(ended_by(output.status), Some(number), "{said}");
+    assert!(output.stdout.is_empty() && said.contains("stopped: "), "{said}");
+    said
+}
+
+#[test]
+fn a_stopped_command_says_so_and_leaves_an_older_table() {
+    let folder = Folder::new("stopped-run");
+    folder.succeeds("run scene.toml --csv table.csv");
+    let before = folder.contents();
+    let half = Duration::from_millis(500);
+    for signal in SIGNALS {
+        for output in ["--csv table.csv", "--json"] {
+            // Minutes of work.
+            let run = format!("run scene.toml --set traffic.passes=900000 {output}");
+            stopped_after(half, &folder, &run, signal);
+            assert!(folder.contents() == before);
+        }
+    }
+    let design = "design scene.toml --limit-force 100N --json --set traffic.passes=40000";
+    stopped_after(2 * half, &folder, design, SIGNALS[0]);
+    let sweep = "sweep scene.toml --out new.csv --set traffic.passes=300 --vary friction.dynamic_coefficient=0.001:1:0.001";
+    let said = stopped_after(2 * half, &folder, sweep, SIGNALS[0]);
+    let kept = "the finished points are kept beside new.csv; the same command goes on from there";
+    assert!(said.contains(kept), "{said}");
+    folder.remove("new.csv.unfinished");
+    assert!(folder.contents() == before);
 }
 
 /// What takes long shows its share and the time left at a terminal, and nothing elsewhere.
@@ -116,25 +58,21 @@ fn a_long_run_says_how_far_it_is() {
         // A fine mesh keeps the jumps busy too.
         let run = format!("run scene.toml --set solver.node_spacing=0.01 --set {scene}");
         let stopped = format!("timeout --foreground -s INT 4 '{}' {run}", creepage());
-        let output = folder
-            .command("script", &["-qec", &stopped, "/dev/null"])
-            .output();
-        let output = String::from_utf8(output.expect("a terminal").stdout).expect("UTF-8");
+        let mut script = folder.command("script", &["-qec", &stopped, "/dev/null"]);
+        let output = script.output().expect("a terminal");
+        let output = String::from_utf8(output.stdout).expect("UTF-8");
         let line = output
             .split("\r\x1b[K")
             .nth(1)
             .unwrap_or_else(|| panic!("{run}: {output}"));
         let (share, _) = line.split_once(" %").expect("a share");
+        let share: f64 = share.parse().expect("a number");
         assert!(
-            (0.0..=100.0).contains(&share.parse::<f64>().expect("a number")),
+            (0.0..=100.0).contains(&share) && line.ends_with(" left"),
             "{line}"
         );
-        assert!(line.ends_with(" left"), "{line}");
     }
-    let arguments: Vec<&str> = ["run", "scene.toml", "--set"]
-        .into_iter()
-        .chain(every_pass.split(' '))
-        .collect();
-    let stopped = Stopped::after(Duration::from_secs(3), &folder, &arguments, "INT");
-    assert!(stopped.said.starts_with("stopped: "), "{}", stopped.said);
+    let run = format!("run scene.toml --set {every_pass}");
+    let said = stopped_after(Duration::from_secs(3), &folder, &run, SIGNALS[0]);
+    assert!(said.starts_with("stopped: "), "{said}");
 }

@@ -2,18 +2,15 @@
 
 use std::time::{Duration, Instant};
 
-use super::common::{Folder, SCENE, said};
+use super::common::{Folder, SCENE, SWEEP, creepage, said};
 
 /// Orders for a terminal: a colour, a title, a bell, DEL, one of C1, and a turn of the direction of writing.
 const ORDERS: &str = "\u{1b}[31m\u{1b}]0;x\u{7}\u{7f}\u{9b}2J\u{202e}\u{2066}\r";
 
 /// The orders as a text of TOML has them.
 fn escaped() -> String {
-    let codes: Vec<String> = ORDERS
-        .chars()
-        .map(|c| format!("\\u{:04x}", u32::from(c)))
-        .collect();
-    codes.concat()
+    let codes = ORDERS.chars().map(|c| format!("\\u{:04x}", u32::from(c)));
+    codes.collect()
 }
 
 #[track_caller]
@@ -25,49 +22,43 @@ fn assert_harmless(text: &[u8]) {
     assert!(!text.contains(bad), "{text:?}");
 }
 
+/// Asserts that the command is refused, TEXT being one of its words or a part of one; what it says.
+#[track_caller]
+fn refused(folder: &Folder, line: &str, text: &str) -> String {
+    let words: Vec<String> = line.split(' ').map(|word| word.replace("TEXT", text)).collect();
+    let output = folder.command(creepage(), &words).output().expect("an answer");
+    let said = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{line}: {said:.200}");
+    assert!(said.starts_with("error: "), "{said:.200}");
+    said
+}
+
 #[test]
 fn no_answer_gives_orders_to_a_terminal() {
     let folder = Folder::new("orders");
-    let escaped = escaped();
-    folder.write(
-        "scene.toml",
-        SCENE
-            .replace("Small", &format!("A{escaped}B\\nnext line"))
-            .replace("truck", &escaped),
-    );
-    for arguments in [
-        &["run", "scene.toml"][..],
-        &["check", "scene.toml"],
-        &["plan", "scene.toml"],
-        &["profile", "scene.toml"],
-        &[
-            "calibrate",
-            "scene.toml",
-            "--data",
-            "data.csv",
-            "--fit",
-            "dynamic_coefficient",
-        ],
-        &["design", "scene.toml", "--limit-force", "100 N"],
-        &[
-            "sweep",
-            "scene.toml",
-            "--vary",
-            "duct.depth=1,2",
-            "--out",
-            "out.csv",
-        ],
+    let title = SCENE.replace("Small", &format!("A{}B\\nnext line", escaped()));
+    folder.write("scene.toml", title.replace("truck", &escaped()));
+    for (line, shows_title) in [
+        ("run scene.toml", true),
+        ("check scene.toml", true),
+        ("plan scene.toml", true),
+        ("profile scene.toml", false),
+        (
+            "calibrate scene.toml --data data.csv --fit dynamic_coefficient",
+            true,
+        ),
+        ("design scene.toml --limit-force 100N", false),
+        (&format!("{SWEEP} --out out.csv"), false),
     ] {
-        let output = folder.succeeds(arguments);
+        let output = folder.succeeds(line);
         assert_harmless(&output.stdout);
         assert_harmless(&output.stderr);
-        if matches!(arguments[0], "run" | "check" | "plan" | "calibrate") {
-            let out = String::from_utf8_lossy(&output.stdout);
-            assert!(out.contains("A\u{fffd}") && !out.contains("\nnext line"), "{out}");
-        }
+        let out = String::from_utf8_lossy(&output.stdout);
+        assert!(out.contains("A\u{fffd}") || !shows_title, "{out}");
+        assert!(!out.contains("\nnext line"), "{out}");
     }
     // A document escapes what it holds, and loses nothing.
-    let document = folder.succeeds(&["run", "scene.toml", "--json"]).stdout;
+    let document = folder.succeeds("run scene.toml --json").stdout;
     let document: serde_json::Value = serde_json::from_slice(&document).expect("JSON");
     assert_eq!(document["title"], format!("A{ORDERS}B\nnext line"));
 }
@@ -75,34 +66,27 @@ fn no_answer_gives_orders_to_a_terminal() {
 #[test]
 fn no_error_gives_orders_to_a_terminal() {
     let folder = Folder::new("errors");
-    let escaped = escaped();
-    folder.write("key.toml", format!("{SCENE}\"foo{escaped}bar\" = 1\n"));
+    folder.write("key.toml", format!("{SCENE}\"foo{}bar\" = 1\n", escaped()));
     folder.write("data.csv", format!("pass,force_n\n1,{}\n", ORDERS.trim_end()));
     folder.write("raw.toml", format!("title = \"{ORDERS}\"\n{SCENE}"));
-    let named = format!("named{ORDERS}.toml");
-    folder.write(&named, "duct = 1\n");
-    let set = |key: &str| format!("{key}{ORDERS}x");
-    let (law, depth, key) = (set("friction.law="), set("duct.depth=1 "), set("duct."));
-    for arguments in [
-        &["check", "key.toml"][..],
-        &["check", "raw.toml"],
-        &["check", &named],
-        &["check", "no-such\u{1b}[2J.toml"],
-        &["check", "scene.toml", "--set", &law],
-        &["check", "scene.toml", "--set", &depth],
-        &["check", "scene.toml", "--set", &key],
-        &["calibrate", "scene.toml", "--data", "data.csv"],
-        &["sweep", "scene.toml", "--out", "out.csv", "--vary", &key],
-        &["run", "scene.toml", "--csv", "no\u{1b}[2J/such"],
-        &[ORDERS],
-        &["run", "scene.toml", ORDERS],
-        &["profile", "scene.toml", "--positions", ORDERS],
-        &["presets", ORDERS],
+    folder.write(&format!("named{ORDERS}.toml"), "duct = 1\n");
+    for line in [
+        "check key.toml",
+        "check raw.toml",
+        "check namedTEXT.toml",
+        "check no-suchTEXT.toml",
+        "check scene.toml --set friction.law=TEXT",
+        "check scene.toml --set duct.depth=1TEXT",
+        "check scene.toml --set duct.TEXTx",
+        "calibrate scene.toml --data data.csv",
+        "sweep scene.toml --out out.csv --vary duct.TEXTx",
+        "run scene.toml --csv noTEXT/such",
+        "TEXT",
+        "run scene.toml TEXT",
+        "profile scene.toml --positions TEXT",
+        "presets TEXT",
     ] {
-        let output = folder.creepage(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(said(&output).starts_with("error: "), "{}", said(&output));
-        assert_harmless(&output.stderr);
+        assert_harmless(refused(&folder, line, ORDERS).as_bytes());
     }
 }
 
@@ -110,56 +94,46 @@ fn no_error_gives_orders_to_a_terminal() {
 fn messages_are_bounded_whatever_they_are_about() {
     let folder = Folder::new("long");
     let long = "n".repeat(2_000_000);
-    let sequence = format!("[traffic]\npasses = 5\nsequence = [\"{long}\"]\n");
-    let unknown = SCENE.replace("[traffic]\npasses = 5\n", &sequence);
+    let unknown = SCENE.replace("passes = 5", &format!("passes = 5, sequence = [\"{long}\"]"));
     folder.write("sequence.toml", &unknown);
     folder.write("vehicle.toml", unknown.replace("truck", &format!("{long}m")));
     folder.write("key.toml", format!("{SCENE}{long} = 1\n"));
     folder.write("value.toml", SCENE.replace("40 km/h", &format!("40 {long}")));
     folder.write("data.csv", format!("pass,force_n\n1,{long}\n"));
-    let shorter = "n".repeat(100_000);
-    let set = format!("friction.law={shorter}");
-    let vary = format!("duct.depth=normal({shorter})");
-    for arguments in [
-        &["check", "sequence.toml"][..],
-        &["check", "vehicle.toml"],
-        &["check", "key.toml"],
-        &["check", "value.toml"],
-        &["calibrate", "scene.toml", "--data", "data.csv"],
-        &["check", "scene.toml", "--set", &set],
-        &["check", "scene.toml", "--set", &shorter],
-        &["sweep", "scene.toml", "--out", "out.csv", "--vary", &vary],
-        &["run", "scene.toml", "--csv", &shorter],
-        &["profile", "scene.toml", "--positions", &shorter],
-        &[&shorter],
+    for line in [
+        "check sequence.toml",
+        "check vehicle.toml",
+        "check key.toml",
+        "check value.toml",
+        "calibrate scene.toml --data data.csv",
+        "check scene.toml --set friction.law=TEXT",
+        "check scene.toml --set TEXT",
+        "sweep scene.toml --out out.csv --vary duct.depth=normal(TEXT)",
+        "run scene.toml --csv TEXT",
+        "profile scene.toml --positions TEXT",
+        "TEXT",
     ] {
-        let output = folder.creepage(arguments);
-        let said = said(&output);
-        assert_eq!(output.status.code(), Some(2), "{said:.200}");
-        assert!(
-            said.chars().count() < 2100,
-            "{} characters: {said:.300}",
-            said.chars().count()
-        );
-        assert!(said.starts_with("error: "), "{said}");
+        let said = refused(&folder, line, &long[..100_000]);
+        let length = said.chars().count();
+        assert!(length < 2100, "{length} characters: {said:.300}");
+        // What is allowed and the line at fault are still told.
+        if line.ends_with("sequence.toml") {
+            assert!(
+                said.contains("allowed: \"truck\"") && said.contains("^^^"),
+                "{said}"
+            );
+        }
     }
-    // What is allowed and the line at fault are still told.
-    let said = said(&folder.creepage(&["check", "sequence.toml"]));
-    assert!(
-        said.contains("… (2000002 characters); allowed: \"truck\"") && said.contains("^^^"),
-        "{said}"
-    );
 }
 
 #[test]
 fn readings_without_an_end_are_refused_with_little_memory() {
     let folder = Folder::new("endless");
     let begin = Instant::now();
-    let calibrate = ["calibrate", "scene.toml", "--data", "/dev/zero"];
-    let output = folder.creepage_after("ulimit -v 1000000", &calibrate);
+    let output = folder.creepage_after("ulimit -v 1000000", "calibrate scene.toml --data /dev/zero");
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
     assert!(
-        said(&output).contains("allowed: a table of at most 67108864 bytes"),
+        said(&output).contains("at most 67108864 bytes"),
         "{}",
         said(&output)
     );
@@ -169,30 +143,33 @@ fn readings_without_an_end_are_refused_with_little_memory() {
 #[test]
 fn a_cell_is_no_formula() {
     let folder = Folder::new("formula");
-    let formula = "vehicles.0.name==cmd|' /C calc'!A0,@SUM(A1),+1+1,-a,-1,plain";
-    folder.succeeds(&["sweep", "scene.toml", "--vary", formula, "--out", "out.csv"]);
-    let mut reader = csv::Reader::from_path(folder.path("out.csv")).expect("a table");
-    let cells: Vec<String> = reader
-        .records()
-        .map(|row| row.expect("a row")[0].to_owned())
-        .collect();
+    let formula = "vehicles.0.name==cmd|/C_calc!A0,@SUM(A1),+1+1,-a,-1,plain";
+    folder.succeeds(&format!("sweep scene.toml --vary {formula} --out out.csv"));
+    let (_, rows) = crate::command::table(&folder.path("out.csv"));
+    let cells: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
     assert_eq!(
         cells,
-        ["'=cmd|' /C calc'!A0", "'@SUM(A1)", "'+1+1", "'-a", "-1", "plain"]
+        ["'=cmd|/C_calc!A0", "'@SUM(A1)", "'+1+1", "'-a", "-1", "plain"]
     );
 }
 
 #[cfg(target_os = "linux")]
 #[test]
-fn help_that_cannot_be_written_is_an_error() {
-    let folder = Folder::new("help");
-    for arguments in [&["--help"][..], &["run", "--help"], &["--version"]] {
-        let output = folder.creepage_after("exec >/dev/full", arguments);
-        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
-        assert!(
-            said(&output).contains("standard output: cannot be written"),
-            "{}",
-            said(&output)
-        );
+fn what_cannot_be_printed_is_an_error() {
+    let folder = Folder::new("printed");
+    for line in [
+        "--help",
+        "run --help",
+        "--version",
+        "check scene.toml",
+        "profile scene.toml",
+        "profile scene.toml --json",
+    ] {
+        let output = folder.creepage_after("exec >/dev/full", line);
+        assert_eq!(output.status.code(), Some(1), "{line}");
+        let said = said(&output);
+        assert!(said.contains("standard output: cannot be written"), "{said}");
     }
+    let output = folder.creepage("profile scene.toml --csv /dev/full");
+    assert_eq!(output.status.code(), Some(1));
 }

@@ -3,73 +3,17 @@
 use fastrand::Rng;
 
 /// What is put in place of a number.
-const NUMBERS: [&str; 22] = [
-    "0",
-    "-0",
-    "-1",
-    "1",
-    "0.5",
-    "nan",
-    "inf",
-    "-inf",
-    "1e400",
-    "-1e400",
-    "1e-400",
-    "1e308",
-    "0x1f",
-    "1_000",
-    "1,5",
-    ".5",
-    "5.",
-    "1.2.3",
-    "+3",
-    "99999999999999999999999",
-    "18446744073709551615",
-    "1e9999999999",
-];
-/// What is put anywhere.
-const WORDS: [&str; 40] = [
-    "\"",
-    "'",
-    "\"\"\"",
-    "'''",
-    "[",
-    "]",
-    "[[",
-    "]]",
-    "{",
-    "}",
-    "=",
-    ",",
-    ".",
-    "#",
-    "\n",
-    "\r\n",
-    "\t",
-    " ",
-    "\\",
-    "\\u0000",
-    "\u{feff}",
-    "\u{1b}[2J",
-    "“",
-    "”",
-    "名",
-    "µ",
-    "²",
-    "%",
-    ":",
-    "(",
-    ")",
-    "true",
-    "1979-05-27",
-    "preset = \"t-25\"\n",
-    "[duct]\n",
-    "[[vehicles]]\n",
-    "spring",
-    "normal(1, 2)",
-    "fixed",
-    "m",
-];
+const NUMBERS: &str = "0 -0 -1 1 0.5 nan inf -inf 1e400 -1e400 1e-400 1e308 0x1f 1_000 1,5 .5 5. 1.2.3 +3 99999999999999999999999 \
+    18446744073709551615 1e9999999999";
+/// What is put anywhere, `|` between.
+const WORDS: &str = "\"|'|\"\"\"|'''|[|]|[[|]]|{|}|=|,|.|#|\n|\r\n|\t| |\\|\\u0000|\u{feff}|\u{1b}[2J|“|”|名|µ|²|%|:|(|)|true|1979-05-27|\
+    preset = \"t-25\"\n|[duct]\n|[[vehicles]]\n|spring|normal(1, 2)|fixed|m";
+
+fn word(random: &mut Rng) -> &'static str {
+    random
+        .choice(WORDS.split('|').collect::<Vec<_>>())
+        .unwrap_or_default()
+}
 
 /// One to four changes of `text`; `others` lend their lines.
 pub fn mutated(random: &mut Rng, text: &str, others: &[String]) -> String {
@@ -91,19 +35,18 @@ fn changed(random: &mut Rng, text: &str, others: &[String]) -> String {
             spliced(random, text, length, "")
         }
         2 => {
-            let word = random.choice(WORDS).unwrap_or_default();
+            let word = word(random);
             spliced(random, text, 0, word)
         }
         3 => {
-            let (length, word) = (random.usize(1..6), random.choice(WORDS).unwrap_or_default());
+            let (length, word) = (random.usize(1..6), word(random));
             spliced(random, text, length, word)
         }
         4 | 5 => other_number(random, text),
         6 => other_value(random, text),
         7 => other_line(random, text, others),
         _ => {
-            let word = random.choice(WORDS).unwrap_or_default();
-            let many = word.repeat(random.usize(1..200));
+            let many = word(random).repeat(random.usize(1..200));
             spliced(random, text, 0, &many)
         }
     }
@@ -127,7 +70,9 @@ fn other_number(random: &mut Rng, text: &str) -> String {
     let Some(&(start, end)) = random.choice(&numbers) else {
         return text.to_owned();
     };
-    let by = random.choice(NUMBERS).unwrap_or_default();
+    let by = random
+        .choice(NUMBERS.split(' ').collect::<Vec<_>>())
+        .unwrap_or_default();
     format!("{}{by}{}", &text[..start], &text[end..])
 }
 

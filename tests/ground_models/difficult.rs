@@ -119,15 +119,9 @@ fn far_along_a_long_duct(model: &str) {
     let profile = creepage::profile_at(&scene, &FAR.map(|point| point.0)).expect("profile");
     for (k, (position, along, down)) in FAR.into_iter().enumerate() {
         let gap = (profile.longitudinal_m[k] * 1e6 - along).abs() / 16.7509;
-        assert!(
-            gap < accuracy,
-            "{model}, {position} m: D_l off by {gap:.1e} of the peak"
-        );
+        assert!(gap < accuracy, "{model} {position} {gap:.1e}");
         let gap = (profile.vertical_m[k] * 1e6 - down).abs() / 166.707;
-        assert!(
-            gap < accuracy,
-            "{model}, {position} m: D_v off by {gap:.1e} of the peak"
-        );
+        assert!(gap < accuracy, "{model} {position} {gap:.1e}");
     }
 }
 

@@ -49,10 +49,7 @@ fn a_graded_modulus_is_the_limit_of_thin_layers() {
             for component in [0, 1] {
                 // Where the error changes its sign between the radii and slices it is small instead of regular.
                 let [first, second] = steps.map(|step| step[component]);
-                assert!(
-                    second < 0.4 * first || second < 2e-4,
-                    "depth {depth}: {steps:?} is not of second order"
-                );
+                assert!(second < 0.4 * first || second < 2e-4, "{depth} {steps:?}");
             }
             // One step of Richardson's extrapolation from each pair: their difference bounds the finer one's error.
             let (near, limit) = (

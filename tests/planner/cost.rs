@@ -42,7 +42,7 @@ const PER_SECOND: f64 = 1e8;
 fn the_rough_time_follows_the_work() {
     let ordinary = scenes::KINDS.iter().enumerate().map(|(seed, kind)| {
         let mut scene = Scene::from_toml("scene", &scenes::scene(kind, seed as u64)).expect("a valid scene");
-        scene.traffic.passes = scene.traffic.passes.min(200);
+        scene.traffic.passes = scene.traffic.passes.min(60);
         scene
     });
     let long = (0..6).map(|seed| {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use crate::scenes::{assert_near, forces, run};
 use creepage::scene::Order;
 use creepage::{RunOptions, Scene, SceneError, SceneFile};
 use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
@@ -76,72 +77,45 @@ fn every_row_is_an_axle_with_its_share() {
         assert_eq!(Scene::from_toml("duct.toml", &scene.to_toml()).unwrap(), scene);
         scene.validate().unwrap();
     }
-    let points = read(
-        "points",
-        "load,count\n1 tf,1\n",
-        &["traffic.speed=5", "traffic.seed=9"],
-    )
-    .unwrap();
+    let set = ["traffic.speed=5", "traffic.seed=9"];
+    let points = read("points", "load,count\n1 tf,1\n", &set).unwrap();
     assert_eq!(classes(&points), [(9806.65, 0.0, 1.0)]);
     assert_eq!(points.order(), Order::Random { seed: 9 });
     assert_eq!(points.vehicles[0].speed, 5.0);
 }
 
-/// Tables as stations and spreadsheets write them: a table, the loads \[N\] and their shares.
+/// Tables as stations and spreadsheets write them: a table, how many newtons its lighter axles have of 5 or 50.
+const TABLES: &str = "\
+axle load [kips],count¶10,300¶20,100 | 44482.216152605
+Load (kip),Axles¶10,\"3,000.0\"¶20,\"1,000.0\" | 44482.216152605
+axle load [t];count¶5;3¶10;1 | 49033.25
+Achslast t;Anzahl¶5,0;3¶10,0;1 | 49033.25
+load [kg],count¶5000,3¶10000,1 | 49033.25
+load,count¶lb,-¶10000,3¶20000,1 | 44482.216152605
+load,count¶10000 lbs,3¶20000 lbs,1 | 44482.216152605
+Station 12¶Lane;2¶load [kN];count¶50;3¶100;1 | 5e4
+class;load [kN];count¶1;50;3¶2;100;1¶Total;150;4 | 5e4
+Achslast [kN];Anzahl¶50;3¶100;1¶Summe;4 | 5e4
+load [kN];count [%]¶50;75¶100;25 | 5e4
+load [kN];count¶50;75 %¶100;25 % | 5e4
+Achslast [kN];Anteil¶50;0,75¶100;0,25 | 5e4
+class number,load [kN],count¶1,50,3¶2,100,1 | 5e4
+~load;count¶~kN;-¶50;3¶100;1 | 5e4";
+
 #[test]
 fn tables_of_every_country_are_read() {
-    let (kip, pound, gravity) = (4448.2216152605, 4.4482216152605, 9.80665);
-    let share = [0.75, 0.25];
-    for (table, loads) in [
-        (
-            "axle load [kips],count\n10,300\n20,100\n",
-            [10.0 * kip, 20.0 * kip],
-        ),
-        (
-            "Load (kip),Axles\n10,\"3,000.0\"\n20,\"1,000.0\"\n",
-            [10.0 * kip, 20.0 * kip],
-        ),
-        ("axle load [t];count\n5;3\n10;1\n", [5e3 * gravity, 1e4 * gravity]),
-        (
-            "Achslast t;Anzahl\n5,0;3\n10,0;1\n",
-            [5e3 * gravity, 1e4 * gravity],
-        ),
-        (
-            "load [kg],count\n5000,3\n10000,1\n",
-            [5e3 * gravity, 1e4 * gravity],
-        ),
-        ("load,count\nlb,-\n10000,3\n20000,1\n", [1e4 * pound, 2e4 * pound]),
-        (
-            "load,count\n10000 lbs,3\n20000 lbs,1\n",
-            [1e4 * pound, 2e4 * pound],
-        ),
-        ("Station 12\nLane;2\nload [kN];count\n50;3\n100;1\n", [5e4, 1e5]),
-        (
-            "class;load [kN];count\n1;50;3\n2;100;1\nTotal;150;4\n",
-            [5e4, 1e5],
-        ),
-        ("Achslast [kN];Anzahl\n50;3\n100;1\nSumme;4\n", [5e4, 1e5]),
-        ("load [kN];count [%]\n50;75\n100;25\n", [5e4, 1e5]),
-        ("load [kN];count\n50;75 %\n100;25 %\n", [5e4, 1e5]),
-        ("Achslast [kN];Anteil\n50;0,75\n100;0,25\n", [5e4, 1e5]),
-        ("class number,load [kN],count\n1,50,3\n2,100,1\n", [5e4, 1e5]),
-        ("~load;count\n~kN;-\n50;3\n100;1\n", [5e4, 1e5]),
-    ] {
-        let scene = read("countries", table, &[]).unwrap_or_else(|error| panic!("{table}: {error}"));
-        assert_eq!(scene.vehicles.len(), 2, "{table}");
-        for ((load, _, found), (expected, share)) in
-            classes(&scene).into_iter().zip(loads.into_iter().zip(share))
-        {
-            assert!(
-                (load / expected - 1.0).abs() < 1e-12 && (found - share).abs() < 1e-12,
-                "{table}: {load} {found}"
-            );
+    for row in TABLES.lines() {
+        let (table, load) = row.split_once(" | ").expect("a load");
+        let load: f64 = load.parse().expect("newtons");
+        let scene = read("countries", &(table.replace('¶', "\n") + "\n"), &[]);
+        let scene = scene.unwrap_or_else(|error| panic!("{table}: {error}"));
+        let found = classes(&scene);
+        assert_eq!(found.len(), 2, "{table}");
+        for ((found, _, share), (times, expected)) in found.into_iter().zip([(1.0, 0.75), (2.0, 0.25)]) {
+            assert_near(found, times * load, 1e-12, table);
+            assert_near(share, expected, 1e-12, table);
         }
-        assert!(
-            !creepage::scene::unusual(&scene)
-                .iter()
-                .any(|warning| warning.contains("groups"))
-        );
+        assert!(!warns_of_groups(&scene), "{table}");
     }
     let folder = folder("utf-16", "");
     for bytes in [u16::to_le_bytes, u16::to_be_bytes] {
@@ -153,6 +127,13 @@ fn tables_of_every_country_are_read() {
     }
 }
 
+fn warns_of_groups(scene: &Scene) -> bool {
+    let warnings = creepage::scene::unusual(scene);
+    warnings
+        .iter()
+        .any(|warning| warning.contains("a column of groups"))
+}
+
 /// A tandem in one row moves the cable more than its two axles do.
 #[test]
 fn groups_of_axles_are_warned_of() {
@@ -161,13 +142,7 @@ fn groups_of_axles_are_warned_of() {
         "load [kN];Tandem;count\n50;no;3\n180;yes;1\n",
     ] {
         let scene = read("groups", table, &[]).unwrap();
-        let warnings = creepage::scene::unusual(&scene);
-        assert!(
-            warnings
-                .iter()
-                .any(|warning| warning.contains("`traffic.histogram` has a column of groups")),
-            "{warnings:?}"
-        );
+        assert!(warns_of_groups(&scene), "{table}");
         assert_eq!(Scene::from_toml("duct.toml", &scene.to_toml()).unwrap(), scene);
     }
 }
@@ -192,72 +167,42 @@ fn a_scene_says_how_its_table_is_written() {
     }
 }
 
+/// A table, and what its message holds beside the place in the scene.
+const BAD: &str = "\
+∅ | no rows | load, count
+load¶50 kN | axles.csv:1 | no column count
+load,count | no row with axles
+load,count¶50 kN,0 | no row with axles
+load,count¶¶50 m,3 | axles.csv:3: load: found \"50 m\" | a force
+load,count¶0,3 | load: found \"0\" | greater than 0
+load,count¶-5 kN,3 | load: found \"-5 kN\"
+load,count¶5 kN,-3 | count: found \"-3\" | at least 0
+load,count¶5 kN,nan | count: found \"nan\"
+load,count¶5 kN, | count: found \"\"
+load,count¶5 kN | 1 cells where the first row has 2
+load,count¶40,3¶130,1¶80,2 | axles.csv:3: load: 130 N as the heaviest axle | \"130 kN\" | \"load [kN]\"
+load [kN];count¶20;5.200 | axles.csv:2: count: found \"5.200\", 5.2 or 5200
+load,count¶20 kN,5,7 | axles.csv:2: 3 cells
+load [kg],count¶3000-3999,3 | axles.csv:2: load | found \"3000-3999\"
+class,load [kN],count¶1,50,3¶,,3 | axles.csv:3: load [kN]: found \"\"
+load from [kN],load to [kN],count¶40,50,3 | axles.csv:1: a second column load to
+load [kN];count¶50;75 %¶100;25 | axles.csv:3: count: found \"25\" | beside others in %
+load [m],count¶40,3 | load [m]: found \"40\" | a force
+load,count,contact_radius¶5 kN,1,1 km | contact_radius: found \"1 km\"";
+
 #[test]
 fn a_bad_table_is_refused_with_its_line() {
-    for (table, parts) in [
-        ("", &["no rows", "load, count"][..]),
-        ("load\n50 kN\n", &["axles.csv:1", "no column count"]),
-        ("load,count\n", &["no row with axles"]),
-        ("load,count\n50 kN,0\n", &["no row with axles"]),
-        (
-            "load,count\n\n50 m,3\n",
-            &["axles.csv:3: load: found \"50 m\"", "a force"],
-        ),
-        ("load,count\n0,3\n", &["load: found \"0\"", "greater than 0"]),
-        ("load,count\n-5 kN,3\n", &["load: found \"-5 kN\""]),
-        ("load,count\n5 kN,-3\n", &["count: found \"-3\"", "at least 0"]),
-        ("load,count\n5 kN,nan\n", &["count: found \"nan\""]),
-        ("load,count\n5 kN,\n", &["count: found \"\""]),
-        ("load,count\n5 kN\n", &["1 cells where the first row has 2"]),
-        (
-            "load,count\n40,3\n130,1\n80,2\n",
-            &[
-                "axles.csv:3: load: 130 N as the heaviest axle",
-                "\"130 kN\"",
-                "\"load [kN]\"",
-            ],
-        ),
-        (
-            "load [kN];count\n20;5.200\n",
-            &["axles.csv:2: count: found \"5.200\", 5.2 or 5200"],
-        ),
-        ("load,count\n20 kN,5,7\n", &["axles.csv:2: 3 cells"]),
-        (
-            "load [kg],count\n3000-3999,3\n",
-            &["axles.csv:2: load", "found \"3000-3999\""],
-        ),
-        (
-            "class,load [kN],count\n1,50,3\n,,3\n",
-            &["axles.csv:3: load [kN]: found \"\""],
-        ),
-        (
-            "load from [kN],load to [kN],count\n40,50,3\n",
-            &["axles.csv:1: a second column load to"],
-        ),
-        (
-            "load [kN];count\n50;75 %\n100;25\n",
-            &["axles.csv:3: count: found \"25\"", "beside others in %"],
-        ),
-        ("load [m],count\n40,3\n", &["load [m]: found \"40\"", "a force"]),
-        (
-            "load,count,contact_radius\n5 kN,1,1 km\n",
-            &["contact_radius: found \"1 km\""],
-        ),
-    ] {
-        let message = read("bad", table, &[]).expect_err("a bad table").to_string();
-        for part in [&["line 18: `traffic.histogram`", "axles.csv"], parts].concat() {
+    let many: Vec<String> = (1000..2001).map(|load| format!("{load},1")).collect();
+    let many = format!("load,count¶{} | 1001 classes | at most 1000", many.join("¶"));
+    for row in BAD.lines().chain([&*many]) {
+        let (table, parts) = row.split_once(" | ").expect("parts");
+        let table = table.replace('¶', "\n").replace('∅', "");
+        let message = read("bad", &table, &[]).expect_err(row).to_string();
+        let place = ["line 18: `traffic.histogram`", "axles.csv"];
+        for part in place.into_iter().chain(parts.split(" | ")) {
             assert!(message.contains(part), "{part} is not in {message}");
         }
     }
-    let many: Vec<String> = (0..1001).map(|k| format!("{},1\n", 1000 + k)).collect();
-    let many = many.concat();
-    let message = read("bad", &format!("load,count\n{many}"), &[])
-        .unwrap_err()
-        .to_string();
-    assert!(
-        message.contains("1001 classes") && message.contains("at most 1000"),
-        "{message}"
-    );
 }
 
 #[test]
@@ -288,10 +233,7 @@ fn what_contradicts_a_histogram_is_refused() {
     assert_eq!((later.vehicles.len(), later.order()), (1, Order::Interleaved));
     let none = ["traffic.histogram=", vehicle, "traffic.speed=3"];
     let message = read("contradictions", table, &none).unwrap_err().to_string();
-    assert!(
-        message.contains("`traffic.speed`") && message.contains("every vehicle has its own"),
-        "{message}"
-    );
+    assert!(message.contains("`traffic.speed`"), "{message}");
 }
 
 /// Clay under a point load, which counts how often it is asked.
@@ -337,9 +279,5 @@ fn a_table_of_one_class_is_a_vehicle() {
     let wheel =
         "vehicles=[{ speed = \"40 km/h\", wheels = [{ load = \"10 tf\", contact_radius = \"0.15 m\" }] }]";
     let listed = read("one", "load,count\n1,1\n", &[wheel]).unwrap();
-    let forces = |scene: &Scene| -> Vec<f64> {
-        let run = creepage::run(scene).unwrap();
-        run.passes.iter().map(|pass| pass.downstream_force_n).collect()
-    };
-    assert_eq!(forces(&table), forces(&listed));
+    assert_eq!(forces(&run(&table)), forces(&run(&listed)));
 }

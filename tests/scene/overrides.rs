@@ -4,6 +4,7 @@ use creepage::scene::{End, FrictionLaw, Order, SolverMethod};
 use ground_field::{Base, Modulus};
 
 use super::{FULL, assert_override_refused, read_with};
+use crate::scenes::scene_of;
 
 #[test]
 fn overrides_set_any_key() {
@@ -44,11 +45,8 @@ fn overrides_make_what_is_not_there() {
         "solver.method=explicit",
         "ends.upstream.spring=5",
         "solver.method=auto",
-    ]
-    .map(str::to_owned);
-    let scene = creepage::SceneFile::from_toml("bad.toml", text)
-        .and_then(|file| file.with(&overrides)?.scene())
-        .unwrap();
+    ];
+    let scene = scene_of(text, &overrides);
     assert_eq!(scene.solver.method, SolverMethod::Auto);
     assert_eq!(scene.ends.upstream, End::Spring(5.0));
 }
@@ -131,4 +129,22 @@ fn errors_in_overrides_name_the_override() {
     );
     let deep = format!("{}x=1", "x.".repeat(100_000));
     assert!(read_with(&[&deep]).is_err());
+}
+
+const NUMBERS: &str = "duct.length ground.rigid_base_depth ground.layers.0.thickness ground.layers.1.young_modulus \
+    ground.layers.2.poisson_ratio cable.weight friction.shape_factor ends.upstream.spring restraints.0.position vehicles.0.speed \
+    vehicles.0.share vehicles.1.wheels.0.x traffic.passes traffic.seed solver.tolerance solver.node_spacing title duct vehicles";
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn any_number_is_taken_or_refused_with_its_key(
+        key in proptest::sample::select(NUMBERS.split(' ').collect::<Vec<_>>()), value in proptest::num::f64::ANY,
+    ) {
+        if let Err(error) = read_with(&[&format!("{key}={value:e}")]) {
+            let message = error.to_string();
+            proptest::prop_assert!(message.contains(" found ") && message.contains(" allowed: "), "{message}");
+        }
+    }
 }

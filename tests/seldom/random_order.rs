@@ -17,7 +17,7 @@ fn scene(reverse: bool, shares: (f64, f64), loads: (f64, f64), passes: u64) -> S
     let direction = if reverse { "reverse" } else { "forward" };
     let text = format!(
         r#"
-        duct = {{ length = 15, depth = 1.2 }}
+        duct = {{ length = 8, depth = 1.2 }}
         ground = {{ layers = [{{ young_modulus = "200 MPa", poisson_ratio = 0.4 }}] }}
         cable = {{ weight = 108.8, axial_stiffness = 8.01e6 }}
         friction = {{ dynamic_coefficient = 0.25, shape_factor = 6e6 }}

@@ -37,37 +37,18 @@ fn kinds() -> [Kind; 5] {
     let mut fitting: Vec<String> = settings.into_iter().filter(|text| overrides(text)).collect();
     let pairs: Vec<String> = fitting.windows(2).map(|pair| pair.join("\n")).collect();
     fitting.extend(pairs.into_iter().filter(|pair| overrides(pair)));
+    let kind = |name, share, good, check| Kind {
+        name,
+        share,
+        good,
+        check,
+    };
     [
-        Kind {
-            name: "scenes",
-            share: 40,
-            good: scenes,
-            check: scene,
-        },
-        Kind {
-            name: "overrides",
-            share: 20,
-            good: fitting,
-            check: overrides,
-        },
-        Kind {
-            name: "readings",
-            share: 40,
-            good: tables(),
-            check: readings,
-        },
-        Kind {
-            name: "quantities",
-            share: 15,
-            good: quantities(),
-            check: quantity,
-        },
-        Kind {
-            name: "axes",
-            share: 10,
-            good: axes(),
-            check: axis,
-        },
+        kind("scenes", 40, scenes, scene),
+        kind("overrides", 20, fitting, overrides),
+        kind("readings", 40, tables(), readings),
+        kind("quantities", 15, quantities(), quantity),
+        kind("axes", 10, axes(), axis),
     ]
 }
 
@@ -83,12 +64,13 @@ fn files(folder: &str, ending: &str) -> Vec<String> {
     paths.iter().map(|path| read(path)).collect()
 }
 
-/// The examples, difficult grounds, and new scenes with every preset.
+/// The examples, difficult grounds, a scene that uses every key, and new scenes with every preset.
 fn scenes() -> Vec<String> {
     let mut scenes = files("examples/scenes", "toml");
     // A text has no folder in which a table of axles could lie.
     scenes.retain(|text| !text.contains("histogram"));
     scenes.extend(files("tests/data/difficult", "toml"));
+    scenes.push(crate::scene::FULL.to_owned());
     for preset in presets::all() {
         let key = match preset.kind {
             PresetKind::Vehicle => "vehicles.preset",
@@ -134,7 +116,7 @@ fn tables() -> Vec<String> {
 }
 
 fn quantities() -> Vec<String> {
-    DIMENSIONS
+    Dimension::ALL
         .iter()
         .flat_map(|dimension| dimension.units())
         .flat_map(|unit| ["1.2", "-35.7e-6", "8.01E+6", ".5"].map(|number| format!("{number} {unit}")))
@@ -157,19 +139,6 @@ fn axes() -> Vec<String> {
     .map(str::to_owned)
     .into()
 }
-
-const DIMENSIONS: [Dimension; 10] = [
-    Dimension::Length,
-    Dimension::Force,
-    Dimension::Pressure,
-    Dimension::ForcePerLength,
-    Dimension::InverseLength,
-    Dimension::Weight,
-    Dimension::Area,
-    Dimension::Speed,
-    Dimension::Time,
-    Dimension::Ratio,
-];
 
 // What must hold.
 
@@ -246,7 +215,7 @@ fn readings(text: &str) -> bool {
 
 fn quantity(text: &str) -> bool {
     let mut accepted = false;
-    for dimension in DIMENSIONS {
+    for dimension in Dimension::ALL {
         let Ok(value) = dimension.parse(text) else {
             continue;
         };

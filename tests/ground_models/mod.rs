@@ -10,8 +10,6 @@ mod agreement;
 mod common;
 mod difficult;
 mod graded;
-mod half_space;
-mod laws;
 mod motion;
 mod published;
 mod table_1;

@@ -12,9 +12,10 @@ use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use creepage::SceneFile;
 use serde_json::{Value, json};
 
+use crate::command::{list, number, numbers};
+use crate::scenes::assert_near;
 use server::{Explored, PATIENCE, UPPER, creepage, output};
 
 impl Explored {
@@ -57,18 +58,16 @@ impl Explored {
 
     /// Asserts that it still answers a small question.
     fn still_answers(&self, after: &str) {
-        let (begun, few) = (
-            Instant::now(),
-            json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 }),
-        );
-        let answer = self.answer(&few);
-        assert_eq!(
-            answer["passes"].as_array().map(Vec::len),
-            Some(2),
-            "after {after}"
-        );
-        assert!(begun.elapsed() < PATIENCE, "after {after}: {:?}", begun.elapsed());
+        let begun = Instant::now();
+        let passes = self.answer(&few())["passes"].as_array().map(Vec::len);
+        assert_eq!(passes, Some(2), "after {after}");
+        assert!(begun.elapsed() < PATIENCE, "after {after}");
     }
+}
+
+/// Asks for two passes.
+fn few() -> Value {
+    json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 })
 }
 
 fn replied(mut stream: TcpStream) -> (u16, String, String) {
@@ -86,19 +85,10 @@ fn an_answer_is_that_of_run_with_words() {
     let set = json!({ "friction.dynamic_coefficient": 0.3, "ends.upstream.spring": "2 MN/m", "duct.depth": "1.5 m" });
     let limits = json!({ "force": ["downstream=100 N"], "movement": ["5 mm"] });
     let answer = explored.answer(&json!({ "set": set, "tolerance": 0.05, "limits": limits }));
-    let run = output(&[
-        "run",
-        UPPER,
-        "--json",
-        "--set=traffic.passes=20",
-        "--set=friction.dynamic_coefficient=0.3",
-        "--set=ends.upstream.spring=2 MN/m",
-        "--set=duct.depth=1.5 m",
-        "--set=solver.tolerance=0.05",
-        "--limit-force=downstream=100 N",
-        "--limit-movement=5 mm",
-    ]);
-    let run: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    let run = crate::command::json(
+        "run UPPER --set traffic.passes=20 --set friction.dynamic_coefficient=0.3 --set 'ends.upstream.spring=2 MN/m' \
+         --set 'duct.depth=1.5 m' --set solver.tolerance=0.05 --limit-force 'downstream=100 N' --limit-movement '5 mm'",
+    );
     for (field, value) in run.as_object().expect("an object") {
         assert_eq!(answer[field], *value, "{field}");
     }
@@ -132,28 +122,21 @@ fn what_is_refused_has_the_words_of_the_command_line_and_its_key() {
             "{key}={value}: {body}"
         );
         let printed = String::from_utf8_lossy(&run.stderr).into_owned();
-        let message = refusal["message"]
-            .as_str()
-            .expect("a message")
-            .replace(['\u{1b}', '\r'], "\u{fffd}");
+        let message = refusal["message"].as_str().expect("a message");
+        let message = message.replace(['\u{1b}', '\r'], "\u{fffd}");
         assert!(
             printed.trim_end().ends_with(message.trim_end()),
-            "{key}={value}: {message}\n{printed}"
+            "{message}\n{printed}"
         );
         let found = refusal["key"].as_str().expect("a key");
         assert!(found.starts_with(key) || key == "heat", "{key}: {found}");
     }
     // A file of the user's is not for the page to choose.
-    let (status, body) = explored.post(
-        "/answer",
-        &json!({ "set": { "traffic.histogram": "/etc/passwd" } }),
-    );
+    let password = json!({ "set": { "traffic.histogram": "/etc/passwd" } });
+    let (status, body) = explored.post("/answer", &password);
     assert!(status == 422 && !body.contains("root:"), "{body}");
     explored.still_answers("refusals");
 }
-
-/// Asks for two passes.
-const FEW: &str = r#"{"set":{"traffic.passes":2},"tolerance":0.05}"#;
 
 #[test]
 fn only_this_page_with_its_token_is_answered() {
@@ -163,28 +146,20 @@ fn only_this_page_with_its_token_is_answered() {
     let path = format!("/answer?token={token}");
     let asks = |path: &str, headers: &[&str]| {
         let headers: Vec<String> = headers.iter().map(|header| (*header).to_owned()).collect();
-        explored.request("POST", path, &headers, FEW).0
+        explored.request("POST", path, &headers, &few().to_string()).0
     };
     let origin = |of: &str| asks(&path, &[&own, &format!("Origin: {of}")]);
     assert_eq!(asks(&path, &[&own]), 200);
     assert_eq!(asks(&path, &[&format!("Host: localhost:{port}")]), 200);
     assert_eq!(origin(&format!("http://127.0.0.1:{port}")), 200);
-    for host in [
-        "example.org",
-        &format!("127.0.0.1.example.org:{port}"),
-        "127.0.0.1:1",
-        "",
-    ] {
+    let longer = format!("127.0.0.1.example.org:{port}");
+    for host in ["example.org", &longer, "127.0.0.1:1", ""] {
         assert_eq!(asks(&path, &[&format!("Host: {host}")]), 403, "{host}");
     }
     assert_eq!(asks(&path, &["X-Host: none"]), 403);
     assert_eq!(asks(&path, &[&own, &own]), 403);
-    for of in [
-        "https://example.org",
-        "null",
-        "http://127.0.0.1",
-        &format!("https://127.0.0.1:{port}"),
-    ] {
+    let secure = format!("https://127.0.0.1:{port}");
+    for of in ["https://example.org", "null", "http://127.0.0.1", &secure] {
         assert_eq!(origin(of), 403, "{of}");
     }
     let wrong = "0123456789abcdef0123456789abcdef";
@@ -196,11 +171,8 @@ fn only_this_page_with_its_token_is_answered() {
         &format!("?token={token}&token={token}"),
     ] {
         assert_eq!(asks(&format!("/answer{query}"), &[&own]), 403, "{query}");
-        assert_eq!(
-            explored.request("GET", &format!("/{query}"), &[], "").0,
-            403,
-            "{query}"
-        );
+        let page = explored.request("GET", &format!("/{query}"), &[], "");
+        assert_eq!(page.0, 403, "{query}");
     }
     explored.still_answers("others");
 }
@@ -241,11 +213,8 @@ fn hostile_requests_are_refused_and_leave_it_answering() {
         (r#"{"limits": {"force": ["2 m"]}}"#, 422),
         (r#"{"limits": {"force": ["20 m=2 kN"]}}"#, 422),
     ] {
-        assert_eq!(
-            explored.request("POST", &path, &[], body).0,
-            expected,
-            "{body:.80}"
-        );
+        let status = explored.request("POST", &path, &[], body).0;
+        assert_eq!(status, expected, "{body:.80}");
     }
     // No HTTP, headers without end, a body of 10 MB with and without its length.
     let headers = format!("GET / HTTP/1.1\r\n{}", "X: y\r\n".repeat(10_000));
@@ -264,12 +233,9 @@ fn hostile_requests_are_refused_and_leave_it_answering() {
     let large = " ".repeat(10 << 20);
     assert_eq!(explored.request("POST", &path, &[], &large).0, 413);
     let head = format!("POST {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close");
-    let (chunked, length) = (
-        format!("{head}\r\nTransfer-Encoding: chunked\r\n\r\n"),
-        large.len(),
-    );
-    let (status, ..) = explored.raw(format!("{chunked}{length:x}\r\n{large}\r\n0\r\n\r\n").as_bytes());
-    assert_eq!(status, 413);
+    let length = large.len();
+    let chunked = format!("{head}\r\nTransfer-Encoding: chunked\r\n\r\n{length:x}\r\n{large}\r\n0\r\n\r\n");
+    assert_eq!(explored.raw(chunked.as_bytes()).0, 413);
     explored.still_answers("hostile requests");
 }
 
@@ -295,10 +261,7 @@ fn two_hundred_slow_ones_and_two_hundred_at_once_leave_it_answering() {
     thread::scope(|scope| {
         for _ in 0..200 {
             scope.spawn(|| {
-                let (status, _) = explored.post(
-                    "/answer",
-                    &json!({ "set": { "traffic.passes": 2 }, "tolerance": 0.05 }),
-                );
+                let (status, _) = explored.post("/answer", &few());
                 // The newest stops the others.
                 assert!([200, 409].contains(&status), "{status}");
             });
@@ -332,27 +295,17 @@ fn a_saved_scene_is_the_one_that_was_asked_about() {
     ];
     let clamps = "restraints=[{ position = \"12 m\", stiffness = \"1 MN/m\", holds = \"2 kN\" }]";
     let overrides = [&["traffic.passes=30"], &set[..], &[clamps]].concat();
-    let expected = SceneFile::read(UPPER)
-        .and_then(|file| file.with(&overrides)?.scene())
-        .expect("a scene");
-    let asked: serde_json::Map<String, Value> = overrides[1..]
-        .iter()
-        .filter_map(|set| set.split_once('='))
-        .map(|(key, value)| (key.to_owned(), value.into()))
-        .collect();
+    let expected = crate::scenes::upper(&overrides);
+    let keys = overrides[1..].iter().filter_map(|set| set.split_once('='));
+    let asked: serde_json::Map<_, _> = keys.map(|(key, value)| (key.to_owned(), value.into())).collect();
     let (status, text) = explored.post("/scene", &json!({ "set": asked }));
     assert_eq!(status, 200, "{text}");
-    assert_eq!(
-        creepage::Scene::from_toml("saved.toml", &text).expect("a scene"),
-        expected
-    );
+    assert_eq!(crate::scenes::scene_of(&text, &[]), expected);
     // What stands in the comments at its head cannot end them.
     let (_, text) = explored.post("/scene", &json!({ "set": { "title": "\"a\\nduct = 1\"" } }));
-    assert!(
-        text.lines().take_while(|line| line.starts_with('#')).count() >= 3,
-        "{text}"
-    );
-    creepage::Scene::from_toml("saved.toml", &text).expect("a scene");
+    let comments = text.lines().take_while(|line| line.starts_with('#'));
+    assert!(comments.count() >= 3, "{text}");
+    crate::scenes::scene_of(&text, &[]);
 }
 
 /// The first pass against an independent computation (102.08 N on the fixed end), friction within its limits, and the duct slipping
@@ -360,13 +313,6 @@ fn a_saved_scene_is_the_one_that_was_asked_about() {
 #[test]
 fn the_pass_that_is_shown_is_the_one_that_is_computed() {
     let explored = Explored::new(&[]);
-    let numbers = |list: &Value| -> Vec<f64> {
-        list.as_array()
-            .expect("a list")
-            .iter()
-            .map(|number| number.as_f64().expect("a number"))
-            .collect()
-    };
     let pass = |first: bool| -> Value {
         let (status, body) = explored.post("/pass", &json!({ "tolerance": 0.05, "first": first }));
         assert_eq!(status, 200, "{body}");
@@ -374,53 +320,31 @@ fn the_pass_that_is_shown_is_the_one_that_is_computed() {
     };
     let first = pass(true);
     let force = 0.1 * numbers(&first["after_decinewtons"]).last().expect("a force");
-    assert!((force / 102.08 - 1.0).abs() < 0.02, "{force} N");
-    assert!(
-        numbers(&first["before_decinewtons"])
-            .iter()
-            .all(|force| *force == 0.0)
-    );
+    assert_near(force, 102.08, 0.02, ());
+    let before = numbers(&first["before_decinewtons"]);
+    assert!(before.iter().all(|force| *force == 0.0));
     let later = pass(false);
-    assert_eq!(
-        (first["pass"].as_u64(), later["pass"].as_u64()),
-        (Some(1), Some(201))
-    );
+    assert!(first["pass"] == 1 && later["pass"] == 201);
     // Levelled off: the pass leaves what it found.
-    let ends = ["before_decinewtons", "after_decinewtons"]
-        .map(|when| *numbers(&later[when]).last().expect("a force"));
-    assert!((ends[1] / ends[0] - 1.0).abs() < 0.01, "{ends:?}");
+    let [before, after] =
+        ["before_decinewtons", "after_decinewtons"].map(|when| numbers(&later[when]).pop().expect("a force"));
+    assert_near(after, before, 0.01, ());
     for film in [&first, &later] {
         let pictures = film["pictures"].as_array().expect("pictures");
         assert!(pictures.len() > 100);
-        let all = pictures
+        let mut shares = pictures
             .iter()
             .flat_map(|picture| numbers(&picture["friction_percent"]));
-        assert!(all.map(f64::abs).all(|share| share <= 100.0));
-        let places = numbers(&json!(
-            pictures
-                .iter()
-                .map(|picture| &picture["vehicle_m"])
-                .collect::<Vec<_>>()
-        ));
-        assert!(places.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(shares.all(|share| share.abs() <= 100.0));
+        let places = pictures.iter().map(|picture| number(&picture["vehicle_m"]));
+        assert!(places.is_sorted_by(|a, b| a < b));
     }
-    let middle = |picture: &&Value| (picture["vehicle_m"].as_f64().expect("a place") - 15.0).abs() < 0.2;
-    let picture = later["pictures"]
-        .as_array()
-        .and_then(|pictures| pictures.iter().find(middle))
-        .expect("a picture");
-    let slips = |at: f64| {
-        numbers(&picture["friction_percent"])
-            .iter()
-            .filter(|share| **share == at)
-            .count()
-    };
-    assert!(
-        slips(100.0) > 2 * slips(-100.0) && slips(-100.0) > 5,
-        "{} {}",
-        slips(100.0),
-        slips(-100.0)
-    );
+    let middle = |picture: &&Value| (number(&picture["vehicle_m"]) - 15.0).abs() < 0.2;
+    let picture = list(&later["pictures"]).iter().find(middle).expect("a picture");
+    let shares = numbers(&picture["friction_percent"]);
+    let slips = |at: f64| shares.iter().filter(|share| **share == at).count();
+    let (forward, backward) = (slips(100.0), slips(-100.0));
+    assert!(forward > 2 * backward && backward > 5, "{forward} {backward}");
 }
 
 #[test]

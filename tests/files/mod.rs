@@ -4,11 +4,9 @@
 #![cfg(unix)]
 
 mod common;
-mod endings;
-mod inputs;
 mod links;
 #[cfg(target_os = "linux")]
-mod random;
+mod places;
 mod signals;
 mod stopped;
 mod texts;
