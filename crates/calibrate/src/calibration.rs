@@ -1,8 +1,8 @@
-//! What is given, and the front door: a calibration is put together, then fitted.
+//! What is given: a model, its parameters, and the observations that they are fitted to.
 
 use std::iter::zip;
 
-use crate::{CalibrationError, Emulator, Estimate, Fit, Loss, Model, Parameter, Prior, learning};
+use crate::{CalibrationError, Emulator, Loss, Model, Parameter, Prior};
 
 /// Bounds of a coefficient of the discrepancy, in its standard deviations.
 const FARTHEST: f64 = 10.0;
@@ -27,7 +27,7 @@ pub struct Calibration<'a> {
     /// What is known of the model beforehand.
     pub(crate) emulator: Option<Emulator>,
     /// Coefficients of the functions by which the model may be off.
-    discrepancy: Vec<Parameter>,
+    pub(crate) discrepancy: Vec<Parameter>,
 }
 
 impl<'a> Calibration<'a> {
@@ -161,39 +161,9 @@ impl<'a> Calibration<'a> {
         self
     }
 
-    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was
-    /// learned of it, [`Fit::emulator`], serves other fits.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError`] if there are too few observations, the model has no answer anywhere, the fit
-    /// does not converge or needs more model runs than allowed.
-    pub fn fit(&self) -> Result<Fit, CalibrationError> {
-        self.check()?;
-        let mut emulator = learning::begin(self)?;
-        let solution = learning::converge(self, &mut emulator)?;
-        let mut estimates = solution.estimates(self);
-        if self.discrepancy.is_empty() {
-            return Ok(Fit::new(self, emulator, solution, estimates));
-        }
-        let mut wider = self.clone();
-        wider.parameters.extend_from_slice(&self.discrepancy);
-        let solution = learning::converge(&wider, &mut emulator)?;
-        for (plain, estimate) in zip(&mut estimates, solution.estimates(&wider)) {
-            // A model that may be wrong knows no more than one that may not.
-            let interval = estimate.interval.with(&plain.interval);
-            *plain = Estimate {
-                identifiable: interval.is_closed(),
-                interval,
-                ..estimate
-            };
-        }
-        Ok(Fit::new(&wider, emulator, solution, estimates))
-    }
-
     /// Refuses too few observations: priors count as one; noise to be estimated needs one more, and at least
     /// two of the data.
-    fn check(&self) -> Result<(), CalibrationError> {
+    pub(crate) fn check(&self) -> Result<(), CalibrationError> {
         let (observations, parameters) = (self.observations.len(), self.parameters.len());
         let unknown = parameters - self.priors();
         let needed = if self.knows_noise {

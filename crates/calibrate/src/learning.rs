@@ -6,6 +6,8 @@
 //! (after D. R. Jones, M. Schonlau, W. J. Welch, "Efficient Global Optimization of Expensive Black-Box
 //! Functions", Journal of Global Optimization 13, 1998).
 
+use std::iter::zip;
+
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -13,14 +15,46 @@ use crate::likelihood::Likelihood;
 use crate::search::{all_over, optimum};
 use crate::solution::Solution;
 use crate::tuning::FIRST_RUNS;
-use crate::{Calibration, CalibrationError, Emulator, ModelError, Part};
+use crate::{Calibration, CalibrationError, Emulator, Estimate, Fit, ModelError, Part};
 
 /// Rounds after which the emulator is taken not to learn any more: five parameters of two series with the
 /// ripple of a mesh take thirty.
 const ROUNDS: usize = 80;
 
+impl Calibration<'_> {
+    /// Fits. The model runs a few times all over the range, then wherever the answer rests on it. What was
+    /// learned of it, [`Fit::emulator`], serves other fits.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError`] if there are too few observations, the model has no answer anywhere, or the fit
+    /// does not converge.
+    pub fn fit(&self) -> Result<Fit, CalibrationError> {
+        self.check()?;
+        let mut emulator = begin(self)?;
+        let solution = converge(self, &mut emulator)?;
+        let mut estimates = solution.estimates(self);
+        if self.discrepancy.is_empty() {
+            return Ok(Fit::new(self, emulator, solution, estimates));
+        }
+        let mut wider = self.clone();
+        wider.parameters.extend_from_slice(&self.discrepancy);
+        let solution = converge(&wider, &mut emulator)?;
+        for (plain, estimate) in zip(&mut estimates, solution.estimates(&wider)) {
+            // A model that may be wrong knows no more than one that may not.
+            let interval = estimate.interval.with(&plain.interval);
+            *plain = Estimate {
+                identifiable: interval.is_closed(),
+                interval,
+                ..estimate
+            };
+        }
+        Ok(Fit::new(&wider, emulator, solution, estimates))
+    }
+}
+
 /// An emulator that has seen the model run at its first places.
-pub(crate) fn begin(problem: &Calibration<'_>) -> Result<Emulator, CalibrationError> {
+fn begin(problem: &Calibration<'_>) -> Result<Emulator, CalibrationError> {
     let mut emulator = known(problem)?;
     if emulator.evaluations() > 0 {
         return Ok(emulator);
@@ -77,10 +111,7 @@ fn parts(problem: &Calibration<'_>) -> Result<Vec<Part>, CalibrationError> {
 }
 
 /// A solution that rests on runs of the model wherever the emulator could be wrong about it.
-pub(crate) fn converge(
-    problem: &Calibration<'_>,
-    emulator: &mut Emulator,
-) -> Result<Solution, CalibrationError> {
+fn converge(problem: &Calibration<'_>, emulator: &mut Emulator) -> Result<Solution, CalibrationError> {
     let mut last: Option<DVector<f64>> = None;
     for _ in 0..ROUNDS {
         let likelihood = Likelihood::new(problem, emulator);

@@ -9,8 +9,8 @@ use std::ops::RangeInclusive;
 
 use calibrate::{CalibrationError, smooth_functions};
 
+use crate::error::study;
 use crate::instrument::instruments;
-use crate::problem::study;
 use crate::readings::Reading;
 use creepage_run::Error;
 

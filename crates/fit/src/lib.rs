@@ -4,6 +4,7 @@ mod answer;
 mod cell_errors;
 mod diagnosis;
 mod discrepancy;
+mod error;
 mod ground;
 mod instrument;
 mod meshes;

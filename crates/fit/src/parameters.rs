@@ -5,10 +5,10 @@
 
 use calibrate::{Loss, Parameter, Prior, Scale};
 
+use crate::error::study;
 use crate::instrument::instruments;
 use crate::model::SeriesModel;
 use crate::options::{CalibrateOptions, Deflection};
-use crate::problem::study;
 use crate::readings::{Instrument, Measured, Reading};
 use crate::unknown::{Quantity, Unknown};
 use creepage_plan::shown::words_if;

@@ -6,6 +6,7 @@ use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, ModelError,
 use rayon::prelude::*;
 
 use crate::discrepancy::discrepancy;
+use crate::error::study;
 use crate::model::{MeshOf, SeriesModel};
 use crate::noise::relative_sigmas;
 use crate::options::CalibrateOptions;
@@ -21,14 +22,6 @@ use creepage_run::Error;
 const RIPPLE: f64 = 0.02;
 /// Most model runs of a fit on one mesh: it takes some fifty.
 pub const MOST_RUNS: usize = 2000;
-
-/// What the statistics cannot do.
-pub fn study(error: CalibrationError) -> Error {
-    Error::Study {
-        is_bad_input: error.is_bad_input(),
-        error: error.into(),
-    }
-}
 
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
