@@ -136,6 +136,15 @@ fn identity(folder: &Folder, name: &str) -> (u32, u32, u64) {
     (folder.mode(name), found.uid(), found.ino())
 }
 
+/// Whether both outputs would be written to one file, by one name or by two.
+fn are_one(folder: &Folder, one: &Out, other: &Out) -> bool {
+    let (Some(one), Some(other)) = (&one.file, &other.file) else {
+        return false;
+    };
+    let number = |file: &String| Some(fs::metadata(folder.path(file)).ok()?.ino());
+    one == other || number(one).is_some_and(|found| number(other) == Some(found))
+}
+
 /// Runs the command with its outputs at these places; whether it was allowed.
 fn try_case(command: &str, places: &[(Place, &str, &'static str)], force: bool, number: usize) -> bool {
     let folder = Folder::new("places");
@@ -153,7 +162,7 @@ fn try_case(command: &str, places: &[(Place, &str, &'static str)], force: bool, 
         folder.set_mode(file, [0o600, 0o640, 0o664, 0o666][number % 4]);
     }
     let identities: Vec<_> = standing.iter().map(|file| identity(&folder, file)).collect();
-    let is_twice = outputs.len() > 1 && outputs[0].file.is_some() && outputs[0].file == outputs[1].file;
+    let is_twice = matches!(&outputs[..], [one, other] if are_one(&folder, one, other));
     let allowed = !is_twice && outputs.iter().all(|out| out.is_allowed(command, force));
 
     let last = outputs.last().expect("an output");
