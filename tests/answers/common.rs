@@ -68,7 +68,11 @@ pub fn looked_at(scene: &Scene, stages: &[u64]) -> Option<Run> {
             assert!(
                 matches!(
                     error,
-                    Error::Inaccurate { .. } | Error::NoAnswer { .. } | Error::Jumps(_) | Error::Unfit { .. }
+                    Error::Inaccurate { .. }
+                        | Error::NoAnswer { .. }
+                        | Error::Jumps(_)
+                        | Error::TooManyNodes { .. }
+                        | Error::Unfit { .. }
                 ),
                 "{error:?}"
             );

@@ -69,6 +69,19 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// The duct is so long beside its depth that no mesh of it can be computed.
+    #[error(
+        "duct.length = {length} m and duct.depth = {depth} m: found a mesh of {nodes:.1e} nodes, as fine as this depth needs; allowed: 5e6 \
+         nodes, with a shorter or a deeper duct, a larger solver.tolerance, or a solver.node_spacing"
+    )]
+    TooManyNodes {
+        /// Length of the duct \[m\].
+        length: f64,
+        /// Depth of the duct \[m\].
+        depth: f64,
+        /// Nodes that the mesh would have.
+        nodes: f64,
+    },
     /// The scene asks for something that does not fit the rest of it.
     #[error("{key}: {found} does not fit this scene: {reason}")]
     Unfit {
@@ -161,6 +174,7 @@ impl Error {
         match self {
             Self::Scene(SceneError::Wrong(wrong)) => Some(&wrong.key),
             Self::Unfit { key, .. } => Some(key),
+            Self::TooManyNodes { .. } => Some("duct.length"),
             Self::Located { error, .. } => error.key(),
             _ => None,
         }
@@ -175,6 +189,7 @@ impl Error {
             | Self::Data(_)
             | Self::State { .. }
             | Self::Unfit { .. }
+            | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
             | Self::Cable(
                 CableError::InvalidParameter { .. }

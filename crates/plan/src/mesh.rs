@@ -30,6 +30,7 @@ const NAMED: usize = 2;
 #[derive(Debug, Clone, Copy)]
 pub struct Levels {
     length: f64,
+    depth: f64,
     /// Length over which the duct's motion changes under the vehicle that moves it most sharply
     /// \[m\].
     pub length_scale: f64,
@@ -77,6 +78,7 @@ impl Levels {
         let wanted = wanted.unwrap_or(TYPICAL.len() - 1);
         Self {
             length,
+            depth: scene.duct.depth,
             length_scale,
             road: length + 2.0 * approach,
             spacing,
@@ -122,14 +124,11 @@ impl Levels {
         let (spacing, step) = self.spacing(level);
         Mesh::new(self.length, spacing, step).map_err(|error| match error {
             // The spacing is ours: what it follows from is what the scene says.
-            CableError::InvalidParameter { .. } if self.spacing_follows => {
-                let (found, nodes) = (format!("{} m", self.length), self.length / spacing);
-                let reason = format!(
-                    "a mesh as fine as its depth needs has {nodes:.1e} nodes; allowed: 5e6 nodes, with a shorter or a deeper duct, a larger \
-                     solver.tolerance, or a solver.node_spacing"
-                );
-                Error::unfit("duct.length", found, reason)
-            }
+            CableError::InvalidParameter { .. } if self.spacing_follows => Error::TooManyNodes {
+                length: self.length,
+                depth: self.depth,
+                nodes: self.length / spacing,
+            },
             error => error.into(),
         })
     }

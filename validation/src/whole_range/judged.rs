@@ -100,7 +100,7 @@ fn refused(scene: &Scene, error: &Error) -> Outcome {
     let solver = &scene.solver;
     let has_own_mesh = solver.node_spacing.is_some() || solver.vehicle_step.is_some();
     let is_due_to_scene = match error {
-        Error::Scene(_) | Error::Unfit { .. } => true,
+        Error::Scene(_) | Error::Unfit { .. } | Error::TooManyNodes { .. } => true,
         Error::Inaccurate { cause, .. } => match cause {
             ErrorSource::Inertia => true,
             ErrorSource::Mesh => has_own_mesh,
