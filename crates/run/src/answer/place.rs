@@ -7,6 +7,7 @@ use super::record::{PassRecord, Run};
 use super::units::Units;
 use creepage_plan::shown::exact;
 use creepage_scene::{CableEnd, Scene};
+use ground_field::Direction;
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
@@ -14,6 +15,9 @@ const SAME_PLACE: f64 = 1e-6;
 /// Share of the duct's length by which an end moves that means no more than that the cable leaves
 /// the duct.
 const LEAVES: f64 = 0.01;
+
+/// Share of the largest force that an end must bear the other way after the last pass for the cable to creep backward.
+const BACKWARD: f64 = 0.05;
 
 /// The largest movement of an end \[m\] with which the cable of `scene` stays in its duct.
 pub fn largest_movement_in_duct(scene: &Scene) -> f64 {
@@ -121,6 +125,28 @@ impl Run {
                 "the {end} end moves by more than {percent} % of the duct's length: the cable leaves the duct, and larger movements say \
                  no more than that"
             ));
+        }
+    }
+
+    /// Warns of a cable that creeps against the only direction of traffic, where neither weight nor heat does that.
+    pub(crate) fn warn_where_it_creeps_back(&mut self, scene: &Scene) {
+        let forward = scene.vehicles[0].direction;
+        let one_way = scene.vehicles.iter().all(|vehicle| vehicle.direction == forward);
+        let is_pulled_otherwise = scene.body_force() != 0.0 || scene.heat.is_some() || self.start.is_some();
+        let Some(last) = self.passes.last().filter(|_| one_way && !is_pulled_otherwise) else {
+            return;
+        };
+        let sign = if forward == Direction::Forward { 1.0 } else { -1.0 };
+        let pushed = sign * (last.downstream_force_n - last.upstream_force_n);
+        let moved = sign * (last.upstream_displacement_m + last.downstream_displacement_m);
+        let largest = self.largest_on_ends(Limited::Force);
+        let (is_held, is_pushed_back) = (largest > 0.0, pushed < -BACKWARD * largest);
+        if is_pushed_back && moved <= 0.0 || !is_held && moved < -self.duct_motion.peak_longitudinal_m {
+            self.warnings.push(
+                "the cable creeps against the traffic: where axles stand so far apart that the backward slip of one falls into the forward \
+                 slip of the next, a soft cable near the state in which nothing creeps moves backward; check the places of the wheels"
+                    .to_owned(),
+            );
         }
     }
 

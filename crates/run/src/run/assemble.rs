@@ -75,6 +75,7 @@ pub fn assemble(plan: &Plan<'_>, method: SolverMethod, reason: &str, solved: Sol
         stages: found.stages.clone(),
     };
     run.warn_where_it_leaves(scene);
+    run.warn_where_it_creeps_back(scene);
     Ok(run)
 }
 
