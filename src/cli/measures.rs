@@ -65,7 +65,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(output) = &workbook {
         let bytes = crate::workbook::of_measures(&comparison, &reader, input.file());
         let bytes = bytes.map_err(|source| output.failed(source))?;
-        output.write(|out| out.write_all(&bytes))?;
+        output.write(&bytes)?;
     }
     let words = || print(&comparison, &reader);
     arguments.json.print(&comparison, words)?;

@@ -73,7 +73,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = template(&name, &arguments.values())?;
     crate::check(&Scene::from_toml(&name, &text)?)?;
-    file.write(|out| out.write_all(text.as_bytes()))?;
+    file.write(text.as_bytes())?;
     writeln!(
         terminal::out(),
         "{name} is written; to compute: creepage run {name}"

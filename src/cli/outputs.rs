@@ -172,7 +172,7 @@ impl Destination {
             Table::StandardOutput => return Ok(io::stdout().lock().write_all(&csv(rows)?)?),
             Table::File(file) => {
                 let text = csv(rows)?;
-                file.write(|out| out.write_all(&text))?;
+                file.write(&text)?;
             }
         }
         self.json.print(answer, print)

@@ -128,7 +128,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     if let Some(file) = map {
         let svg = sweep.map(&summary.rows, arguments.map_of)?.to_svg()?;
-        file.write(|out| out.write_all(svg.as_bytes()))?;
+        file.write(svg.as_bytes())?;
     }
     let units = arguments.limits.units(&first);
     let is_coarse = samples.count > 0 && !first.names("solver.tolerance");

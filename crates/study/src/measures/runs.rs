@@ -141,7 +141,7 @@ impl<'a> Runs<'a> {
         let run = match &self.mesh {
             _ if !is_rough => run(&scene)?,
             // Where that mesh is too coarse, a run finds its own.
-            Some(mesh) => (mesh.run(&rough(&scene), &ground)).or_else(|_| run(&rough(&scene)))?,
+            Some(mesh) => (mesh.run(&rough(&scene), &ground, false)).or_else(|_| run(&rough(&scene)))?,
             None => run(&rough(&scene))?,
         };
         Ok((scene, run))

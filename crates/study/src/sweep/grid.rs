@@ -10,8 +10,7 @@ use super::error::SweepError;
 use super::limits::PointLimits;
 use super::samples::Samples;
 use creepage_plan::hash::fnv1a;
-
-use creepage_scene::{Scene, SceneError, SceneFile, did_you_mean, key_meanings, nearest_key};
+use creepage_scene::{Scene, SceneError, SceneFile, Wrong, did_you_mean, key_meanings, nearest_key};
 
 /// Most points of a sweep.
 const MOST_POINTS: usize = 100_000_000;
@@ -27,8 +26,6 @@ pub struct Sweep {
     /// The keys. A value may be a distribution, or empty, which leaves the scene's own.
     pub(super) axes: Vec<Axis>,
     pub(super) samples: Samples,
-    /// Combinations of the values, or rows.
-    groups: usize,
     /// Whether a point takes one value of each key, those of a row, in place of every combination.
     by_row: bool,
     /// Keys that are drawn, here or in other parts of their table.
@@ -100,58 +97,48 @@ impl Sweep {
         by_row: bool,
         drawn_elsewhere: Option<BTreeSet<String>>,
     ) -> Result<Self, SweepError> {
+        let unless = |is_fit: bool, found: &str, allowed: &str| match is_fit {
+            true => Ok(()),
+            false => Err(SweepError::unfit(found, allowed)),
+        };
         draw_in_scene(&file, &mut axes, by_row);
-        if axes.iter().all(|axis| axis.key == ID) {
-            return Err(SweepError::unfit(
-                "no varied key",
-                "at least one, such as duct.depth",
-            ));
-        }
+        let is_any = axes.iter().any(|axis| axis.key != ID);
+        unless(is_any, "no varied key", "at least one, such as duct.depth")?;
         let is_part = drawn_elsewhere.is_some();
         let mut drawn_keys = drawn_elsewhere.unwrap_or_default();
         for (index, axis) in axes.iter().enumerate() {
-            let key = &axis.key;
-            if axes[..index].iter().any(|other| other.key == *key) {
-                return Err(SweepError::unfit(format!("`{key}` twice"), "every key once"));
-            }
-            if axis.values.is_empty() {
-                return Err(SweepError::unfit(
-                    format!("`{key}` without values"),
-                    "one value or more",
-                ));
-            }
-            if by_row && axis.values.len() != axes[0].values.len() {
-                let allowed = "a value a row, which may be empty";
-                return Err(SweepError::unfit("columns of different lengths", allowed));
-            }
+            let (key, count) = (&axis.key, axis.values.len());
+            let is_first = axes[..index].iter().all(|other| other.key != *key);
+            unless(is_first, &format!("`{key}` twice"), "every key once")?;
+            unless(count > 0, &format!("`{key}` without values"), "one value or more")?;
+            let is_long = !by_row || count == axes[0].values.len();
+            unless(
+                is_long,
+                "columns of different lengths",
+                "a value a row, which may be empty",
+            )?;
             if is_drawn(axis)? {
+                let found = format!("`{key}` with a distribution and no samples");
+                unless(samples.count > 0, &found, "a number of samples with it")?;
                 drawn_keys.insert(key.clone());
-                if samples.count == 0 {
-                    let found = format!("`{key}` with a distribution and no samples");
-                    return Err(SweepError::unfit(found, "a number of samples with it"));
-                }
             }
         }
-        if samples.count > 0 && drawn_keys.is_empty() && !is_part {
-            let allowed = "a distribution with them, as a value of a key or in the scene";
-            return Err(SweepError::unfit("samples and no distribution", allowed));
-        }
-        let factors = axes[..if by_row { 1 } else { axes.len() }].iter();
-        let groups = factors.fold(1, |product: usize, axis| {
-            product.saturating_mul(axis.values.len())
-        });
-        if groups.saturating_mul(samples.count.max(1)) > MOST_POINTS {
-            return Err(SweepError::unfit("too many points", "at most a hundred million"));
-        }
+        let is_used = samples.count == 0 || is_part || !drawn_keys.is_empty();
+        let allowed = "a distribution with them, as a value of a key or in the scene";
+        unless(is_used, "samples and no distribution", allowed)?;
         let sweep = Self {
             file,
             axes,
             samples,
-            groups,
             by_row,
             drawn_keys,
             limits: None,
         };
+        unless(
+            sweep.count() <= MOST_POINTS,
+            "too many points",
+            "at most a hundred million",
+        )?;
         sweep.check_keys()?;
         Ok(sweep)
     }
@@ -161,33 +148,35 @@ impl Sweep {
         let given = |axis: &Axis| axis.values.iter().position(|value| !value.is_empty());
         let groups: BTreeSet<usize> = self.axes.iter().filter_map(given).collect();
         for group in groups {
-            let index = if self.by_row { group } else { 0 } * self.samples.count.max(1);
-            let Err(SceneError::Wrong(wrong)) = self.scene(index) else {
-                continue;
-            };
-            if !wrong.is_unknown {
-                continue;
+            let point = if self.by_row { group } else { 0 } * self.samples.count.max(1);
+            match self.scene(point) {
+                Err(SceneError::Wrong(wrong)) if wrong.is_unknown => return Err(self.unknown(wrong)),
+                _ => {}
             }
-            let inside = format!("{}.", wrong.key);
-            let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
-            let is_no_key = |axis: &&Axis| self.by_row && !is_key(&axis.key);
-            let column = self.axes.iter().find(is_meant).filter(is_no_key);
-            return Err(
-                column.map_or(SceneError::Wrong(wrong).into(), |Axis { key, .. }| {
-                    let meant = did_you_mean(nearest_key(key).as_deref());
-                    SweepError::unfit(
-                        format!("the column `{key}`, which is no key{meant}"),
-                        "keys of the scene, which `creepage explain` lists, and `id`",
-                    )
-                }),
-            );
         }
         Ok(())
     }
 
+    /// The error of a key that no scene has: that of its column, where it has one.
+    fn unknown(&self, wrong: Box<Wrong>) -> SweepError {
+        let inside = format!("{}.", wrong.key);
+        let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
+        let column = self.axes.iter().find(is_meant).filter(|_| self.by_row);
+        let Some(Axis { key, .. }) = column.filter(|axis| !is_key(&axis.key)) else {
+            return SceneError::Wrong(wrong).into();
+        };
+        let meant = did_you_mean(nearest_key(key).as_deref());
+        SweepError::unfit(
+            format!("the column `{key}`, which is no key{meant}"),
+            "keys of the scene, which `creepage explain` lists, and `id`",
+        )
+    }
+
     /// How many points there are, samples included.
     pub fn count(&self) -> usize {
-        self.groups * self.samples.count.max(1)
+        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        let lengths = lengths.take(if self.by_row { 1 } else { self.axes.len() });
+        lengths.fold(self.samples.count.max(1), usize::saturating_mul)
     }
 
     /// The keys that are drawn, here or in the parts that [`Sweep::of_part`] was told of.
