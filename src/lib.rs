@@ -95,7 +95,6 @@ pub use template::template;
 use {
     creepage_plan::{error, shown},
     creepage_report::words,
-    creepage_run::answer,
 };
 
 /// The examples of the README and of the page on the library are tests too.

@@ -11,6 +11,7 @@ use crate::Limits;
 use crate::design::{Design, DesignError, DesignOptions, Place, best, design, held};
 use crate::scene::{did_you_mean, nearest};
 use crate::shown::exact;
+use crate::words::Reader;
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -71,7 +72,7 @@ struct Compared<'a> {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let units = arguments.limits.units(input.file());
+    let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     arguments.limits.warn_of_slips();
     let ways = &arguments.at;
     let everywhere: Vec<Place> = ways.iter().flat_map(|way| way.0.clone()).collect();
@@ -102,7 +103,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         })
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
-    let units = units.for_springs();
     let words = |_| "runs of the scene with one stiffness after the other".to_owned();
     let designs = watched(1.0, words, |progress| {
         let all = ways.len() as f64;
@@ -124,10 +124,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let candidates: &[Design] = if designs.len() > 1 { &designs } else { &[] };
     let compared = Compared { best, candidates };
-    let words = || print(best, &designs, &input.scene, &units);
+    let words = || print(best, &designs, &reader);
     arguments.json.print(&compared, words)?;
     match best.answer {
         Some(_) => Ok(()),
-        None => Err(Failure::NotKept(why_none(best))),
+        None => Err(Failure::NotKept(why_none(best, &reader))),
     }
 }

@@ -4,28 +4,32 @@ use std::io::Write;
 
 use super::failure::Failure;
 use super::terminal;
-use crate::answer::largest_movement_in_duct;
+use crate::Limited;
 use crate::design::{Binding, ClampPeak, Design, Place, Side, Spring, TradeOff};
 use crate::shown::{percent, words_if};
-use crate::{Limited, Scene, Units};
+use crate::words::Reader;
 
 /// The names of a table's columns, and its rows.
 type Table = (Vec<String>, Vec<Vec<String>>);
 
 /// The best of all `designs`: with its runs where it is alone, or beside the others.
-pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) -> Result<(), Failure> {
+pub fn print(best: &Design, designs: &[Design], reader: &Reader) -> Result<(), Failure> {
     let mut out = terminal::out();
     let (title, held, passes) = (terminal::line(&best.title), places(&best.places), best.passes);
     let (what, (names, rows)) = if designs.len() > 1 {
         let ways = format!("{} ways to hold the cable", designs.len());
-        (ways, beside(designs, units))
+        (ways, beside(designs, reader))
     } else {
-        (held.clone(), curve(best, scene, units))
+        (held.clone(), curve(best, reader))
     };
     writeln!(out, "{title}: {what}, {passes} passes")?;
     let mut limits: Vec<String> = Vec::new();
     for (place, quantity, limit) in designs.iter().flat_map(|design| design.limits.all()) {
-        let limit = format!("{} {}", quantity.at(place), quantity.given_in(units, limit));
+        let limit = format!(
+            "{} {}",
+            quantity.at(place),
+            quantity.given_in(&reader.units, limit)
+        );
         if !limits.contains(&limit) {
             limits.push(limit);
         }
@@ -36,7 +40,7 @@ pub fn print(best: &Design, designs: &[Design], scene: &Scene, units: &Units) ->
     if designs.len() > 1 && best.answer.is_some() {
         writeln!(out, "best: {held}")?;
     }
-    let lines = conclusion(best, units);
+    let lines = conclusion(best, reader);
     lines.iter().try_for_each(|line| writeln!(out, "{line}"))?;
     Ok(writeln!(out, "{} runs of the scene", best.runs)?)
 }
@@ -54,27 +58,37 @@ fn places(places: &[Place]) -> String {
     joined(places.iter().map(name), " and ")
 }
 
-/// Force and movement at a clamp.
-fn peak(clamp: &ClampPeak, units: &Units) -> [String; 2] {
-    let force = Limited::Force.shown_in(units, clamp.force_n);
-    [force, Limited::Movement.shown_in(units, clamp.movement_m)]
+/// What limits are of: "force on the upstream end, movement at the clamp at 20 m".
+fn named<'a>(limits: impl IntoIterator<Item = &'a Binding>) -> String {
+    let names = limits.into_iter().map(|limit| limit.quantity.at(limit.end));
+    joined(names, ", ")
+}
+
+/// A stiffness with its unit, or in a word.
+fn stiffness(spring: &Spring, reader: &Reader) -> String {
+    match (spring.stiffness_n_per_m, spring.place) {
+        (None, _) => "fixed".to_owned(),
+        (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
+        (Some(0.0), _) => "free".to_owned(),
+        (Some(stiffness), _) => reader.stiffness(stiffness),
+    }
 }
 
 /// Several designs beside each other.
-fn beside(all: &[Design], units: &Units) -> Table {
+fn beside(all: &[Design], reader: &Reader) -> Table {
     #[rustfmt::skip]
     let names = ["held by", "stiffness", "largest share of a limit", "of", "on the clamp", "within limits"];
     let row = |design: &Design| {
         let found = design.found()?;
-        let is_varied = |clamp: &&ClampPeak| {
-            let mut places = design.places.iter();
-            places.any(|place| place.is_clamp_at(clamp.position_m))
+        let varied = design.places.iter().filter_map(|place| found.clamp_at(*place));
+        let peak = |clamp: &ClampPeak| {
+            let (force, movement) = (reader.force(clamp.force_n), reader.movement(clamp.movement_m));
+            format!("{force}, {movement}")
         };
-        let varied = found.clamps.iter().filter(is_varied);
-        let on_clamps = joined(varied.map(|clamp| peak(clamp, units).join(", ")), " and ");
+        let on_clamps = joined(varied.map(peak), " and ");
         Some(vec![
             places(&design.places),
-            stiffness(units, &found.springs[0]),
+            stiffness(&found.springs[0], reader),
             percent(design.excess()),
             named(&found.tightest(&design.limits)),
             words_if(on_clamps.is_empty(), "–").to_owned() + &on_clamps,
@@ -86,7 +100,7 @@ fn beside(all: &[Design], units: &Units) -> Table {
 }
 
 /// Every run with the scene's own tolerance: at both ends, where springs are, and at limited clamps.
-fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
+fn curve(design: &Design, reader: &Reader) -> Table {
     let limited = design.limits.clamps.iter();
     let limited = limited.map(|clamp| Place::Clamp(clamp.position_m));
     let mut places = vec![Place::Upstream, Place::Downstream];
@@ -103,24 +117,20 @@ fn curve(design: &Design, scene: &Scene, units: &Units) -> Table {
             (Place::Clamp(position), _) => format!("at {position} m"),
             (_, end) => end.map_or("", |end| end.name()).to_owned(),
         };
-        format!("{at}, {}", quantity.symbol_in(units))
+        reader.head(&at, *quantity)
     };
-    let mut names = vec![format!("stiffness, {}", units.stiffness.symbol())];
-    names.extend(columns.iter().map(name).chain(["within limits".to_owned()]));
-    let most = largest_movement_in_duct(scene);
+    let names = columns.iter().map(name).chain(["within limits".to_owned()]);
     let row = |point: &TradeOff| {
         let cell = |&(place, quantity): &(Place, Limited)| {
-            let mut clamps = point.clamps.iter();
-            let is_there = place.end().is_some() || clamps.any(|clamp| place.is_clamp_at(clamp.position_m));
-            let value = point.value(place, quantity);
-            let is_out = quantity == Limited::Movement && value > most;
-            let shown = quantity.number_in(units, if is_out { most } else { value });
-            words_if(!is_there, "–").to_owned() + words_if(is_out, "> ") + words_if(is_there, &shown)
+            let is_there = place.end().is_some() || point.clamp_at(place).is_some();
+            let value = is_there.then(|| reader.number(quantity, point.value(place, quantity)));
+            value.unwrap_or_else(|| "–".to_owned())
         };
-        let first = number(units, &point.springs[0]);
+        let first = stiffness(&point.springs[0], reader);
         let cells = [first].into_iter().chain(columns.iter().map(cell));
         cells.chain([within(point)]).collect()
     };
+    let names = ["stiffness".to_owned()].into_iter().chain(names).collect();
     (names, design.curve.iter().map(row).collect())
 }
 
@@ -130,16 +140,16 @@ fn within(point: &TradeOff) -> String {
 }
 
 /// The answer or what comes nearest, and which limits decide.
-fn conclusion(design: &Design, units: &Units) -> Vec<String> {
+fn conclusion(design: &Design, reader: &Reader) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(nearest) = &design.nearest {
-        let nearest = reached(design, nearest, units);
+        let nearest = reached(design, nearest, reader);
         lines.push(format!("{}; nearest: {nearest}", none(design)));
     }
     if let Some(answer) = &design.answer {
         let only = format!("only in these {} passes:", design.passes);
-        lines.push(format!("answer: {}", reached(design, answer, units)));
-        lines.extend(deciding(design, units));
+        lines.push(format!("answer: {}", reached(design, answer, reader)));
+        lines.extend(deciding(design, reader));
         if is_near(design) {
             let error = percent(answer.error_estimate);
             let near = format!("nearer to a limit than the estimated error of {error}");
@@ -150,8 +160,8 @@ fn conclusion(design: &Design, units: &Units) -> Vec<String> {
         }
         for later in &answer.exceeded_later {
             let (quantity, what) = (later.quantity, later.quantity.at(later.end));
-            let value = quantity.shown_in(units, later.value);
-            let limit = quantity.given_in(units, later.limit);
+            let value = reader.amount(quantity, later.value);
+            let limit = quantity.given_in(&reader.units, later.limit);
             let level = format!("levels off at {value}, above its limit of {limit}");
             lines.push(format!("{only} with more the {what} {level}"));
         }
@@ -159,12 +169,10 @@ fn conclusion(design: &Design, units: &Units) -> Vec<String> {
     // What each clamp comes to, whether it is limited or not.
     let clamps = design.found().map_or(&[][..], |found| &found.clamps);
     lines.extend(clamps.iter().map(|clamp| {
-        let (place, [force, movement]) = (Place::Clamp(clamp.position_m), peak(clamp, units));
+        let (force, movement) = (reader.force(clamp.force_n), reader.movement(clamp.movement_m));
         let slipped = clamp.slipped_m.filter(|slipped| *slipped != 0.0);
-        let slipped = slipped.map(|slipped| Limited::Movement.shown_in(units, slipped));
-        let slipped = slipped.map_or_else(String::new, |slipped| {
-            format!(", and it has slipped by {slipped}")
-        });
+        let slipped = slipped.map(|slipped| format!(", and it has slipped by {}", reader.movement(slipped)));
+        let (place, slipped) = (Place::Clamp(clamp.position_m), slipped.unwrap_or_default());
         format!("{place}: force at most {force}, movement at most {movement}{slipped}")
     }));
     if !clamps.is_empty() && design.limits.clamps.is_empty() {
@@ -182,11 +190,13 @@ fn is_near(design: &Design) -> bool {
 }
 
 /// That nothing is within the limits, and what to try.
-pub fn why_none(design: &Design) -> String {
+pub fn why_none(design: &Design, reader: &Reader) -> String {
     let far = design.out_of_reach.first().map(|limit| {
-        let shown = |value| limit.quantity.shown_in(&Units::default(), value);
-        let (least, most) = (shown(limit.value), shown(limit.limit));
-        let what = limit.quantity.at(limit.end);
+        let (what, least) = (
+            limit.quantity.at(limit.end),
+            reader.amount(limit.quantity, limit.value),
+        );
+        let most = limit.quantity.given_in(&reader.units, limit.limit);
         format!(", as the {what} is {least} at least, limit {most}")
     });
     format!(
@@ -199,39 +209,29 @@ pub fn why_none(design: &Design) -> String {
 
 /// That nothing is within the limits, as surely as it is known.
 fn none(design: &Design) -> String {
-    let none =
-        "none found within the limits, but the nearest exceeds them by less than the error of the search";
-    design.doubt().map_or_else(
-        || "no stiffness stays within the limits".to_owned(),
-        |error| format!("{none}, {}", percent(error)),
-    )
-}
-
-fn named<'a>(limits: impl IntoIterator<Item = &'a Binding>) -> String {
-    let names = limits.into_iter().map(|limit| limit.quantity.at(limit.end));
-    joined(names, ", ")
+    match design.doubt() {
+        None => "no stiffness stays within the limits".to_owned(),
+        Some(error) => format!(
+            "none found within the limits, but the nearest exceeds them by less than the error of the search, {}",
+            percent(error)
+        ),
+    }
 }
 
 /// Where the range of stiffness ends and why, or which limits decide.
-fn deciding(design: &Design, units: &Units) -> Vec<String> {
+fn deciding(design: &Design, reader: &Reader) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some((from, to)) = design.range_n_per_m {
-        let with = |k| {
-            let stiffness_n_per_m = Some(k);
-            let place = design.place;
-            stiffness(
-                units,
-                &Spring {
-                    place,
-                    stiffness_n_per_m,
-                },
-            )
+        let place = design.place;
+        let with = |stiffness_n_per_m| Spring {
+            place,
+            stiffness_n_per_m,
         };
-        let from = with(from);
-        match to.map(with) {
-            None => lines.push(format!("within the limits: {from} and everything stiffer")),
-            Some(to) if to != from => lines.push(format!("within the limits: {from} to {to}")),
-            Some(_) => {}
+        let [from, to] = [Some(from), to].map(|end| stiffness(&with(end), reader));
+        match design.range_n_per_m {
+            Some((_, None)) => lines.push(format!("within the limits: {from} and everything stiffer")),
+            _ if to != from => lines.push(format!("within the limits: {from} to {to}")),
+            _ => {}
         }
     }
     let share = format!(", at {} of it", percent(design.excess()));
@@ -248,30 +248,8 @@ fn deciding(design: &Design, units: &Units) -> Vec<String> {
     lines
 }
 
-/// A stiffness without its unit, to four digits, or in a word.
-fn number(units: &Units, spring: &Spring) -> String {
-    let Some(stiffness) = spring.stiffness_n_per_m else {
-        return "fixed".to_owned();
-    };
-    let value = units.stiffness.of_si(stiffness);
-    let whole = value.log10().floor();
-    match spring.place {
-        Place::Clamp(_) if value == 0.0 => "no clamp".to_owned(),
-        _ if value == 0.0 => "free".to_owned(),
-        _ if (-3.0..5.0).contains(&whole) => format!("{value:.*}", (3.0 - whole).max(0.0) as usize),
-        _ => format!("{value:.3e}"),
-    }
-}
-
-/// The same with its unit.
-fn stiffness(units: &Units, spring: &Spring) -> String {
-    let is_number = spring.stiffness_n_per_m.is_some_and(|value| value > 0.0);
-    let unit = format!(" {}", units.stiffness.symbol());
-    number(units, spring) + words_if(is_number, &unit)
-}
-
 /// Springs, and what they make of the limits.
-fn reached(design: &Design, point: &TradeOff, units: &Units) -> String {
+fn reached(design: &Design, point: &TradeOff, reader: &Reader) -> String {
     let spring = |spring: &Spring| {
         let kind = match (spring.stiffness_n_per_m, spring.place) {
             (None | Some(0.0), _) => "",
@@ -283,14 +261,14 @@ fn reached(design: &Design, point: &TradeOff, units: &Units) -> String {
             place => format!(" at the {place}"),
         };
         let at = words_if(point.springs.len() > 1, &at);
-        format!("{kind}{}{at}", stiffness(units, spring))
+        format!("{kind}{}{at}", stiffness(spring, reader))
     };
     let mut words = vec![joined(point.springs.iter().map(spring), " and ")];
     for (place, quantity, limit) in design.limits.all() {
         let value = point.value(place, quantity);
-        let (times, allowed) = (value / limit, quantity.given_in(units, limit));
+        let (times, allowed) = (value / limit, quantity.given_in(&reader.units, limit));
         let exceeds = format!(", {times:.2} times its limit of {allowed}");
-        let what = format!("{} {}", quantity.at(place), quantity.shown_in(units, value));
+        let what = format!("{} {}", quantity.at(place), reader.amount(quantity, value));
         words.push(what + words_if(times > 1.0, &exceeds));
     }
     if point.leaves_duct {

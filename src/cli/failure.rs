@@ -67,7 +67,7 @@ impl Failure {
     /// Whether the reader of a pipe has gone: it has what it wanted.
     fn reader_has_left(&self) -> bool {
         match self {
-            Self::Output(error) | Self::File(OutputError::StandardOutput(error)) => {
+            Self::Output(error) | Self::File(OutputError::Failed(_, error)) => {
                 error.kind() == io::ErrorKind::BrokenPipe
             }
             _ => false,

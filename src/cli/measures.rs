@@ -52,11 +52,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let table = input.table();
     let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let mut files = arguments.force.files(read.into_iter().flatten());
-    let (xlsx, allowed) = (
-        arguments.xlsx.as_deref(),
-        "a workbook of Excel, such as measures.xlsx",
-    );
-    let workbook = beside(&mut files, "--xlsx", xlsx, "xlsx", allowed)?;
+    let (xlsx, allowed) = (&arguments.xlsx, "a workbook of Excel, such as measures.xlsx");
+    let workbook = beside(&mut files, "--xlsx", xlsx.as_deref(), "xlsx", allowed)?;
     let study = Study::new(input.file())?;
     // A limit of a clamp that no measure has would say nothing.
     arguments.limits.limits_beside(&input.scene, &study.clamps())?;
@@ -65,15 +62,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(output) = &workbook {
         let bytes = crate::workbook::of_measures(&comparison, &reader, input.file());
         let bytes = bytes.map_err(|source| output.failed(source))?;
-        output.write(|out| out.write_all(&bytes))?;
+        output.write(&bytes)?;
     }
     let words = || print(&comparison, &reader);
     arguments.json.print(&comparison, words)?;
+    if comparison.recommended.is_some() {
+        return Ok(());
+    }
     let none = "no measure holds in every combination: what comes nearest is on standard output";
-    let holds = comparison.recommended.is_some();
-    holds
-        .then_some(())
-        .ok_or_else(|| Failure::NotKept(none.to_owned()))
+    Err(Failure::NotKept(none.to_owned()))
 }
 
 /// Makes the runs, and says how many there may be.

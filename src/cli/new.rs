@@ -70,7 +70,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = template(&name, &arguments.values())?;
     crate::plan(&Scene::from_toml(&name, &text)?)?;
-    file.write(|out| out.write_all(text.as_bytes()))?;
+    file.write(text.as_bytes())?;
     let next = format!("{name} is written; to compute: creepage run {name}");
     Ok(writeln!(terminal::out(), "{next}")?)
 }

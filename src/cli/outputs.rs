@@ -150,8 +150,7 @@ impl Destination {
             return Ok(io::stdout().lock().write_all(&csv(rows)?)?);
         }
         if let Some(file) = &self.table {
-            let text = csv(rows)?;
-            file.write(|out| out.write_all(&text))?;
+            file.write(&csv(rows)?)?;
         }
         self.json.print(answer, print)
     }

@@ -105,7 +105,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let report = input.located(report)?;
     input.warn_all(&report.run().warnings);
     terminal::warn_all(report.mistakes());
-    page.write(|out| out.write_all(report.to_html().as_bytes()))?;
+    page.write(report.to_html().as_bytes())?;
     arguments.check.judge(report.verdicts())
 }
 

@@ -113,7 +113,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     input.warn(&mut run.warnings);
     if let Some(saved) = &saved {
         let text = serde_json::to_vec(&run.state).map_err(io::Error::from)?;
-        saved.write(|out| out.write_all(&text))?;
+        saved.write(&text)?;
     }
     let are_given = arguments.limits.are_given();
     let judged = Judged {
@@ -127,7 +127,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(output) = &workbook {
         let bytes = crate::workbook::of_run(run, verdicts, input.file(), &reader.units);
         let bytes = bytes.map_err(|source| output.failed(source))?;
-        output.write(|out| out.write_all(&bytes))?;
+        output.write(&bytes)?;
     }
     destination.write(&judged, rows(&run.passes), || print(&answer, verdicts))?;
     arguments.check.judge(verdicts)

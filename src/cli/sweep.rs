@@ -1,7 +1,7 @@
 //! `creepage sweep`: one scene with many values of some keys.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
@@ -10,10 +10,8 @@ use super::readings::TableArguments;
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::shown::{exact_percent, words_if};
-use crate::sweep::MapValue;
-use crate::sweep::{
-    Axis, Band, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary, ending,
-};
+use crate::sweep::{Axis, Band, MapValue, Quantiles, SAMPLE_TOLERANCE, Samples};
+use crate::sweep::{Sweep, SweepOptions, SweepSummary, ending};
 use crate::{Limited, Units};
 
 #[derive(Debug, clap::Args)]
@@ -100,12 +98,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = read.chain(tables.iter().map(PathBuf::as_path));
     let mut files = arguments.force.files(read);
     files.output(&arguments.out, ending(&arguments.out)?)?;
-    let map = arguments.map.as_ref().map(|file| -> Result<_, Failure> {
+    if arguments.map.is_some() {
         // Whether there can be one is known before anything is computed.
         let _ = sweep.map(&[], arguments.map_of)?;
-        Ok(files.output(file, "svg")?)
-    });
-    let map = map.transpose()?;
+    }
+    let map = arguments.map.as_ref();
+    let map = map.map(|file| files.output(file, "svg")).transpose()?;
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
     let out = arguments.out.display();
@@ -128,25 +126,19 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     if let Some(file) = map {
         let svg = sweep.map(&summary.rows, arguments.map_of)?.to_svg()?;
-        file.write(|out| out.write_all(svg.as_bytes()))?;
+        file.write(svg.as_bytes())?;
     }
     let units = arguments.limits.units(&first);
     let is_coarse = samples.count > 0 && !first.names("solver.tolerance");
-    let words = || print(&summary, arguments, is_coarse, &units);
+    let words = || print(&summary, &arguments.out, is_coarse, &units);
     arguments.json.print(&summary, words)
 }
 
-fn print(
-    summary: &SweepSummary,
-    arguments: &Arguments,
-    is_coarse: bool,
-    units: &Units,
-) -> Result<(), Failure> {
+fn print(summary: &SweepSummary, file: &Path, is_coarse: bool, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     let before = format!(", {} of them done before", summary.resumed);
     let before = words_if(summary.resumed > 0, &before);
-    let file = arguments.out.display();
-    writeln!(out, "{file}: {} points{before}", summary.points)?;
+    writeln!(out, "{}: {} points{before}", file.display(), summary.points)?;
     if is_coarse {
         let tolerance = exact_percent(SAMPLE_TOLERANCE);
         let other = "solver.tolerance names another tolerance";
@@ -159,6 +151,7 @@ fn print(
 fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure> {
     let at = band.at.iter().map(|(key, value)| format!("{key} = {value}"));
     writeln!(out, "\n{}", at.collect::<Vec<_>>().join(", "))?;
+    let force = format!("force, {}", units.force.symbol());
     let names = [
         "mean",
         "standard deviation",
@@ -168,15 +161,14 @@ fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure
         "75 %",
         "95 %",
     ];
-    let mut names: Vec<String> = names.map(str::to_owned).into();
-    names.insert(0, format!("force, {}", units.force.symbol()));
+    let names: Vec<String> = [&*force].into_iter().chain(names).map(str::to_owned).collect();
     let forces = [
         ("downstream", band.downstream_force_n),
         ("upstream", band.upstream_force_n),
         ("largest", band.max_compression_n),
     ];
-    let row = |(name, quantiles): (&str, Option<_>)| {
-        let q: Quantiles = quantiles?;
+    let row = |(name, quantiles): (&str, Option<Quantiles>)| {
+        let q = quantiles?;
         let values = [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95];
         let values = values.map(|force| Limited::Force.number_in(units, force));
         Some([&[name.to_owned()][..], &values].concat())

@@ -40,22 +40,14 @@ impl SharedMesh {
         })
     }
 
-    /// Runs `scene`, over its `ground`, on this mesh and with the error that it has shown.
-    pub fn run(&self, scene: &Scene, ground: &Arc<Ground>) -> Result<Run, Error> {
-        self.run_with(scene, ground, self.shown)
-    }
-
-    /// The same with an error of its own, by runs on coarser meshes and with jumps of its own.
-    pub fn judged(&self, scene: &Scene, ground: &Arc<Ground>) -> Result<Run, Error> {
-        self.run_with(scene, ground, None)
-    }
-
-    fn run_with(&self, scene: &Scene, ground: &Arc<Ground>, mesh: Option<FixedMesh>) -> Result<Run, Error> {
+    /// Runs `scene`, over its `ground`, on this mesh: with the error that it has shown, or, to be
+    /// `judged`, with one of its own, by runs on coarser meshes and with jumps of its own.
+    pub fn run(&self, scene: &Scene, ground: &Arc<Ground>, judged: bool) -> Result<Run, Error> {
         let mut scene = scene.clone();
         scene.solver.node_spacing.get_or_insert(self.node_spacing);
         scene.solver.vehicle_step.get_or_insert(self.vehicle_step);
         let options = RunOptions {
-            mesh,
+            mesh: self.shown.filter(|_| !judged),
             ..RunOptions::default()
         };
         run_over(&scene, Arc::clone(ground), &options)

@@ -8,7 +8,7 @@ use super::options::{DesignError, DesignOptions};
 use super::trade_off::{TradeOff, held};
 use crate::shared_mesh::SharedMesh;
 use creepage_plan::ground::Ground;
-use creepage_run::{Place, Progress};
+use creepage_run::{Limited, Place, Progress};
 use creepage_scene::Scene;
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
@@ -57,39 +57,38 @@ impl<'a> Runs<'a> {
         self.points.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// A run with springs of this stiffness \[N/m\]; to be `judged`, with an error of its own.
+    fn made(&self, stiffness: f64, judged: bool) -> Result<TradeOff, DesignError> {
+        let held = held(&self.scene, &self.options.places, stiffness)?;
+        let run = self.mesh.run(&held, &self.ground, judged)?;
+        Ok(TradeOff::of(&self.scene, &run, stiffness, self.options))
+    }
+
     /// Runs the scene with springs of this stiffness \[N/m\], or finds the run in what was done.
     pub fn run(&self, stiffness: f64) -> Result<TradeOff, DesignError> {
-        let done = self
-            .done()
-            .iter()
-            .find(|point| point.stiffness() == stiffness)
-            .cloned();
-        if let Some(done) = done {
-            return Ok(done);
+        let is_it = |point: &&TradeOff| point.stiffness() == stiffness;
+        if let Some(done) = self.done().iter().find(is_it) {
+            return Ok(done.clone());
         }
-        let held = held(&self.scene, &self.options.places, stiffness)?;
-        let run = self.mesh.run(&held, &self.ground)?;
-        let point = TradeOff::of(&self.scene, &run, stiffness, self.options);
-        self.done().push(point.clone());
-        let share = self.done().len() as f64 / self.expected as f64;
+        let point = self.made(stiffness, false)?;
+        let mut done = self.done();
+        done.push(point.clone());
+        let share = done.len() as f64 / self.expected as f64;
+        drop(done);
         self.progress.report(share.min(1.0))?;
         Ok(point)
     }
 
     /// The same of several, on all cores.
     pub fn run_all(&self, stiffnesses: &[f64]) -> Result<Vec<TradeOff>, DesignError> {
-        stiffnesses
-            .par_iter()
-            .map(|stiffness| self.run(*stiffness))
-            .collect()
+        let all = stiffnesses.par_iter();
+        all.map(|stiffness| self.run(*stiffness)).collect()
     }
 
     /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own,
     /// unless its forces so differ just enough to be on the other side of a limit.
     pub fn judged(&self, point: TradeOff) -> Result<TradeOff, DesignError> {
-        let held = held(&self.scene, &self.options.places, point.stiffness())?;
-        let run = self.mesh.judged(&held, &self.ground)?;
-        let own = TradeOff::of(&self.scene, &run, point.stiffness(), self.options);
+        let own = self.made(point.stiffness(), true)?;
         if own.within_limits == point.within_limits {
             return Ok(own);
         }
@@ -112,18 +111,16 @@ impl<'a> Runs<'a> {
 /// Without a clamp it cannot be seen how far the cable moves where it would be, which a limit may
 /// need.
 pub fn stiffnesses(scene: &Scene, options: &DesignOptions<'_>) -> Vec<f64> {
-    let (places, limits) = (&options.places, &options.limits);
+    let places = &options.places;
     let own = scene.cable.axial_stiffness / scene.duct.length;
     let steps = DECADES * POINTS_PER_DECADE;
     let step = |i: i32| own * 10_f64.powf(f64::from(i) / f64::from(POINTS_PER_DECADE));
-    let is_varied = |position| places.iter().any(|place| place.is_clamp_at(position));
-    let mut clamps = limits.clamps.iter();
-    let moves = clamps.any(|clamp| clamp.limits.movement_m.is_some() && is_varied(clamp.position_m));
+    let needs_clamp = options.limits.all().any(|(place, quantity, _)| {
+        let is_it = |varied: &Place| matches!(varied, Place::Clamp(at) if place.is_clamp_at(*at));
+        quantity == Limited::Movement && places.iter().any(is_it)
+    });
     let are_ends = places.iter().all(|place| place.end().is_some());
-    let none = (!moves).then_some(0.0);
+    let none = (!needs_clamp).then_some(0.0).into_iter();
     let fixed = are_ends.then_some(f64::INFINITY);
-    none.into_iter()
-        .chain((-steps..=steps).map(step))
-        .chain(fixed)
-        .collect()
+    none.chain((-steps..=steps).map(step)).chain(fixed).collect()
 }

@@ -8,13 +8,12 @@ use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Binding, Limit, Side, TradeOff, out_of_reach, with_duct};
 use crate::shared_mesh::{ROUGH, rough};
 use creepage_plan::ground::{Ground, road};
-use creepage_run::{Error, Limits, Place};
+use creepage_run::{Error, Place};
 use creepage_scene::Scene;
 
-/// Share of the progress of the rough runs, which come first if the scene's tolerance is below theirs; and by what factor of its limits a
-/// rough run leaves open whether they are kept.
+/// Share of the progress of the rough runs, which come first if the scene's tolerance is below theirs:
+/// where they show that a limit is out of reach, the search ends.
 const ROUGH_SHARE: f64 = 0.2;
-const NEAR: f64 = 1.5;
 /// Runs that halve half a decade to that width, at two ends: only the progress depends on it.
 const HALVINGS: usize = 14;
 
@@ -46,35 +45,38 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     // Between two stiffnesses that keep a limit every other does; the run has the last word.
     let answer = chosen.filter(|answer| answer.within_limits);
     let answer = answer.map(|answer| runs.judged(answer)).transpose()?;
-    let by_excess = |a: &&TradeOff, b: &&TradeOff| a.excess(limits).total_cmp(&b.excess(limits));
-    let nearest = curve.iter().filter(|_| answer.is_none()).min_by(by_excess);
-    let nearest = nearest.map(|nearest| runs.judged(nearest.clone())).transpose()?;
+    let nearest = nearest(&curve, |point| point.excess(limits));
+    let nearest = answer
+        .is_none()
+        .then(|| runs.judged(curve[nearest].clone()))
+        .transpose()?;
     let kept = kept(&curve);
     let binding = match (&answer, &nearest, kept) {
         (Some(answer), _, Some(kept)) => binding(answer, &curve, kept, &with_duct(limits, scene)),
-        (Some(found), ..) | (None, Some(found), _) => found.tightest(limits),
-        (None, None, _) => Vec::new(),
+        (answer, nearest, _) => {
+            let found = answer.as_ref().or(nearest.as_ref());
+            found.map_or(Vec::new(), |found| found.tightest(limits))
+        }
     };
+    let range = kept
+        .map(|kept| range(&curve, kept))
+        .filter(|(from, _)| from.is_finite());
     let all = [&rough[..], &curve].concat();
-    let out_of_reach = nearest
-        .as_ref()
-        .map_or(Vec::new(), |_| out_of_reach(&all, limits));
     Ok(Design {
         title: scene.title.clone(),
         place: options.places[0],
         places: options.places.clone(),
         passes: scene.traffic.passes,
         limits: limits.clone(),
-        range_n_per_m: kept
-            .map(|kept| range(&curve, kept))
-            .filter(|(from, _)| from.is_finite())
-            .map(|(from, to)| (from, to.is_finite().then_some(to))),
+        range_n_per_m: range.map(|(from, to)| (from, Some(to).filter(|to| to.is_finite()))),
+        out_of_reach: nearest
+            .as_ref()
+            .map_or(Vec::new(), |_| out_of_reach(&all, limits)),
         answer,
         nearest,
         binding,
         // Those of the meshes and of the answer too.
         runs: rough.len() + usize::from(!rough.is_empty()) + curve.len() + 2,
-        out_of_reach,
         curve,
     })
 }
@@ -88,20 +90,21 @@ fn search<'a>(
     options: &'a DesignOptions<'a>,
 ) -> Result<(Runs<'a>, Vec<TradeOff>, Option<TradeOff>), DesignError> {
     let limits = &options.limits;
-    let mut tried = stiffnesses(scene, options);
+    let tried = stiffnesses(scene, options);
     let mut seen = Vec::new();
     let mut progress = options.progress;
     if scene.solver.tolerance < ROUGH {
         let part = progress.part(0.0, ROUGH_SHARE);
         seen = Runs::new(&rough(scene), ground, options, part, tried.len())?.run_all(&tried)?;
-        tried = decisive(&seen, limits);
         progress = progress.part(ROUGH_SHARE, 1.0);
+    }
+    if !out_of_reach(&seen, limits).is_empty() {
+        let runs = Runs::new(scene, ground, options, progress, 1)?;
+        runs.run(seen[nearest(&seen, |point| point.excess(limits))].stiffness())?;
+        return Ok((runs, seen, None));
     }
     let runs = Runs::new(scene, ground, options, progress, tried.len() + HALVINGS)?;
     let curve = runs.run_all(&tried)?;
-    if !out_of_reach(&seen, limits).is_empty() {
-        return Ok((runs, seen, None));
-    }
     let pieces = curve.chunk_by(|a, b| a.within_limits == b.within_limits);
     match pieces.filter(|piece| piece[0].within_limits).count() {
         0 => approach(&runs, &curve, &with_duct(limits, scene))?,
@@ -122,36 +125,20 @@ fn search<'a>(
     Ok((runs, seen, chosen))
 }
 
-/// Stiffnesses that a curve of rough runs leaves open: those near a limit, or beside one on its other side, the best and those
-/// beside it, and both ends of the curve; the best one alone where a limit is out of reach.
-fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<f64> {
-    let excess = |at: usize| curve[at].excess(limits);
-    let best = (0..curve.len()).min_by(|a, b| excess(*a).total_cmp(&excess(*b)));
-    let best = best.unwrap_or_default();
-    let is_hopeless = !out_of_reach(curve, limits).is_empty();
-    let is_open = |at: &usize| {
-        let around = &curve[at.saturating_sub(1)..(at + 2).min(curve.len())];
-        let turns = around
-            .iter()
-            .any(|other| other.within_limits != curve[*at].within_limits);
-        let is_near = (1.0 / NEAR..NEAR).contains(&excess(*at));
-        // The search halves in beside the best, which may be the next one on a finer mesh.
-        around.len() < 3 || turns || is_near || at.abs_diff(best) <= 2
-    };
-    let open = (0..curve.len()).filter(|at| if is_hopeless { *at == best } else { is_open(at) });
-    open.map(|at| curve[at].stiffness()).collect()
+/// The place of the point that exceeds limits least.
+fn nearest(points: &[TradeOff], excess: impl Fn(&TradeOff) -> f64) -> usize {
+    let by_excess = |a: &usize, b: &usize| excess(&points[*a]).total_cmp(&excess(&points[*b]));
+    (0..points.len()).min_by(by_excess).unwrap_or_default()
 }
 
 /// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
 /// worst limit of softer springs is as far exceeded as that of stiffer ones.
 fn approach(runs: &Runs<'_>, curve: &[TradeOff], limits: &[Limit]) -> Result<(), DesignError> {
-    let worst = |point: &TradeOff| {
-        let by_share = |a: &&Limit, b: &&Limit| point.share(**a).total_cmp(&point.share(**b));
-        limits.iter().max_by(by_share).copied()
-    };
-    let excess = |i: &usize| worst(&curve[*i]).map_or(0.0, |limit| curve[*i].share(limit));
-    let best = (0..curve.len()).min_by(|a, b| excess(a).total_cmp(&excess(b)));
-    let best = best.unwrap_or(0);
+    let by_share = |point: &TradeOff, a: &Limit, b: &Limit| point.share(*a).total_cmp(&point.share(*b));
+    let worst = |point: &TradeOff| limits.iter().copied().max_by(|a, b| by_share(point, a, b));
+    let best = nearest(curve, |point| {
+        worst(point).map_or(0.0, |limit| point.share(limit))
+    });
     let around = [best.saturating_sub(1), (best + 1).min(curve.len() - 1)].map(|at| &curve[at]);
     halve(runs, around, |point| {
         worst(point).is_none_or(|limit| around[1].share(limit) > around[0].share(limit))

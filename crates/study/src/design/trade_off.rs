@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::options::DesignOptions;
-use creepage_run::{Error, Limited, Limits, Place, Run, answer::largest_movement_in_duct};
+use creepage_run::{Error, Limited, Limits, Place, Run, Verdict, answer::largest_movement_in_duct};
 use creepage_scene::{CableEnd, End, Restraint, Scene};
 
 /// Where something is limited, what, and how much \[N or m\].
@@ -152,30 +152,35 @@ pub fn held(scene: &Scene, places: &[Place], stiffness: f64) -> Result<Scene, Er
 impl TradeOff {
     /// What `run` gives for `scene` with springs of this stiffness \[N/m\].
     pub(super) fn of(scene: &Scene, run: &Run, stiffness: f64, options: &DesignOptions<'_>) -> Self {
-        let stiffness_n_per_m = (stiffness != f64::INFINITY).then_some(stiffness);
-        let springs = options.places.iter().map(|&place| Spring {
+        let (places, stiffness_n_per_m) = (&options.places, Some(stiffness).filter(|k| k.is_finite()));
+        let spring = |&place: &Place| Spring {
             place,
             stiffness_n_per_m,
-        });
+        };
         let of_ends = |quantity| CableEnd::ALL.map(|end| run.largest(end, quantity));
         let [upstream_force_n, downstream_force_n] = of_ends(Limited::Force);
         let [upstream_movement_m, downstream_movement_m] = of_ends(Limited::Movement);
         let movement_m = upstream_movement_m.max(downstream_movement_m);
-        let mut clamped = options.places.iter().filter(|_| stiffness > 0.0);
-        let is_clamped = clamped.any(|place| place.end().is_none());
+        let is_clamped = stiffness > 0.0 && places.iter().any(|place| place.end().is_none());
         let clamp = run.restraints.last().filter(|_| is_clamped);
-        let clamps = run.restraints.iter().map(|clamp| {
-            let place = Place::Clamp(clamp.position_m);
-            ClampPeak {
-                position_m: clamp.position_m,
-                force_n: run.largest(place, Limited::Force),
-                movement_m: run.largest(place, Limited::Movement),
-                slipped_m: clamp.slipped_m,
-            }
+        let clamps = run.restraints.iter().map(|clamp| ClampPeak {
+            position_m: clamp.position_m,
+            force_n: run.largest(Place::Clamp(clamp.position_m), Limited::Force),
+            movement_m: run.largest(Place::Clamp(clamp.position_m), Limited::Movement),
+            slipped_m: clamp.slipped_m,
         });
+        let later = |verdict: Verdict| {
+            Some(Binding {
+                end: verdict.end,
+                quantity: verdict.quantity,
+                limit: verdict.limit,
+                value: verdict.levels_off_above?,
+                exceeded_by: None,
+            })
+        };
         let mut point = Self {
             stiffness_n_per_m,
-            springs: springs.collect(),
+            springs: places.iter().map(spring).collect(),
             force_n: upstream_force_n.max(downstream_force_n),
             movement_m,
             upstream_force_n,
@@ -185,20 +190,16 @@ impl TradeOff {
             clamp_force_n: clamp.map(|clamp| clamp.force_n),
             clamps: clamps.collect(),
             leaves_duct: movement_m > largest_movement_in_duct(scene),
-            exceeded_later: Vec::new(),
+            exceeded_later: options
+                .limits
+                .verdicts(run)
+                .into_iter()
+                .filter_map(later)
+                .collect(),
             still_growing: run.saturation.is_none() && run.range.is_none() && run.heat.is_none(),
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
-        for verdict in options.limits.verdicts(run) {
-            let limit = (verdict.end, verdict.quantity, verdict.limit);
-            let later = verdict.levels_off_above;
-            let later = later.map(|value| Binding {
-                value,
-                ..point.binding(limit, None)
-            });
-            point.exceeded_later.extend(later);
-        }
         point.within_limits = point.excess(&options.limits) <= 1.0;
         point
     }
@@ -211,24 +212,26 @@ impl TradeOff {
     /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the
     /// duct, which no limit allows.
     pub fn excess(&self, limits: &Limits) -> f64 {
-        if self.leaves_duct {
-            return f64::INFINITY;
-        }
         let shares = limits.all().map(|limit| self.share(limit));
-        shares.fold(0.0, f64::max)
+        let out = if self.leaves_duct { f64::INFINITY } else { 0.0 };
+        shares.fold(out, f64::max)
     }
 
     /// What is limited, as this point has it \[N or m\]; zero at a clamp that is not there.
     pub fn value(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         let place = place.into();
+        let clamp = self.clamp_at(place);
+        quantity.of(match place {
+            Place::Upstream => [self.upstream_force_n, self.upstream_movement_m],
+            Place::Downstream => [self.downstream_force_n, self.downstream_movement_m],
+            Place::Clamp(_) => clamp.map_or([0.0; 2], |clamp| [clamp.force_n, clamp.movement_m]),
+        })
+    }
+
+    /// The clamp at this place, if there is one.
+    pub fn clamp_at(&self, place: Place) -> Option<&ClampPeak> {
         let mut clamps = self.clamps.iter();
-        let clamp = clamps.find(|clamp| place.is_clamp_at(clamp.position_m));
-        let (force, movement) = match place {
-            Place::Upstream => (self.upstream_force_n, self.upstream_movement_m),
-            Place::Downstream => (self.downstream_force_n, self.downstream_movement_m),
-            Place::Clamp(_) => clamp.map_or((0.0, 0.0), |clamp| (clamp.force_n, clamp.movement_m)),
-        };
-        quantity.of([force, movement])
+        clamps.find(|clamp| place.is_clamp_at(clamp.position_m))
     }
 
     /// What of it is beside a limit, at most 1 within the limit.
@@ -237,8 +240,7 @@ impl TradeOff {
     }
 
     /// A limit that binds here.
-    pub(super) fn binding(&self, limit: Limit, exceeded_by: Option<Side>) -> Binding {
-        let (end, quantity, limit) = limit;
+    pub(super) fn binding(&self, (end, quantity, limit): Limit, exceeded_by: Option<Side>) -> Binding {
         Binding {
             end,
             quantity,

@@ -124,12 +124,8 @@ impl Study {
         let mut tried = runs.tried(measure, &self.combinations)?;
         for _ in 0..CLOSER {
             let Some(at) = top(&tried.outcomes) else { break };
-            match runs.run(measure, &at, true)? {
-                Ok(outcome) => tried.outcomes.push(outcome),
-                Err(failure) => {
-                    tried.failures.push(failure);
-                    break;
-                }
+            if !tried.add(runs.run(measure, &at, true)?) {
+                break;
             }
         }
         Ok(tried)
@@ -138,31 +134,29 @@ impl Study {
     /// What is said of a measure.
     fn decided(&self, runs: &Runs<'_>, mut tried: Tried) -> Result<MeasureAnswer, Error> {
         let middle = middle(&self.unknowns);
-        let nominal = |outcomes: &[Outcome], rough: bool| {
-            let mut all = outcomes.iter();
-            all.find(|outcome| outcome.at == middle && outcome.rough == rough)?
-                .nearest()
+        let in_middle = |tried: &Tried, rough| {
+            let mut outcomes = tried.outcomes.iter();
+            let found = outcomes.find(|outcome| outcome.at == middle && outcome.rough == rough);
+            found.and_then(Outcome::nearest)
         };
-        let rough_nominal = nominal(&tried.outcomes, true);
+        let rough_nominal = in_middle(&tried, true);
         decide(runs, &mut tried)?;
-        let Tried {
-            measure,
-            outcomes,
-            failures,
-        } = tried;
-        let held = measure.applied(&self.scene);
+        let held = tried.measure.applied(&self.scene);
         Ok(MeasureAnswer {
-            name: measure.name.clone(),
             ends: held.ends,
             restraints: held.restraints,
-            cost: measure.cost.clone(),
-            parts: measure.parts(),
-            within_limits: failures.is_empty() && outcomes.iter().all(Outcome::holds),
-            kept: self.asked(&outcomes).filter(|outcome| outcome.holds()).count(),
-            worst: worst(&outcomes).and_then(Outcome::nearest),
-            nominal: nominal(&outcomes, false).or(rough_nominal),
-            failures,
-            outcomes,
+            parts: tried.measure.parts(),
+            within_limits: tried.failures.is_empty() && tried.outcomes.iter().all(Outcome::holds),
+            kept: self
+                .asked(&tried.outcomes)
+                .filter(|outcome| outcome.holds())
+                .count(),
+            worst: worst(&tried.outcomes).and_then(Outcome::nearest),
+            nominal: in_middle(&tried, false).or(rough_nominal),
+            name: tried.measure.name,
+            cost: tried.measure.cost,
+            failures: tried.failures,
+            outcomes: tried.outcomes,
         })
     }
 
@@ -198,41 +192,37 @@ impl Study {
     }
 }
 
-/// Runs the worst with the scene's tolerance; and all that is near a limit, until the measure is known to exceed one or to hold.
-fn decide(
-    runs: &Runs<'_>,
-    Tried {
-        measure,
-        outcomes,
-        failures,
-    }: &mut Tried,
-) -> Result<(), Error> {
+/// Runs the worst with the scene's tolerance; and all that is near a limit, until the measure is known
+/// to exceed one or to hold.
+fn decide(runs: &Runs<'_>, tried: &mut Tried) -> Result<(), Error> {
     let (mut count, mut known) = (0, 0.0);
-    while let Some(next) = worst(outcomes.iter().filter(|outcome| outcome.rough)).cloned() {
+    while let Some(next) = worst(tried.outcomes.iter().filter(|outcome| outcome.rough)).cloned() {
         let is_near = (next.share() - 1.0).abs() < DOUBT && known <= 1.0;
         if !is_near && (count == DECISIVE || next.share() <= known) {
             break;
         }
         count += 1;
-        outcomes.retain(|outcome| outcome.at != next.at);
-        match runs.run(measure, &next.at, false)? {
-            Err(failure) => failures.push(failure),
-            Ok(own) => {
-                // What the scene's tolerance changes there scales the others for what follows (space mapping: J. W. Bandler et al., IEEE
-                // Trans. Microwave Theory Tech. 42 (1994) 2536).
-                for outcome in outcomes.iter_mut().filter(|outcome| outcome.rough) {
-                    let known = next.verdicts.iter().zip(&own.verdicts);
-                    for (verdict, (old, new)) in outcome.verdicts.iter_mut().zip(known) {
-                        let scale = new.largest / old.largest;
-                        verdict.largest *= if scale.is_finite() { scale } else { 1.0 };
-                    }
-                }
-                known = own.share().max(known);
-                outcomes.push(own);
-            }
+        tried.outcomes.retain(|outcome| outcome.at != next.at);
+        let own = runs.run(&tried.measure, &next.at, false)?;
+        if let Ok(own) = &own {
+            known = own.share().max(known);
+            scale(&mut tried.outcomes, &next, own);
         }
+        tried.add(own);
     }
     Ok(())
+}
+
+/// What the scene's tolerance changes of one outcome scales the other rough ones for what follows
+/// (space mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536).
+fn scale(outcomes: &mut [Outcome], rough: &Outcome, own: &Outcome) {
+    for outcome in outcomes.iter_mut().filter(|outcome| outcome.rough) {
+        let known = rough.verdicts.iter().zip(&own.verdicts);
+        for (verdict, (rough, own)) in outcome.verdicts.iter_mut().zip(known) {
+            let scale = own.largest / rough.largest;
+            verdict.largest *= if scale.is_finite() { scale } else { 1.0 };
+        }
+    }
 }
 
 /// The candidate with the smallest largest share of a limit in the `critical` combinations; of springs that with any stiffness, as a
@@ -248,27 +238,24 @@ fn best(runs: &Runs<'_>, way: &Way, critical: &[Combination]) -> Result<Measure,
         let best = rows.iter().min_by(|a, b| a.largest().total_cmp(&b.largest()));
         return Ok(best.map_or(&way[0], |best| &best.measure).clone());
     }
-    let largest_with = |stiffness: f64| {
-        let cases = rows[0].outcomes.iter().enumerate();
-        let shares = cases.flat_map(|(case, outcome)| {
-            let limits = outcome.verdicts.iter().enumerate();
-            limits.map(move |(limit, verdict)| (case, limit, verdict.quantity))
-        });
-        let read = |(case, limit, quantity): (usize, usize, _)| {
-            read(&levels, stiffness, quantity, |row| {
-                share(&rows[row].outcomes[case].verdicts[limit])
-            })
-        };
-        shares.map(read).fold(0.0, f64::max)
+    // Of every case and limit, the share with any stiffness.
+    let largest_with = |stiffness: &f64| {
+        let mut largest: f64 = 0.0;
+        for (case, outcome) in rows[0].outcomes.iter().enumerate() {
+            for (limit, verdict) in outcome.verdicts.iter().enumerate() {
+                let of_row = |row: usize| share(&rows[row].outcomes[case].verdicts[limit]);
+                largest = largest.max(read(&levels, *stiffness, verdict.quantity, of_row));
+            }
+        }
+        largest
     };
     let (first, last) = (levels[0], levels[levels.len() - 1]);
     let steps = ((last / first).log10() * PER_DECADE).ceil();
     let trials = (0..=steps as usize).map(|step| first * (last / first).powf(step as f64 / steps));
     // A product has a round stiffness.
     let round = |stiffness: f64| format!("{stiffness:.1e}").parse().unwrap_or(stiffness);
-    let best = trials
-        .map(round)
-        .min_by(|a, b| largest_with(*a).total_cmp(&largest_with(*b)));
+    let by_share = |a: &f64, b: &f64| largest_with(a).total_cmp(&largest_with(b));
+    let best = trials.map(round).min_by(by_share);
     Ok(with_stiffness(&way[0], best.unwrap_or(first)))
 }
 

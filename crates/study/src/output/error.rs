@@ -13,32 +13,24 @@ pub enum OutputError {
     /// The command reads the file of this name, or writes it already, in words.
     #[error("{0}: found a file which {1}; allowed: another file")]
     Taken(String, &'static str),
-    /// There is a file whose name does not end as the output's does.
+    /// There is a file of this name, which does not end as the output's does: with this, without a point.
     #[error(
-        "{file}: found a file that would be lost; allowed: a new name, the name of a .{ending} file, which is replaced, or --force to insist"
+        "{0}: found a file that would be lost; allowed: a new name, the name of a .{1} file, which is replaced, or --force to insist"
     )]
-    OtherEnding {
-        /// The file.
-        file: String,
-        /// The output's ending, without its point.
-        ending: &'static str,
-    },
+    OtherEnding(String, &'static str),
     /// Writing the file of this name broke off, and why.
     #[error("{0}: cannot be written")]
     Failed(String, #[source] io::Error),
-    /// Writing to standard output broke off.
-    #[error("standard output: cannot be written")]
-    StandardOutput(#[source] io::Error),
 }
 
 impl OutputError {
-    /// `file` cannot be written.
-    pub fn unwritable(file: &Path, source: io::Error) -> Self {
-        Self::Unwritable(file.display().to_string(), source)
+    /// Writing `file` broke off.
+    pub fn failed(file: &Path, source: io::Error) -> Self {
+        Self::Failed(file.display().to_string(), source)
     }
 
     /// Whether the input is at fault, not the disk.
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Self::Failed(..) | Self::StandardOutput(_))
+        !matches!(self, Self::Failed(..))
     }
 }

@@ -9,12 +9,13 @@ const MOST_LINKS: usize = 40;
 /// Number of the descriptor of standard output.
 const STANDARD_OUTPUT: u32 = 1;
 
+/// Where content goes.
 #[derive(Debug, Clone)]
 pub enum Place {
     /// A file past all links, or the name of a new one.
     File(PathBuf),
     /// A device, a named pipe, or an open file that another program handed over: written as it is.
-    Special(PathBuf),
+    Stream(PathBuf),
     /// Where the answers go too.
     StandardOutput,
 }
@@ -25,11 +26,10 @@ impl Place {
         let refused = |reason: &str| Err(io::Error::new(ErrorKind::InvalidInput, reason));
         let mut at = path.to_owned();
         for _ in 0..MOST_LINKS {
-            if let Some(number) = descriptor(&at) {
-                return Ok(match number {
-                    STANDARD_OUTPUT => Self::StandardOutput,
-                    _ => Self::Special(path.to_owned()),
-                });
+            match descriptor(&at) {
+                Some(STANDARD_OUTPUT) => return Ok(Self::StandardOutput),
+                Some(_) => return Ok(Self::Stream(path.to_owned())),
+                None => {}
             }
             // A link counts from the folder in which it lies.
             let Ok(link) = fs::read_link(&at) else { break };
@@ -38,25 +38,22 @@ impl Place {
         match fs::metadata(&at) {
             Ok(found) if found.is_file() => Ok(Self::File(at)),
             Ok(found) if found.is_dir() => refused("it is a folder"),
-            Ok(found) if is_stream(found.file_type()) => Ok(Self::Special(at)),
+            Ok(found) if is_stream(found.file_type()) => Ok(Self::Stream(at)),
             Ok(_) => refused("it is not a file"),
+            // To join nothing adds a separator, unless there is one at the end.
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                let ends_in_separator = at
-                    .as_os_str()
-                    .as_encoded_bytes()
-                    .last()
-                    .is_some_and(|&last| std::path::is_separator(char::from(last)));
-                if ends_in_separator || at.file_name().is_none() {
-                    return refused("it is not the name of a file");
+                match at.join("").as_os_str() == at.as_os_str() {
+                    true => refused("it is not the name of a file"),
+                    false => Ok(Self::File(at)),
                 }
-                Ok(Self::File(at))
             }
             Err(error) => Err(error),
         }
     }
 }
 
-/// The number of one of this process's open files, which `/dev/stdout`, `/dev/fd/3` and `/proc/self/fd/3` are links to.
+/// The number of one of this process's open files, which `/dev/stdout`, `/dev/fd/3` and
+/// `/proc/self/fd/3` are links to.
 fn descriptor(path: &Path) -> Option<u32> {
     let number = path.file_name()?.to_str()?.parse().ok()?;
     let folder = path.parent()?.canonicalize().ok()?;
@@ -65,13 +62,15 @@ fn descriptor(path: &Path) -> Option<u32> {
 }
 
 /// Whether this takes what is written and has nothing to lose. A disk as a whole has.
-#[cfg(unix)]
 fn is_stream(kind: fs::FileType) -> bool {
-    use std::os::unix::fs::FileTypeExt;
-    kind.is_char_device() || kind.is_fifo()
-}
-
-#[cfg(not(unix))]
-fn is_stream(_: fs::FileType) -> bool {
-    false
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        kind.is_char_device() || kind.is_fifo()
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = kind;
+        false
+    }
 }

@@ -54,10 +54,8 @@ impl Axis {
         } else {
             list(written)?
         };
-        Ok(Self {
-            key: key.to_owned(),
-            values,
-        })
+        let key = key.to_owned();
+        Ok(Self { key, values })
     }
 
     /// The unit of all its values, where they have one.
@@ -74,30 +72,24 @@ impl Axis {
 
 /// The parts of a list; commas inside brackets and quotes part nothing.
 fn split(text: &str) -> Vec<&str> {
-    let mut parts = Vec::new();
-    let (mut start, mut depth, mut quote) = (0, 0_usize, None);
-    for (at, c) in text.char_indices() {
+    let (mut depth, mut quote) = (0_usize, None);
+    let parts = text.split(|c| {
         match (quote, c) {
             (Some(open), _) => quote = Some(open).filter(|&open| c != open),
             (None, '"' | '\'') => quote = Some(c),
             (None, '{' | '[' | '(') => depth += 1,
             (None, '}' | ']' | ')') => depth = depth.saturating_sub(1),
-            (None, ',') if depth == 0 => {
-                parts.push(&text[start..at]);
-                start = at + 1;
-            }
-            _ => {}
+            _ => return c == ',' && depth == 0,
         }
-    }
-    parts.push(&text[start..]);
-    parts
+        false
+    });
+    parts.map(str::trim).collect()
 }
 
 /// The values of V1,V2,….
 fn list(text: &str) -> Result<Vec<String>, Refusal> {
-    let list: Vec<&str> = split(text).into_iter().map(str::trim).collect();
-    let units = list.iter().filter_map(|value| Some(number(value)?.1));
-    let units: Vec<&str> = units.collect();
+    let list = split(text);
+    let units: Vec<&str> = list.iter().filter_map(|value| Some(number(value)?.1)).collect();
     let last = units.last().copied().unwrap_or_default();
     if list.contains(&"") {
         return Err(("an empty value".into(), "values between commas".into()));
@@ -117,10 +109,8 @@ fn list(text: &str) -> Result<Vec<String>, Refusal> {
         return Err((one.to_owned(), range));
     }
     if units.contains(&"") && units.iter().any(|unit| !unit.is_empty()) {
-        return Err((
-            "values with a unit and without one".into(),
-            format!("the unit at every value, such as {}{last}", list[0]),
-        ));
+        let allowed = format!("the unit at every value, such as {}{last}", list[0]);
+        return Err(("values with a unit and without one".into(), allowed));
     }
     Ok(list.into_iter().map(str::to_owned).collect())
 }
@@ -131,9 +121,8 @@ fn decimal_comma(text: &str) -> Option<String> {
     let (whole, rest) = text.split_once(',')?;
     let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
     let (digits, unit) = rest.split_at(rest.bytes().take_while(u8::is_ascii_digit).count());
-    let whole_numbers =
-        !unsigned.is_empty() && !digits.is_empty() && unsigned.bytes().all(|b| b.is_ascii_digit());
-    if !whole_numbers || number(rest)?.1 != unit.trim() {
+    let is_count = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if !is_count(unsigned) || !is_count(digits) || number(rest)?.1 != unit.trim() {
         return None;
     }
     let like_one = !unit.is_empty() || unsigned == "0" || (digits.len() > 1 && digits.starts_with('0'));
@@ -159,8 +148,6 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
             "A:B:STEP with a STEP that leads from A to B, a distance in their unit and no number of values, to a million values at most",
         ));
     }
-    // The end counts where rounding alone keeps a step from it.
-    let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
     let value = |i: u64| {
         let value = first + i as f64 * step;
         let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
@@ -169,6 +156,8 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
         let value = if is_zero { 0.0 } else { rounded };
         format!("{value} {unit}").trim_end().to_owned()
     };
+    // The end counts where rounding alone keeps a step from it.
+    let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
     Some(Ok((0..=count).map(value).collect()))
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
+use super::axis::Axis;
 use super::columns::{AnswerColumn, Row, error_of, numbers};
 use super::distribution::drawn;
 use super::grid::Sweep;
@@ -48,38 +49,37 @@ pub struct Quantiles {
 impl Sweep {
     /// What the samples at each point of the grid say; nothing where nothing is drawn.
     pub(super) fn bands(&self, columns: &[AnswerColumn], rows: &[Row]) -> Vec<Band> {
-        if self.samples.count == 0 {
-            return Vec::new();
-        }
-        let groups = rows.chunks(self.samples.count).enumerate();
+        let is_listed = |axis: &Axis, value: &str| !value.is_empty() && drawn(&axis.key, value).is_none();
         let band = |(group, rows): (usize, &[Row])| {
-            let listed = self.axes.iter().zip(self.given(group));
-            let listed =
-                listed.filter(|(axis, value)| !value.is_empty() && drawn(&axis.key, value).is_none());
+            let given = self.axes.iter().zip(self.given(group));
+            let listed = given.filter(|(axis, value)| is_listed(axis, value));
             let failed = rows.iter().filter_map(error_of).count();
+            let of = |name| quantiles(numbers(name, columns, rows));
             Band {
                 at: listed
                     .map(|(axis, value)| (axis.key.clone(), value.to_owned()))
                     .collect(),
                 samples: rows.len() - failed,
                 failed,
-                downstream_force_n: quantiles(numbers("downstream_force_n", columns, rows)),
-                upstream_force_n: quantiles(numbers("upstream_force_n", columns, rows)),
-                max_compression_n: quantiles(numbers("max_compression_n", columns, rows)),
+                downstream_force_n: of("downstream_force_n"),
+                upstream_force_n: of("upstream_force_n"),
+                max_compression_n: of("max_compression_n"),
             }
         };
-        groups.map(band).collect()
+        match self.samples.count {
+            0 => Vec::new(),
+            count => rows.chunks(count).enumerate().map(band).collect(),
+        }
     }
 }
 
 /// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50
 /// (1996) 361, type 8).
 fn quantiles(values: Vec<Option<f64>>) -> Option<Quantiles> {
-    let values: Vec<f64> = values.into_iter().flatten().collect();
-    if values.len() < 2 {
+    let mut data = Data::new(values.into_iter().flatten().collect::<Vec<f64>>());
+    if data.len() < 2 {
         return None;
     }
-    let mut data = Data::new(values);
     Some(Quantiles {
         mean: data.mean()?,
         standard_deviation: data.std_dev()?,

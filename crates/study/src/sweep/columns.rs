@@ -21,81 +21,66 @@ pub struct Answer<'a> {
     pub verdicts: &'a [Verdict],
 }
 
-/// A cell's text; `None` where it is empty.
-type Cell = for<'a> fn(&Answer<'a>) -> Option<String>;
-/// A column of the answer: its name, what it holds, and its cell.
-type Field = (&'static str, AnswerValues, Cell);
+/// A column of the answer: its name, what it holds, and the text of its cell, `None` where that is
+/// empty.
+type Field = (
+    &'static str,
+    AnswerValues,
+    for<'a> fn(&Answer<'a>) -> Option<String>,
+);
 
 const NUMBERS: AnswerValues = AnswerValues::Numbers(Vec::new());
 const COUNTS: AnswerValues = AnswerValues::Counts(Vec::new());
+const FLAGS: AnswerValues = AnswerValues::Flags(Vec::new());
 const TEXTS: AnswerValues = AnswerValues::Texts(Vec::new());
+
 /// The column that says why a row has no answer.
 const ERROR: &str = "error";
 
 /// Columns of every answer, after the last pass.
+#[rustfmt::skip]
 const ANSWER: [Field; 8] = [
-    ("downstream_force_n", NUMBERS, |of| {
-        Some(of.last.downstream_force_n.to_string())
-    }),
-    ("upstream_force_n", NUMBERS, |of| {
-        Some(of.last.upstream_force_n.to_string())
-    }),
-    ("max_compression_n", NUMBERS, |of| {
-        Some(of.last.max_compression_n.to_string())
-    }),
-    ("saturation_force_n", NUMBERS, |of| {
-        Some(of.run.saturation?.force_n.to_string())
-    }),
-    ("passes_to_95_percent", COUNTS, |of| {
-        Some(of.run.saturation?.passes_to_95_percent.to_string())
-    }),
-    ("upstream_displacement_m", NUMBERS, |of| {
-        Some(of.last.upstream_displacement_m.to_string())
-    }),
-    ("downstream_displacement_m", NUMBERS, |of| {
-        Some(of.last.downstream_displacement_m.to_string())
-    }),
-    ("error_estimate", NUMBERS, |of| {
-        Some(of.run.error_estimate.relative.to_string())
-    }),
+    ("downstream_force_n", NUMBERS, |of| text(of.last.downstream_force_n)),
+    ("upstream_force_n", NUMBERS, |of| text(of.last.upstream_force_n)),
+    ("max_compression_n", NUMBERS, |of| text(of.last.max_compression_n)),
+    ("saturation_force_n", NUMBERS, |of| text(of.run.saturation?.force_n)),
+    ("passes_to_95_percent", COUNTS, |of| text(of.run.saturation?.passes_to_95_percent)),
+    ("upstream_displacement_m", NUMBERS, |of| text(of.last.upstream_displacement_m)),
+    ("downstream_displacement_m", NUMBERS, |of| text(of.last.downstream_displacement_m)),
+    ("error_estimate", NUMBERS, |of| text(of.run.error_estimate.relative)),
 ];
 /// Those of a cable that is heated: forces over all days, and its movement from day to day in the
 /// end, where days repeat but for that.
+#[rustfmt::skip]
 const HEAT_ANSWER: [Field; 5] = [
-    ("downstream_max_n", NUMBERS, |of| {
-        Some(all_days(of)?.downstream_max_n.to_string())
-    }),
-    ("downstream_min_n", NUMBERS, |of| {
-        Some(all_days(of)?.downstream_min_n.to_string())
-    }),
-    ("upstream_max_n", NUMBERS, |of| {
-        Some(all_days(of)?.upstream_max_n.to_string())
-    }),
-    ("upstream_min_n", NUMBERS, |of| {
-        Some(all_days(of)?.upstream_min_n.to_string())
-    }),
-    ("drift_per_day_m", NUMBERS, |of| {
-        Some(of.run.heat.as_ref()?.drift_per_day_m?.to_string())
-    }),
+    ("downstream_max_n", NUMBERS, |of| text(all_days(of)?.downstream_max_n)),
+    ("downstream_min_n", NUMBERS, |of| text(all_days(of)?.downstream_min_n)),
+    ("upstream_max_n", NUMBERS, |of| text(all_days(of)?.upstream_max_n)),
+    ("upstream_min_n", NUMBERS, |of| text(all_days(of)?.upstream_min_n)),
+    ("drift_per_day_m", NUMBERS, |of| text(of.run.heat.as_ref()?.drift_per_day_m?)),
 ];
 /// Those of limits: whether any is exceeded, and when the first of them is.
 const LIMITS: [Field; 2] = [
-    ("limit_exceeded", AnswerValues::Flags(Vec::new()), |of| {
-        Some(of.verdicts.iter().any(Verdict::is_exceeded).to_string())
+    ("limit_exceeded", FLAGS, |of| {
+        text(of.verdicts.iter().any(Verdict::is_exceeded))
     }),
     ("limit_reached_after_years", NUMBERS, |of| {
         let verdicts = of.verdicts.iter();
         let years = verdicts.filter_map(|verdict| verdict.reached_after?.years);
-        Some(years.min_by(f64::total_cmp)?.to_string())
+        text(years.min_by(f64::total_cmp)?)
     }),
 ];
 
+fn text(value: impl ToString) -> Option<String> {
+    Some(value.to_string())
+}
+
+fn all_days<'a>(of: &Answer<'a>) -> Option<&'a DayExtremes> {
+    Some(&of.run.heat.as_ref()?.all_days)
+}
+
 /// The section of a scene that heats the cable.
 const HEAT: &str = "heat";
-
-fn all_days<'a>(answer: &Answer<'a>) -> Option<&'a DayExtremes> {
-    Some(&answer.run.heat.as_ref()?.all_days)
-}
 
 /// A column of a sweep's table.
 #[derive(Debug, Clone)]
@@ -194,10 +179,10 @@ impl Sweep {
     }
 }
 
-/// Why a row has no answer, if it has none.
+/// Why a row has no answer, if it has none: what its last cell says.
 pub fn error_of(row: &Row) -> Option<&str> {
-    let [status, error] = [2, 1].map(|from_end| row.get(row.len().checked_sub(from_end)?));
-    error.filter(|_| status != Some("ok"))
+    let error = row.get(row.len().checked_sub(1)?);
+    error.filter(|error| !error.is_empty())
 }
 
 /// The numbers of the column of this `name`, one a row.

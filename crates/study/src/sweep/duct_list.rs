@@ -6,7 +6,7 @@ use creepage_tables::{Layout, Name, Options, Row, Table};
 
 use super::distribution::{ID, TEXTS};
 use super::error::SweepError;
-use super::grid::Sweep;
+use super::grid::{Columns, Sweep};
 use super::samples::Samples;
 use super::table;
 use creepage_scene::{Dimension, SceneFile};
@@ -58,27 +58,23 @@ impl Sweep {
 ///
 /// [`SweepError::Rows`] where there is no such table, [`SweepError::Invalid`] where the name ends
 /// otherwise.
-pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>> {
+pub fn read(file: &Path, options: &Options) -> Result<Columns> {
     table::ending(file)?;
     columns(&Table::from_file(file, options, &LAYOUT)?)
 }
 
-fn columns(table: &Table) -> Result<Vec<(String, Vec<String>)>> {
+fn columns(table: &Table) -> Result<Columns> {
     let value = |row: &Row, column: usize| -> Result<String> {
         let is_number = (LAYOUT.is_number)(&table.names[column]);
         let number = is_number.then(|| table.quantity(row, column, column));
-        let number = number.transpose()?.flatten();
-        let written = number.map(|(digits, unit)| format!("{digits} {unit}").trim_end().to_owned());
-        Ok(written.unwrap_or_else(|| row.cell(column).to_owned()))
+        Ok(match number.transpose()?.flatten() {
+            Some((digits, unit)) => format!("{digits} {unit}").trim_end().to_owned(),
+            None => row.cell(column).to_owned(),
+        })
     };
-    let values = |column| {
-        table
-            .rows
-            .iter()
-            .map(|row| value(row, column))
-            .collect::<Result<_>>()
+    let named = |(column, name): (usize, &Name)| {
+        let values = table.rows.iter().map(|row| value(row, column));
+        Ok((name.bare.clone(), values.collect::<Result<_>>()?))
     };
-    let columns = table.names.iter().enumerate();
-    let columns = columns.map(|(column, name)| Ok((name.bare.clone(), values(column)?)));
-    columns.collect()
+    table.names.iter().enumerate().map(named).collect()
 }

@@ -9,9 +9,8 @@ use super::distribution::{ID, drawn};
 use super::error::SweepError;
 use super::limits::PointLimits;
 use super::samples::Samples;
-use creepage_plan::hash::fnv1a;
-
-use creepage_scene::{Scene, SceneError, SceneFile, did_you_mean, key_meanings, nearest_key};
+use creepage_plan::{hash::fnv1a, shown::words_if};
+use creepage_scene::{Scene, SceneError, SceneFile, Wrong, did_you_mean, key_meanings, nearest_key};
 
 /// Most points of a sweep.
 const MOST_POINTS: usize = 100_000_000;
@@ -20,6 +19,9 @@ const MOST_POINTS: usize = 100_000_000;
 pub const SAMPLE_TOLERANCE: f64 = 0.02;
 const TOLERANCE: &str = "solver.tolerance";
 
+/// Columns of a table of ducts: names of keys, and a value a row.
+pub type Columns = Vec<(String, Vec<String>)>;
+
 /// A scene and the values of its varied keys.
 #[derive(Debug, Clone)]
 pub struct Sweep {
@@ -27,8 +29,6 @@ pub struct Sweep {
     /// The keys. A value may be a distribution, or empty, which leaves the scene's own.
     pub(super) axes: Vec<Axis>,
     pub(super) samples: Samples,
-    /// Combinations of the values, or rows.
-    groups: usize,
     /// Whether a point takes one value of each key, those of a row, in place of every combination.
     by_row: bool,
     /// Keys that are drawn, here or in other parts of their table.
@@ -57,11 +57,7 @@ impl Sweep {
     /// # Errors
     ///
     /// As for [`Sweep::new`], and [`SweepError::Invalid`] where columns have different lengths.
-    pub fn of_table(
-        file: SceneFile,
-        columns: Vec<(String, Vec<String>)>,
-        samples: Samples,
-    ) -> Result<Self, SweepError> {
+    pub fn of_table(file: SceneFile, columns: Columns, samples: Samples) -> Result<Self, SweepError> {
         Self::of(file, axes(columns), samples, true, None)
     }
 
@@ -73,17 +69,12 @@ impl Sweep {
     /// As for [`Sweep::of_table`], but for samples without a distribution.
     pub fn of_part(
         file: SceneFile,
-        columns: Vec<(String, Vec<String>)>,
+        columns: Columns,
         samples: Samples,
         drawn: impl IntoIterator<Item = String>,
     ) -> Result<Self, SweepError> {
-        Self::of(
-            file,
-            axes(columns),
-            samples,
-            true,
-            Some(drawn.into_iter().collect()),
-        )
+        let drawn = drawn.into_iter().collect();
+        Self::of(file, axes(columns), samples, true, Some(drawn))
     }
 
     /// The same with limits, which every point is judged by.
@@ -101,57 +92,37 @@ impl Sweep {
         drawn_elsewhere: Option<BTreeSet<String>>,
     ) -> Result<Self, SweepError> {
         draw_in_scene(&file, &mut axes, by_row);
-        if axes.iter().all(|axis| axis.key == ID) {
-            return Err(SweepError::unfit(
-                "no varied key",
-                "at least one, such as duct.depth",
-            ));
-        }
+        let is_any = axes.iter().any(|axis| axis.key != ID);
+        fits(is_any, "no varied key", "at least one, such as duct.depth")?;
         let is_part = drawn_elsewhere.is_some();
         let mut drawn_keys = drawn_elsewhere.unwrap_or_default();
         for (index, axis) in axes.iter().enumerate() {
-            let key = &axis.key;
-            if axes[..index].iter().any(|other| other.key == *key) {
-                return Err(SweepError::unfit(format!("`{key}` twice"), "every key once"));
-            }
-            if axis.values.is_empty() {
-                return Err(SweepError::unfit(
-                    format!("`{key}` without values"),
-                    "one value or more",
-                ));
-            }
-            if by_row && axis.values.len() != axes[0].values.len() {
-                let allowed = "a value a row, which may be empty";
-                return Err(SweepError::unfit("columns of different lengths", allowed));
-            }
+            let (key, count) = (&axis.key, axis.values.len());
+            let is_first = axes[..index].iter().all(|other| other.key != *key);
+            fits(is_first, &format!("`{key}` twice"), "every key once")?;
+            fits(count > 0, &format!("`{key}` without values"), "one value or more")?;
+            let is_long = !by_row || count == axes[0].values.len();
+            let allowed = "a value a row, which may be empty";
+            fits(is_long, "columns of different lengths", allowed)?;
             if is_drawn(axis)? {
+                let found = format!("`{key}` with a distribution and no samples");
+                fits(samples.count > 0, &found, "a number of samples with it")?;
                 drawn_keys.insert(key.clone());
-                if samples.count == 0 {
-                    let found = format!("`{key}` with a distribution and no samples");
-                    return Err(SweepError::unfit(found, "a number of samples with it"));
-                }
             }
         }
-        if samples.count > 0 && drawn_keys.is_empty() && !is_part {
-            let allowed = "a distribution with them, as a value of a key or in the scene";
-            return Err(SweepError::unfit("samples and no distribution", allowed));
-        }
-        let factors = axes[..if by_row { 1 } else { axes.len() }].iter();
-        let groups = factors.fold(1, |product: usize, axis| {
-            product.saturating_mul(axis.values.len())
-        });
-        if groups.saturating_mul(samples.count.max(1)) > MOST_POINTS {
-            return Err(SweepError::unfit("too many points", "at most a hundred million"));
-        }
+        let is_used = samples.count == 0 || is_part || !drawn_keys.is_empty();
+        let allowed = "a distribution with them, as a value of a key or in the scene";
+        fits(is_used, "samples and no distribution", allowed)?;
         let sweep = Self {
             file,
             axes,
             samples,
-            groups,
             by_row,
             drawn_keys,
             limits: None,
         };
+        let is_small = sweep.count() <= MOST_POINTS;
+        fits(is_small, "too many points", "at most a hundred million")?;
         sweep.check_keys()?;
         Ok(sweep)
     }
@@ -161,33 +132,35 @@ impl Sweep {
         let given = |axis: &Axis| axis.values.iter().position(|value| !value.is_empty());
         let groups: BTreeSet<usize> = self.axes.iter().filter_map(given).collect();
         for group in groups {
-            let index = if self.by_row { group } else { 0 } * self.samples.count.max(1);
-            let Err(SceneError::Wrong(wrong)) = self.scene(index) else {
-                continue;
-            };
-            if !wrong.is_unknown {
-                continue;
+            let point = if self.by_row { group } else { 0 } * self.samples.count.max(1);
+            match self.scene(point) {
+                Err(SceneError::Wrong(wrong)) if wrong.is_unknown => return Err(self.unknown(wrong)),
+                _ => {}
             }
-            let inside = format!("{}.", wrong.key);
-            let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
-            let is_no_key = |axis: &&Axis| self.by_row && !is_key(&axis.key);
-            let column = self.axes.iter().find(is_meant).filter(is_no_key);
-            return Err(
-                column.map_or(SceneError::Wrong(wrong).into(), |Axis { key, .. }| {
-                    let meant = did_you_mean(nearest_key(key).as_deref());
-                    SweepError::unfit(
-                        format!("the column `{key}`, which is no key{meant}"),
-                        "keys of the scene, which `creepage explain` lists, and `id`",
-                    )
-                }),
-            );
         }
         Ok(())
     }
 
+    /// The error of a key that no scene has: that of its column, where it has one.
+    fn unknown(&self, wrong: Box<Wrong>) -> SweepError {
+        let inside = format!("{}.", wrong.key);
+        let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
+        let column = self.axes.iter().find(is_meant).filter(|_| self.by_row);
+        let Some(Axis { key, .. }) = column.filter(|axis| !is_key(&axis.key)) else {
+            return SceneError::Wrong(wrong).into();
+        };
+        let meant = did_you_mean(nearest_key(key).as_deref());
+        SweepError::unfit(
+            format!("the column `{key}`, which is no key{meant}"),
+            "keys of the scene, which `creepage explain` lists, and `id`",
+        )
+    }
+
     /// How many points there are, samples included.
     pub fn count(&self) -> usize {
-        self.groups * self.samples.count.max(1)
+        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        let lengths = lengths.take(if self.by_row { 1 } else { self.axes.len() });
+        lengths.fold(self.samples.count.max(1), usize::saturating_mul)
     }
 
     /// The keys that are drawn, here or in the parts that [`Sweep::of_part`] was told of.
@@ -197,9 +170,9 @@ impl Sweep {
 
     /// The value of each varied key in a group of samples, as it was given.
     pub(super) fn given(&self, mut group: usize) -> Vec<&str> {
-        let mut values: Vec<&str> = Vec::with_capacity(self.axes.len());
+        let mut values = Vec::with_capacity(self.axes.len());
         for Axis { values: list, .. } in self.axes.iter().rev() {
-            values.push(&list[if self.by_row { group } else { group % list.len() }]);
+            values.push(&*list[group % list.len()]);
             group /= if self.by_row { 1 } else { list.len() };
         }
         values.reverse();
@@ -210,14 +183,13 @@ impl Sweep {
     pub fn values(&self, index: usize) -> Vec<String> {
         let samples = self.samples.count.max(1);
         let (group, sample) = (index / samples, index % samples);
-        let given = self.given(group);
+        let given = self.axes.iter().zip(self.given(group));
         // What names a row: its id, or else its number. In a grid all points have the same samples.
-        let id = self.axes.iter().position(|axis| axis.key == ID);
-        let id = match id.map(|place| given[place]).filter(|id| !id.is_empty()) {
-            Some(id) => id.to_owned(),
-            None if self.by_row => group.to_string(),
-            None => String::new(),
-        };
+        let mut ids = given
+            .clone()
+            .filter(|(axis, id)| axis.key == ID && !id.is_empty());
+        let number = words_if(self.by_row, &group.to_string()).to_owned();
+        let id = ids.next().map_or(number, |(_, id)| id.to_owned());
         let value = |(axis, given): (&Axis, &str)| match drawn(&axis.key, given) {
             Some(Ok(distribution)) => {
                 let share = self.samples.share(&axis.key, &id, sample);
@@ -225,7 +197,7 @@ impl Sweep {
             }
             _ => given.to_owned(),
         };
-        self.axes.iter().zip(given).map(value).collect()
+        given.map(value).collect()
     }
 
     /// The scene of a point. Samples are computed to [`SAMPLE_TOLERANCE`], unless the scene or an
@@ -277,12 +249,17 @@ impl Sweep {
         let files = self.files().into_iter();
         let files: Vec<_> = files.map(|file| std::fs::read(file).ok()).collect();
         let rest = (&self.axes, &self.samples, &self.by_row, &self.limits);
-        let text = format!("{version}\0{scene:?}\0{files:?}\0{rest:?}");
-        fnv1a(text.into_bytes())
+        fnv1a(format!("{version}\0{scene:?}\0{files:?}\0{rest:?}").into_bytes())
     }
 }
 
-fn axes(columns: Vec<(String, Vec<String>)>) -> Vec<Axis> {
+/// Refuses what does not fit together.
+fn fits(holds: bool, found: &str, allowed: &str) -> Result<(), SweepError> {
+    let refused = || SweepError::unfit(found, allowed);
+    holds.then_some(()).ok_or_else(refused)
+}
+
+fn axes(columns: Columns) -> Vec<Axis> {
     let axis = |(key, values)| Axis { key, values };
     columns.into_iter().map(axis).collect()
 }
@@ -290,15 +267,17 @@ fn axes(columns: Vec<(String, Vec<String>)>) -> Vec<Axis> {
 /// Whether any of its values is a distribution; refuses one that is none.
 fn is_drawn(Axis { key, values }: &Axis) -> Result<bool, SweepError> {
     let mut is_drawn = false;
-    for value in values {
-        if let Some(distribution) = drawn(key, value) {
-            distribution.map_err(|allowed| SweepError::Cell {
-                key: key.clone(),
-                found: value.clone(),
-                allowed,
-            })?;
-            is_drawn = true;
-        }
+    for found in values {
+        let Some(distribution) = drawn(key, found) else {
+            continue;
+        };
+        let refused = |allowed| SweepError::Cell {
+            key: key.clone(),
+            found: found.clone(),
+            allowed,
+        };
+        distribution.map_err(refused)?;
+        is_drawn = true;
     }
     Ok(is_drawn)
 }
@@ -308,26 +287,18 @@ fn is_drawn(Axis { key, values }: &Axis) -> Result<bool, SweepError> {
 fn draw_in_scene(file: &SceneFile, axes: &mut Vec<Axis>, by_row: bool) {
     let rows = axes.first().filter(|_| by_row);
     let rows = rows.map_or(1, |axis| axis.values.len());
-    for typed in file.typed() {
-        let (key, text) = (typed.key, typed.text);
-        if drawn(&key, &text).is_none() {
-            continue;
-        }
+    let in_scene = file.typed().into_iter().map(|typed| (typed.key, typed.text));
+    for (key, text) in in_scene.filter(|(key, text)| drawn(key, text).is_some()) {
         if let Some(axis) = axes.iter_mut().find(|axis| axis.key == key) {
             let empty = axis.values.iter_mut().filter(|value| value.is_empty());
             empty.for_each(|value| value.clone_from(&text));
             continue;
         }
-        let is_around = |axis: &&Axis| {
-            let inner = key.strip_prefix(&*axis.key);
-            inner.is_some_and(|inner| inner.starts_with('.'))
-        };
-        let is_replaced = |row: usize| {
-            let mut around = axes.iter().filter(is_around);
-            around.any(|axis| axis.values.get(row).is_some_and(|value| !value.is_empty()))
-        };
-        let value = |row| if is_replaced(row) { "" } else { &text };
-        let values = (0..rows).map(|row| value(row).to_owned()).collect();
+        let is_around = |axis: &Axis| key.starts_with(&format!("{}.", axis.key));
+        let is_given = |axis: &Axis, row: usize| axis.values.get(row).is_some_and(|value| !value.is_empty());
+        let is_replaced = |row| axes.iter().any(|axis| is_around(axis) && is_given(axis, row));
+        let value = |row| words_if(!is_replaced(row), &text).to_owned();
+        let values = (0..rows).map(value).collect();
         axes.push(Axis { key, values });
     }
 }

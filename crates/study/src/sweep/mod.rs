@@ -35,6 +35,7 @@ mod compute;
 mod distribution;
 mod duct_list;
 mod error;
+mod finished;
 mod grid;
 mod limits;
 mod map;
@@ -42,7 +43,6 @@ mod numbers;
 mod run;
 mod samples;
 mod table;
-mod unfinished;
 
 pub use axis::Axis;
 pub use bands::{Band, Quantiles};

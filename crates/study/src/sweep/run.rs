@@ -1,6 +1,6 @@
 //! All points of a sweep, and their table in memory or in a file.
 
-use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::bands::Band;
 use super::columns::{AnswerColumn, Row, error_of};
 use super::error::SweepError;
+use super::finished::Finished;
 use super::grid::Sweep;
 use super::table;
-use super::unfinished::Unfinished;
 use crate::output::Files;
 use creepage_run::{Error, Progress, Run};
 use creepage_scene::Scene;
@@ -71,13 +71,9 @@ impl Sweep {
     /// table.
     pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
         let mut columns = self.columns();
-        let mut rows = BTreeMap::new();
-        let points: Vec<usize> = (0..self.count()).collect();
-        self.compute(&points, &columns, options, |point, row| {
-            rows.insert(point, row);
-            Ok(())
-        })?;
-        for row in rows.values() {
+        let mut finished = Finished::default();
+        self.compute(&mut finished, &columns, options)?;
+        for row in finished.rows.values() {
             let cells = columns.iter_mut().zip(row);
             cells.for_each(|(column, cell)| column.push(cell));
         }
@@ -100,18 +96,12 @@ impl Sweep {
         table::check_count(self.count(), output)?;
         let output = Files::reading([], options.force).output(output, ending)?;
         let columns = self.columns();
-        let mut unfinished = Unfinished::open(output.path(), self, &columns)?;
-        let resumed = unfinished.rows.len();
-        let is_missing = |point: &usize| !unfinished.rows.contains_key(point);
-        let points: Vec<usize> = (0..self.count()).filter(is_missing).collect();
-        self.compute(&points, &columns, options, |point, row| {
-            unfinished.keep(point, row)
-        })?;
-        // It comes into its place when it is whole.
-        let rows = unfinished.rows.values();
-        let draft = table::write(output.begin()?, ending, &columns, &self.file, rows);
-        draft.map_err(|source| output.failed(source))?.finish()?;
-        let rows = unfinished.remove()?;
+        let mut finished = Finished::beside(output.path(), self, &columns)?;
+        let resumed = finished.rows.len();
+        self.compute(&mut finished, &columns, options)?;
+        let bytes = table::bytes(ending, &columns, &self.file, finished.rows.values());
+        output.write(&bytes.map_err(|source| output.failed(io::Error::other(source)))?)?;
+        let rows = finished.whole()?;
         let errors = || rows.iter().filter_map(error_of);
         Ok(SweepSummary {
             points: rows.len(),

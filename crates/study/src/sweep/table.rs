@@ -1,22 +1,21 @@
 //! The finished table, as CSV or a workbook.
 
-use std::io;
 use std::path::Path;
 
 use super::columns::{AnswerColumn, AnswerValues, Row};
 use super::error::SweepError;
 use super::numbers::si;
 use crate::book::{Book, Cell, scene as scene_sheet};
-use crate::output::Draft;
 use creepage_run::answer::si_of_field;
 use creepage_scene::{SceneFile, si_unit};
 
-/// What names of tables end in.
-const ENDINGS: &[&str] = &["csv", XLSX];
-/// The same in words.
+type Result<T, E = Box<dyn std::error::Error + Send + Sync>> = std::result::Result<T, E>;
+
+/// What names of workbooks end in.
+const XLSX: &str = "xlsx";
+/// What is allowed as the name of a table.
 const ALLOWED: &str = "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of \
                        creepage.sweep";
-const XLSX: &str = "xlsx";
 /// Most rows of a workbook's table: a sheet has two more, for the names and the units of its columns.
 const MOST_ROWS: usize = 1_048_574;
 
@@ -26,10 +25,10 @@ const MOST_ROWS: usize = 1_048_574;
 ///
 /// [`SweepError::Invalid`] for any other ending.
 pub fn ending(table: &Path) -> Result<&'static str, SweepError> {
-    let extension = table.extension().unwrap_or_default().to_ascii_lowercase();
-    let known = ENDINGS.iter().find(|known| extension == **known);
-    known
-        .copied()
+    let extension = table.extension().unwrap_or_default();
+    let mut endings = ["csv", XLSX].into_iter();
+    endings
+        .find(|ending| extension.eq_ignore_ascii_case(ending))
         .ok_or_else(|| SweepError::unfit(format!("the table {}", table.display()), ALLOWED))
 }
 
@@ -44,27 +43,31 @@ pub fn check_count(rows: usize, table: &Path) -> Result<(), SweepError> {
     ))
 }
 
-/// Writes the table, and into a workbook also the `scene`, to `draft`.
-pub fn write<'a>(
-    draft: Draft,
+/// The bytes of the table, of a workbook with the `scene` in it.
+pub fn bytes<'a>(
     ending: &str,
     columns: &[AnswerColumn],
     scene: &SceneFile,
     rows: impl Iterator<Item = &'a Row>,
-) -> io::Result<Draft> {
+) -> Result<Vec<u8>> {
     if ending == XLSX {
-        let mut draft = draft;
-        let book = book(columns, scene, rows).map_err(io::Error::other)?;
-        io::Write::write_all(&mut draft, &book)?;
-        return Ok(draft);
+        let title = scene.scene().map_or(String::new(), |scene| scene.title);
+        let mut book = Book::new(&title)?;
+        let headings: Vec<_> = columns.iter().map(AnswerColumn::heading).collect();
+        book.sheet("sweep", &headings)?;
+        for row in rows {
+            let cells = columns.iter().zip(row);
+            book.row(cells.map(|(column, cell)| column.cell(cell)), false)?;
+        }
+        scene_sheet(&mut book, scene)?;
+        return Ok(book.finish()?);
     }
-    let mut writer = csv::Writer::from_writer(draft);
+    let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(columns.iter().map(|column| &column.name))?;
     for row in rows {
         writer.write_record(row.iter().map(harmless))?;
     }
-    let draft = writer.into_inner();
-    draft.map_err(|error| io::Error::other(error.to_string()))
+    Ok(writer.into_inner()?)
 }
 
 /// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one,
@@ -75,44 +78,25 @@ fn harmless(text: &str) -> String {
     format!("{apostrophe}{text}")
 }
 
-fn book<'a>(
-    columns: &[AnswerColumn],
-    scene: &SceneFile,
-    rows: impl Iterator<Item = &'a Row>,
-) -> Result<Vec<u8>, rust_xlsxwriter::XlsxError> {
-    let title = scene.scene().map_or(String::new(), |scene| scene.title);
-    let mut book = Book::new(&title)?;
-    let headings: Vec<_> = columns.iter().map(AnswerColumn::heading).collect();
-    book.sheet("sweep", &headings)?;
-    for row in rows {
-        let cells = columns.iter().zip(row);
-        book.row(cells.map(|(column, cell)| column.cell(cell)), false)?;
-    }
-    scene_sheet(&mut book, scene)?;
-    book.finish()
-}
-
 impl AnswerColumn {
     /// The name in a workbook, and the unit there.
     fn heading(&self) -> (&str, &'static str) {
-        let (name, field) = (&*self.name, si_of_field(&self.name));
-        let si = si_unit(name).or(field.map(|(_, unit)| unit));
+        let (name, si) = si_of_field(&self.name).unwrap_or((&self.name, ""));
         match self.unit {
-            Some(unit) => (field.map_or(name, |(name, _)| name), unit.symbol()),
-            None => (name, si.unwrap_or_default()),
+            Some(unit) => (name, unit.symbol()),
+            None => (&self.name, si_unit(&self.name).unwrap_or(si)),
         }
     }
 
     /// The cell of a workbook, in the unit of the column.
     fn cell(&self, cell: &str) -> Cell {
-        let number = |si: f64| self.unit.map_or(si, |unit| unit.of_si(si));
+        let number = |si: f64| Cell::Number(self.unit.map_or(si, |unit| unit.of_si(si)));
         match (&self.values, cell) {
             (_, "") => Cell::Absent,
             (AnswerValues::Texts(_), text) => Cell::Text(text.to_owned()),
-            (AnswerValues::Flags(_), flag) => {
-                Cell::Text(if flag == "true" { "yes" } else { "no" }.to_owned())
-            }
-            (_, si) => si.parse().map_or(Cell::Absent, |si| Cell::Number(number(si))),
+            (AnswerValues::Flags(_), "true") => Cell::Text("yes".to_owned()),
+            (AnswerValues::Flags(_), _) => Cell::Text("no".to_owned()),
+            (_, si) => si.parse().map_or(Cell::Absent, number),
         }
     }
 }
