@@ -42,9 +42,10 @@ impl Place {
             Ok(_) => refused("it is not a file"),
             // To join nothing adds a separator, unless there is one at the end.
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                match at.join("").as_os_str() == at.as_os_str() {
-                    true => refused("it is not the name of a file"),
-                    false => Ok(Self::File(at)),
+                if at.join("").as_os_str() == at.as_os_str() {
+                    refused("it is not the name of a file")
+                } else {
+                    Ok(Self::File(at))
                 }
             }
             Err(error) => Err(error),

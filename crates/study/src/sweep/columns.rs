@@ -40,40 +40,36 @@ const ERROR: &str = "error";
 /// Columns of every answer, after the last pass.
 #[rustfmt::skip]
 const ANSWER: [Field; 8] = [
-    ("downstream_force_n", NUMBERS, |of| text(of.last.downstream_force_n)),
-    ("upstream_force_n", NUMBERS, |of| text(of.last.upstream_force_n)),
-    ("max_compression_n", NUMBERS, |of| text(of.last.max_compression_n)),
-    ("saturation_force_n", NUMBERS, |of| text(of.run.saturation?.force_n)),
-    ("passes_to_95_percent", COUNTS, |of| text(of.run.saturation?.passes_to_95_percent)),
-    ("upstream_displacement_m", NUMBERS, |of| text(of.last.upstream_displacement_m)),
-    ("downstream_displacement_m", NUMBERS, |of| text(of.last.downstream_displacement_m)),
-    ("error_estimate", NUMBERS, |of| text(of.run.error_estimate.relative)),
+    ("downstream_force_n", NUMBERS, |of| Some(of.last.downstream_force_n.to_string())),
+    ("upstream_force_n", NUMBERS, |of| Some(of.last.upstream_force_n.to_string())),
+    ("max_compression_n", NUMBERS, |of| Some(of.last.max_compression_n.to_string())),
+    ("saturation_force_n", NUMBERS, |of| Some(of.run.saturation?.force_n.to_string())),
+    ("passes_to_95_percent", COUNTS, |of| Some(of.run.saturation?.passes_to_95_percent.to_string())),
+    ("upstream_displacement_m", NUMBERS, |of| Some(of.last.upstream_displacement_m.to_string())),
+    ("downstream_displacement_m", NUMBERS, |of| Some(of.last.downstream_displacement_m.to_string())),
+    ("error_estimate", NUMBERS, |of| Some(of.run.error_estimate.relative.to_string())),
 ];
 /// Those of a cable that is heated: forces over all days, and its movement from day to day in the
 /// end, where days repeat but for that.
 #[rustfmt::skip]
 const HEAT_ANSWER: [Field; 5] = [
-    ("downstream_max_n", NUMBERS, |of| text(all_days(of)?.downstream_max_n)),
-    ("downstream_min_n", NUMBERS, |of| text(all_days(of)?.downstream_min_n)),
-    ("upstream_max_n", NUMBERS, |of| text(all_days(of)?.upstream_max_n)),
-    ("upstream_min_n", NUMBERS, |of| text(all_days(of)?.upstream_min_n)),
-    ("drift_per_day_m", NUMBERS, |of| text(of.run.heat.as_ref()?.drift_per_day_m?)),
+    ("downstream_max_n", NUMBERS, |of| Some(all_days(of)?.downstream_max_n.to_string())),
+    ("downstream_min_n", NUMBERS, |of| Some(all_days(of)?.downstream_min_n.to_string())),
+    ("upstream_max_n", NUMBERS, |of| Some(all_days(of)?.upstream_max_n.to_string())),
+    ("upstream_min_n", NUMBERS, |of| Some(all_days(of)?.upstream_min_n.to_string())),
+    ("drift_per_day_m", NUMBERS, |of| Some(of.run.heat.as_ref()?.drift_per_day_m?.to_string())),
 ];
 /// Those of limits: whether any is exceeded, and when the first of them is.
 const LIMITS: [Field; 2] = [
     ("limit_exceeded", FLAGS, |of| {
-        text(of.verdicts.iter().any(Verdict::is_exceeded))
+        Some(of.verdicts.iter().any(Verdict::is_exceeded).to_string())
     }),
     ("limit_reached_after_years", NUMBERS, |of| {
         let verdicts = of.verdicts.iter();
         let years = verdicts.filter_map(|verdict| verdict.reached_after?.years);
-        text(years.min_by(f64::total_cmp)?)
+        Some(years.min_by(f64::total_cmp)?.to_string())
     }),
 ];
-
-fn text(value: impl ToString) -> Option<String> {
-    Some(value.to_string())
-}
 
 fn all_days<'a>(of: &Answer<'a>) -> Option<&'a DayExtremes> {
     Some(&of.run.heat.as_ref()?.all_days)
