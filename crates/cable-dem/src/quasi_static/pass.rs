@@ -263,12 +263,13 @@ impl QuasiStatic {
         Ok(stretch)
     }
 
-    /// Brings the supports of a `window` into balance if it is theirs and sticks, with the `adhesion` on it; false if not.
+    /// Brings the supports in a `window` into balance if it sticks, with the `adhesion` on it, and is the least one of them all; false if
+    /// not.
     fn respond(&mut self, window: Stretch, adhesion: &[f64]) -> bool {
         let (step, load) = (&mut self.step, &self.supports.load);
         let limit = (1.0 + ROUNDED) * self.cable.least_limit();
-        let mut supports = self.supports.of_window(window).peekable();
-        let responds = supports.peek().is_some()
+        let mut supports = self.supports.within(window);
+        let responds = supports.clone().all(|support| support.window == window)
             && step.chain.clamps().iter().all(Clamp::is_stuck)
             && supports.all(|support| support.respond(step, load, adhesion, limit));
         if responds {

@@ -73,9 +73,10 @@ impl Supports {
         }
     }
 
-    /// Those around which the least window is this one.
-    pub fn of_window(&self, window: Stretch) -> impl Iterator<Item = &Support> {
-        self.each.iter().filter(move |support| support.window == window)
+    /// Those that stand in a `window`.
+    pub fn within(&self, window: Stretch) -> impl Iterator<Item = &Support> + Clone {
+        let stands_within = move |support: &&Support| window.nodes().contains(&support.node);
+        self.each.iter().filter(stands_within)
     }
 
     /// The ground at rest, where the adherent frame is that of the ground, and the cable's own

@@ -181,3 +181,38 @@ fn forces_on_clamps_during_a_pass_are_those_of_its_steps() {
         }
     }
 }
+
+/// Also where the window of one holds another: k (2 u_i − u_{i−1} − u_{i+1}) + S u_i = w f_i, with S the spring of a clamp, or none of it
+/// beside the fixed end.
+#[test]
+fn clamps_and_the_fixed_end_are_in_balance_at_every_step() {
+    let mesh = mesh();
+    for places in [&[14.0][..], &[14.6], &[0.4, 14.0], &[7.0, 8.0], &[0.8, 1.6, 13.8]] {
+        for stiffness in [3e5, 1e7] {
+            let clamps: Vec<(f64, f64)> = places.iter().map(|place| (*place, stiffness)).collect();
+            let cable = clamped((End::Free, End::Fixed), &clamps);
+            let passage =
+                Passage::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
+            let mut solver = QuasiStatic::new(cable.clone(), mesh).expect("a valid problem");
+            let mut state = solver.at_rest();
+            let mut worst = 0.0_f64;
+            for _ in 0..PASSES {
+                let outcome = solver.pass_observed(&passage, &mut state, |_, at| {
+                    let state = at();
+                    let (u, f) = (state.displacement(), state.friction());
+                    let clamped = places
+                        .iter()
+                        .map(|place| ((place / SPACING).round() as usize, stiffness));
+                    for (node, spring) in clamped.chain([(mesh.elements() - 1, 0.0)]) {
+                        let bend = 2.0 * u[node] - u[node - 1] - u[node + 1];
+                        let force = AXIAL_STIFFNESS / SPACING * bend + spring * u[node];
+                        worst = worst.max((force / SPACING - f[node]).abs());
+                    }
+                });
+                outcome.expect("an equilibrium");
+            }
+            // What windows may leave out, and rounding.
+            assert!(worst < 1.1e-3 * LIMITS[0], "{places:?} {stiffness}: {worst} N/m");
+        }
+    }
+}

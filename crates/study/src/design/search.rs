@@ -8,12 +8,13 @@ use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Binding, Limit, Side, TradeOff, out_of_reach, with_duct};
 use crate::shared_mesh::{ROUGH, rough};
 use creepage_plan::ground::{Ground, road};
-use creepage_run::{Error, Place};
+use creepage_run::{Error, Limits, Place};
 use creepage_scene::Scene;
 
-/// Share of the progress of the rough runs, which come first if the scene's tolerance is below theirs:
-/// where they show that a limit is out of reach, the search ends.
+/// Share of the progress of the rough runs, which come first if the scene's tolerance is below theirs; and by what factor of its limits a
+/// rough run leaves open whether they are kept.
 const ROUGH_SHARE: f64 = 0.2;
+const NEAR: f64 = 1.5;
 /// Runs that halve half a decade to that width, at two ends: only the progress depends on it.
 const HALVINGS: usize = 14;
 
@@ -90,21 +91,20 @@ fn search<'a>(
     options: &'a DesignOptions<'a>,
 ) -> Result<(Runs<'a>, Vec<TradeOff>, Option<TradeOff>), DesignError> {
     let limits = &options.limits;
-    let tried = stiffnesses(scene, options);
+    let mut tried = stiffnesses(scene, options);
     let mut seen = Vec::new();
     let mut progress = options.progress;
     if scene.solver.tolerance < ROUGH {
         let part = progress.part(0.0, ROUGH_SHARE);
         seen = Runs::new(&rough(scene), ground, options, part, tried.len())?.run_all(&tried)?;
+        tried = decisive(&seen, limits);
         progress = progress.part(ROUGH_SHARE, 1.0);
-    }
-    if !out_of_reach(&seen, limits).is_empty() {
-        let runs = Runs::new(scene, ground, options, progress, 1)?;
-        runs.run(seen[nearest(&seen, |point| point.excess(limits))].stiffness())?;
-        return Ok((runs, seen, None));
     }
     let runs = Runs::new(scene, ground, options, progress, tried.len() + HALVINGS)?;
     let curve = runs.run_all(&tried)?;
+    if !out_of_reach(&seen, limits).is_empty() {
+        return Ok((runs, seen, None));
+    }
     let pieces = curve.chunk_by(|a, b| a.within_limits == b.within_limits);
     match pieces.filter(|piece| piece[0].within_limits).count() {
         0 => approach(&runs, &curve, &with_duct(limits, scene))?,
@@ -129,6 +129,24 @@ fn search<'a>(
 fn nearest(points: &[TradeOff], excess: impl Fn(&TradeOff) -> f64) -> usize {
     let by_excess = |a: &usize, b: &usize| excess(&points[*a]).total_cmp(&excess(&points[*b]));
     (0..points.len()).min_by(by_excess).unwrap_or_default()
+}
+
+/// Stiffnesses that a curve of rough runs leaves open: those near a limit, or beside one on its other
+/// side, the best and those beside it, and both ends of the curve; the best one alone where a limit is
+/// out of reach.
+fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<f64> {
+    let best = nearest(curve, |point| point.excess(limits));
+    let is_hopeless = !out_of_reach(curve, limits).is_empty();
+    let is_open = |at: &usize| {
+        let around = &curve[at.saturating_sub(1)..(at + 2).min(curve.len())];
+        let is_within = curve[*at].within_limits;
+        let turns = around.iter().any(|other| other.within_limits != is_within);
+        let is_near = (1.0 / NEAR..NEAR).contains(&curve[*at].excess(limits));
+        // The search halves in beside the best, which may be the next one on a finer mesh.
+        around.len() < 3 || turns || is_near || at.abs_diff(best) <= 2
+    };
+    let open = (0..curve.len()).filter(|at| if is_hopeless { *at == best } else { is_open(at) });
+    open.map(|at| curve[at].stiffness()).collect()
 }
 
 /// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
