@@ -205,14 +205,19 @@ impl QuasiStatic {
     fn anchor(&mut self, stretch: Stretch) {
         let (ImplicitStep { chain, trial, .. }, nodes) = (&self.step, stretch.nodes());
         let compliance = self.cable.friction().compliance();
-        for i in nodes {
+        let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
+        let anchors = self.anchor[nodes.clone()].iter_mut().zip(state);
+        let contacts = chain.nodes()[nodes.clone()].iter().zip(&trial.contact[nodes]);
+        let mut heat = 0.0;
+        for ((anchor, (r, g)), (node, contact)) in anchors.zip(contacts) {
             // Stuck nodes keep theirs.
-            if trial.contact[i] != Contact::Stuck {
-                let (node, now) = (&chain.nodes()[i], self.r[i] + compliance * self.g[i]);
-                let slip = std::mem::replace(&mut self.anchor[i], now) - now;
-                self.outcome.dissipated += node.tributary * node.limit * slip.abs();
+            if *contact != Contact::Stuck {
+                let now = r + compliance * g;
+                let slip = std::mem::replace(anchor, now) - now;
+                heat += node.tributary * node.limit * slip.abs();
             }
         }
+        self.outcome.dissipated += heat;
     }
 
     /// Solves a window, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
