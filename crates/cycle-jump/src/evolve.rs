@@ -37,6 +37,7 @@ pub fn evolve<E: From<JumpError>>(
         guide: request.guide,
         done: 0,
         schedule: Vec::new(),
+        has_rejected: false,
         repeats: None,
     };
     let length = request.period();
@@ -59,6 +60,7 @@ pub fn evolve<E: From<JumpError>>(
         repeats: walk.repeats,
         simulated: 0,
         schedule: walk.schedule.clone(),
+        has_rejected: walk.has_rejected,
         beyond: None,
     };
     if let (Some(known), Some(&last)) = (known, request.beyond.iter().max()) {
@@ -76,6 +78,7 @@ struct Walk<'a, P> {
     /// Periods done.
     done: u64,
     schedule: Vec<u64>,
+    has_rejected: bool,
     repeats: Option<(u64, f64)>,
 }
 
@@ -254,6 +257,7 @@ where
             (self.simulation.state, self.simulation.offset) = (from, offset);
             // From here on the other run is no guide.
             self.guide = Guide::Free;
+            self.has_rejected = true;
             let shorter = factor * length as f64;
             known.length = shorter.min((self.done as f64).max(SHORTEST_JUMP as f64));
             return Ok(());

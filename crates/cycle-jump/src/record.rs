@@ -33,6 +33,8 @@ pub struct Evolution {
     pub simulated: u64,
     /// Lengths of the jumps \[periods\] in their order, 0 for a simulated period between.
     pub schedule: Vec<u64>,
+    /// Whether a jump was taken back: what it has shown of the slope is not in a run that follows the others.
+    pub has_rejected: bool,
     /// Where the forces lead; `None` where nothing beyond the last pass was wanted, or they do not
     /// become steady.
     pub beyond: Option<Beyond>,

@@ -108,7 +108,7 @@ impl QuasiStatic {
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
         self.solve(Window::travelling(self.bounds.free), snapshot)?;
-        self.anchor(self.bounds.free);
+        self.settle(self.bounds.free, snapshot);
         self.moving.clear();
         self.record(snapshot);
         Ok(())
@@ -136,7 +136,7 @@ impl QuasiStatic {
             window::join(&mut windows);
         }
         for window in &windows {
-            self.anchor(window.stretch);
+            self.settle(window.stretch, snapshot);
         }
         self.windows = windows;
         // The node beside one that moved is disturbed if the window travels on.
@@ -201,9 +201,11 @@ impl QuasiStatic {
         window::join(windows);
     }
 
-    /// Takes the anchors of the nodes in `stretch` along after a step; how far they have slipped makes its heat.
-    fn anchor(&mut self, stretch: Stretch) {
-        let (ImplicitStep { chain, trial, .. }, nodes) = (&self.step, stretch.nodes());
+    /// Takes the anchors of the nodes in `stretch` and clamps that slide along after a step; how far they have slipped makes its heat.
+    fn settle(&mut self, stretch: Stretch, snapshot: &Snapshot<'_>) {
+        let (ImplicitStep { chain, trial, .. }, nodes) = (&mut self.step, stretch.nodes());
+        let u = |node: usize| self.r[node] + snapshot.adherent_at(node);
+        chain.settle_clamps(stretch, u, &mut self.outcome.dissipated);
         let compliance = self.cable.friction().compliance();
         let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
         let anchors = self.anchor[nodes.clone()].iter_mut().zip(state);
@@ -255,9 +257,7 @@ impl QuasiStatic {
             }
             (stretch, growth) = (grown, 2 * growth);
         }
-        let ImplicitStep { chain, trial, .. } = &mut self.step;
-        let u = |i: usize| trial.r[i] + snapshot.adherent_at(i);
-        chain.settle_clamps(stretch, u, &mut self.outcome.dissipated);
+        let trial = &self.step.trial;
         let moves = |&node: &usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
         if travels {
             window::moving(stretch, moves, &mut self.moving);

@@ -139,12 +139,12 @@ impl Support {
         for (r, answer) in r[nodes.clone()].iter_mut().zip(displacement) {
             *r += force * answer;
         }
-        let mut slips = false;
+        let mut bears = true;
         for ((g, answer), adhesion) in g[nodes.clone()].iter_mut().zip(friction).zip(&adhesion[nodes]) {
             *g += force * answer;
-            slips |= (*g + adhesion).abs() > limit;
+            bears &= (*g + adhesion).abs() <= limit;
         }
-        sticks && !slips
+        sticks && bears
     }
 }
 

@@ -102,7 +102,8 @@ impl OnMeshes for PassSimulator<'_> {
     ) -> Result<Passes, Error> {
         let levels = &self.plan.levels;
         let is_plain = !answer && std::ptr::eq(scene, self.plan.scene);
-        if let Some(found) = self.found.filter(|found| is_plain && found.level == level) {
+        let is_same = |found: &&Found| is_plain && found.level == level && !found.passes.has_rejected;
+        if let Some(found) = self.found.filter(is_same) {
             return Ok(found.passes.clone());
         }
         let mut task = Task::of(self.plan, scene, levels.mesh(level)?);

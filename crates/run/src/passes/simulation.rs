@@ -29,6 +29,8 @@ pub struct Passes {
     pub simulated: u64,
     /// The jumps that were taken; empty where every pass was simulated.
     pub schedule: Vec<u64>,
+    /// Whether a jump was taken back, so that passes which follow the schedule are not these.
+    pub has_rejected: bool,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
     /// Passes of the period beside the records that show more.
@@ -60,6 +62,7 @@ impl<'a> Simulation<'a> {
             statistics: Statistics::default(),
             simulated: 0,
             schedule: Vec::new(),
+            has_rejected: false,
             beyond: None,
             peaks: Vec::new(),
             days: None,
@@ -180,6 +183,7 @@ impl Task<'_> {
             state: evolution.state,
             simulated: evolution.simulated,
             schedule: evolution.schedule,
+            has_rejected: evolution.has_rejected,
             beyond: evolution.beyond,
             ..simulation.passes
         })
