@@ -6,7 +6,7 @@ use cycle_jump::{Record, peaks};
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
     Cost, DayExtremes, DuctMotionSummary, ExtremePass, ForceProfile, PassRecord, PlanSummary,
-    RestraintRecord, Run, Start, balance, larger, listed, listed_passes, saturation,
+    RestraintRecord, Run, Stage, Start, balance, larger, listed, listed_passes, saturation,
 };
 use crate::passes::{Passes, Simulation, Task};
 use crate::refine::Solved;
@@ -148,12 +148,22 @@ fn extremes(plan: &Plan<'_>, method: SolverMethod, solved: &Solved) -> Result<Ve
 }
 
 /// Without friction every pass leaves the cable as the first one did: where it was laid.
-pub fn without_friction(plan: &Plan<'_>) -> Result<Solved, Error> {
+pub fn without_friction(plan: &Plan<'_>, stages: &[u64]) -> Result<Solved, Error> {
     let (level, mut scene) = (plan.levels.first, plan.scene.clone());
     scene.traffic.passes = 1;
     let mesh = plan.levels.mesh(level)?;
-    let mut passes = Task::of(plan, &scene, mesh).every_pass()?;
+    let task = Task::of(plan, &scene, mesh);
+    let mut passes = task.every_pass()?;
     passes.slip = None;
+    let force_profile = ForceProfile::new(&task.cable()?, &passes.state)?;
+    let stage = |&pass: &u64| Stage {
+        pass,
+        force_profile: force_profile.clone(),
+        friction: None,
+    };
+    let all = 1..=plan.scene.traffic.passes;
+    let looked_at = stages.iter().filter(|pass| all.contains(pass));
+    passes.stages = looked_at.map(stage).collect();
     let first = passes.records.pop().ok_or(Error::NoPass)?;
     for pass in listed_passes(plan.scene, &plan.period) {
         passes.records.push(Record {

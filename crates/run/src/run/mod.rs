@@ -88,7 +88,7 @@ fn solve(plan: &Plan<'_>, method: SolverMethod, options: &RunOptions<'_>) -> Res
     // What no mesh makes smaller.
     error_estimate::judge(&error, scene.solver.tolerance)?;
     if scene.friction_limit() == 0.0 {
-        return without_friction(plan);
+        return without_friction(plan, options.stages);
     }
     let mut solved = match scene.warming() {
         Some(heat) => days::solve(plan, heat, method, options, error),
