@@ -83,10 +83,13 @@ impl From<Error> for Failure {
         } else {
             Self::computation(&error)
         };
-        let location = error.location();
+        let (file, line) = match error.location() {
+            Some(location) => (Some(location.file().to_owned()), location.line()),
+            None => (None, None),
+        };
         Self {
-            file: location.map(|location| location.file().to_owned()),
-            line: location.and_then(|location| location.line()),
+            file,
+            line,
             key: error.key().map(str::to_owned),
             ..failure
         }
