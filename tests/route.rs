@@ -198,12 +198,17 @@ fn random_runs(seeds: std::ops::Range<u64>, more: &[&str]) -> Vec<(u64, Result<R
 }
 
 #[test]
-#[ignore = "twenty scenes with 600 passes, each simulated, and with a million: minutes"]
-fn twenty_random_routes_keep_the_tolerance_against_every_pass() {
+#[ignore = "sixty scenes with a million passes: minutes"]
+fn sixty_random_routes_have_an_answer_after_a_million_passes() {
     let physical = |error: &String| error.contains("slides out") || error.contains("draw the cable");
-    for (_, run) in random_runs(100..120, &["traffic.passes=1000000"]) {
-        assert!(run.as_ref().err().is_none_or(physical), "{run:?}");
+    for (seed, run) in random_runs(0..60, &["traffic.passes=1000000"]) {
+        assert!(run.as_ref().err().is_none_or(physical), "{seed}: {run:?}");
     }
+}
+
+#[test]
+#[ignore = "twenty scenes with 600 passes, each simulated: minutes"]
+fn twenty_random_routes_keep_the_tolerance_against_every_pass() {
     let jumps = random_runs(100..120, &["traffic.passes=600"]);
     let every = [
         "traffic.passes=600",
