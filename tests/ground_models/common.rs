@@ -2,7 +2,7 @@
 
 use ground_field::{Base, Displacement, GroundField, Soil, SoilProfile, SurfaceLoad};
 use proptest::prelude::*;
-pub use testkit::soil;
+pub use testkit::{johnson, soil};
 
 /// Accuracy asked of the finite elements.
 pub const FEM_ACCURACY: f64 = 5e-3;
@@ -24,17 +24,6 @@ pub fn table_1() -> SoilProfile {
 
 pub fn load(force: f64, contact_radius: f64) -> SurfaceLoad {
     SurfaceLoad::new(force, contact_radius).expect("load")
-}
-
-/// Boussinesq's point load on a half-space (K. L. Johnson, Contact Mechanics, 1985, eq. 3.18).
-pub fn johnson(soil: Soil, force: f64, r: f64, z: f64) -> Displacement {
-    let (e, nu) = (soil.young_modulus(), soil.poisson_ratio());
-    let d = r.hypot(z);
-    let scale = (1.0 + nu) * force / (2.0 * std::f64::consts::PI * e);
-    Displacement {
-        radial: scale * (r * z / d.powi(3) - (1.0 - 2.0 * nu) * r / (d * (d + z))),
-        vertical: scale * (z * z / d.powi(3) + 2.0 * (1.0 - nu) / d),
-    }
 }
 
 /// 0 to 10 m, dense around both peaks.
