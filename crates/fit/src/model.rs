@@ -16,7 +16,8 @@ use creepage_plan::ground::Ground;
 use creepage_plan::{Levels, Period, plan};
 use creepage_run::{
     Error, Progress,
-    passes::{JumpSize, Jumping, Task},
+    answer::JumpSize,
+    passes::{Jumping, Task},
 };
 use creepage_scene::{Scene, SolverMethod};
 

@@ -16,9 +16,9 @@ mod tuning;
 
 pub use answer::{
     ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
-    ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
-    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation, Stage,
-    Start, Units, Verdict,
+    ExtremePass, FixedMesh, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits,
+    PassRecord, Place, PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run,
+    Saturation, Stage, Start, Units, Verdict,
 };
 pub use cable_dem::SlipLengths;
 pub use creepage_plan::{
@@ -26,7 +26,7 @@ pub use creepage_plan::{
     with_causes,
 };
 pub use creepage_scene::{CableEnd, Scene, SceneError, SceneFile};
-pub use passes::{FixedMesh, RunOptions};
+pub use passes::RunOptions;
 pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
 pub use run::{run, run_plan, run_with};

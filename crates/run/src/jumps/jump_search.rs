@@ -6,10 +6,11 @@
 use cycle_jump::Record;
 
 use super::PassSimulator;
-use super::random_order::Draws;
+use super::draws::Draws;
 use crate::Progress;
+use crate::answer::JumpSize;
 use crate::answer::differences::{Shares, difference, extremes_difference};
-use crate::passes::{JumpSize, Jumping, Passes};
+use crate::passes::{Jumping, Passes};
 use crate::refine::{OnMeshes, on_coarse_level};
 use crate::tuning::jumps::{
     FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, SHARE, SHORT,

@@ -1,16 +1,17 @@
 //! The passes of a plan, every one simulated or few with jumps between them that are good enough,
 //! on one mesh after the other.
 
+mod draws;
 mod jump_search;
-mod random_order;
+mod random_spread;
 
 use cycle_jump::Guide;
 
 use crate::Progress;
 use crate::answer::differences::{Scale, Shares, difference};
 use crate::answer::error_estimate::ErrorParts;
-use crate::answer::listed_passes;
-use crate::passes::{FixedMesh, Jumping, Passes, RunOptions, Task};
+use crate::answer::{FixedMesh, listed_passes};
+use crate::passes::{Jumping, Passes, RunOptions, Task};
 use crate::refine::{MeshLoop, OnMeshes, Solved, Work};
 use crate::tuning::meshes::{FINDING, MANY, WEIGHT_ALONE, WEIGHTS, WEIGHTS_OF_MANY};
 use creepage_plan::{Error, Levels, Plan};
@@ -85,7 +86,7 @@ pub fn solve(
             draws.correct(&mut solved.passes);
         }
         let task = Task::of(plan, plan.scene, plan.levels.mesh(found.level)?);
-        solved.random = random_order::spread(&task, &found.passes.state, &solved.passes, &work)?;
+        solved.random = random_spread::spread(&task, &found.passes.state, &solved.passes, &work)?;
     }
     solved.statistics = work.into_inner();
     Ok(solved)

@@ -5,7 +5,6 @@ mod simulation;
 mod solver;
 mod task;
 
-pub use crate::answer::{FixedMesh, JumpSize};
 pub use listing::mean;
 pub use simulation::{Passes, Simulation};
 pub use solver::PassSolver;

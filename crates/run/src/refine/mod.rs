@@ -10,10 +10,11 @@ use cable_dem::{CableError, Mesh, Statistics};
 pub use judge::judge;
 
 use crate::Progress;
+use crate::answer::FixedMesh;
 use crate::answer::differences::{Scale, Shares};
 use crate::answer::error_estimate::{self, ErrorParts};
 use crate::answer::{HeatRecord, RandomSpread};
-use crate::passes::{FixedMesh, Passes, RunOptions};
+use crate::passes::{Passes, RunOptions};
 use crate::tuning::meshes::{LEAST_SHARE, REFINEMENT_COST, SHARP};
 use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Levels, Plan, ground::road};
