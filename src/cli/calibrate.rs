@@ -139,7 +139,11 @@ fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> 
         drift_sigma: arguments.drift_sigma,
         discrepancy: arguments.discrepancy,
         deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
-        loss: [Loss::Squares, Loss::Tukey][usize::from(arguments.robust)],
+        loss: if arguments.robust {
+            Loss::Tukey
+        } else {
+            Loss::Squares
+        },
         ..CalibrateOptions::default()
     };
     let scenes = inputs.iter().map(|input| &input.scene);

@@ -6,11 +6,11 @@
 pub struct Statistics {
     /// Vehicle positions and the return to rest, or steps of time.
     pub steps: usize,
-    /// Windows solved.
+    /// Windows solved, or moved by an answer that is known.
     pub windows: usize,
     /// Linear solves over a window.
     pub sweeps: usize,
-    /// Nodes eliminated in these, with what bisections cost, or nodes advanced in time.
+    /// Nodes eliminated in these or moved so, with what bisections cost, or nodes advanced in time.
     pub node_updates: usize,
     /// Windows in which the iteration cycled, so that the contact states were found by bisection of the chain.
     pub cycles: usize,

@@ -126,7 +126,7 @@ impl Supports {
 
 impl Support {
     /// Brings the node under the `load` \[N\] into balance, in the trial of the `step`. False where the window does not stick, or would slip:
-    /// friction and `adhesion` exceed the `limit` \[N/m\].
+    /// friction and `adhesion` exceed the `limit` \[N/m\]; then the trial is to be solved.
     pub fn respond(&self, step: &mut ImplicitStep, load: &[f64], adhesion: &[f64], limit: f64) -> bool {
         let (chain, Trial { r, g, contact }) = (&step.chain, &mut step.trial);
         let nodes = self.window.nodes();

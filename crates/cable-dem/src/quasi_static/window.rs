@@ -69,9 +69,7 @@ impl Window {
             travels: false,
         }
     }
-}
 
-impl Window {
     /// Whether no node lies between this one and the `next`.
     pub fn touches(self, next: Self) -> bool {
         next.stretch.lo <= self.stretch.hi + 1
