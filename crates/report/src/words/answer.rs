@@ -259,8 +259,11 @@ impl Answer<'_> {
     fn level(&self) -> Option<Load> {
         let level = self.run.saturation?;
         let force = |end: CableEnd| end.of([level.upstream_force_n, level.downstream_force_n]);
-        let when = ["after a pass", "after a pass beyond those computed"];
-        let when = when[usize::from(level.is_beyond(&self.run.passes))];
+        let when = if level.is_beyond(&self.run.passes) {
+            "after a pass beyond those computed"
+        } else {
+            "after a pass"
+        };
         Some(Load::new(level.force_n, pressed_end(self.scene, force), when))
     }
 
