@@ -10,8 +10,9 @@ use crate::likelihood::{Likelihood, Point};
 use crate::tuning::{BETTER, FAR, SCALE_TOLERANCE, SCAN, SETTLED, STARTS};
 use crate::{Calibration, CalibrationError, Loss, Warning, parameter};
 
-/// Repeats after which a loop is taken to go in a circle: those that end need half as many.
-const MAX_ROUNDS: usize = 24;
+/// Repeats after which a loop is taken to go in a circle. Those that end need a few; thirty where noise and
+/// discrepancy explain the same residuals, and one slowly makes room for the other.
+const MAX_ROUNDS: usize = 200;
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not
 /// believed.
 const MISFIT: f64 = 0.001;
