@@ -174,6 +174,7 @@ fn heat_in_the_mirror_mirrors_the_answer() {
 
 /// Days of which few passes are simulated, or none, against every pass on the same mesh; the last day is cut short.
 #[test]
+#[ignore = "ten seconds: .ci/run runs it"]
 fn few_real_passes_are_enough_within_the_stated_error() {
     let cases: [&[&str]; 3] = [
         &[],
@@ -289,16 +290,16 @@ fn a_sequence_longer_than_a_day_is_answered_by_its_mix() {
     let sequence = vec!["\"v\""; 149].join(", ");
     let by = |method: &str| {
         run(&[
-            "duct = { length = 15, depth = 1.2 }",
+            "duct = { length = 10, depth = 1.2 }",
             "vehicles = [{ name = \"v\", speed = 10, load = \"20 tf\" }, { name = \"back\", speed = 10, load = \"12 tf\", direction = \"reverse\" }]",
-            &format!("traffic = {{ passes = 1200, per_day = 120, sequence = [{sequence}, \"back\"] }}"),
-            &format!("solver = {{ method = \"{method}\", node_spacing = 0.2, vehicle_step = 0.1 }}"),
+            &format!("traffic = {{ passes = 720, per_day = 120, sequence = [{sequence}, \"back\"] }}"),
+            &format!("solver = {{ method = \"{method}\", node_spacing = 0.25, vehicle_step = 0.125 }}"),
         ])
     };
     let (mix, every) = (by("auto"), by("quasi-static"));
     let told = |warning: &String| warning.contains("in the same order");
     assert!(mix.warnings.iter().any(told));
-    let (found, right) = (day(&mix, 10).downstream_max_n, day(&every, 10).downstream_max_n);
+    let (found, right) = (day(&mix, 6).downstream_max_n, day(&every, 6).downstream_max_n);
     let stated = mix.error_estimate.relative;
     assert!((found / right - 1.0).abs() <= stated, "{found} {right} {stated}");
 }
@@ -334,7 +335,7 @@ fn days_that_few_real_periods_keep_restless_settle_with_more() {
 fn days_of_few_vehicles_of_two_kinds_are_jumped_over() {
     let lines = |method: &str| {
         [
-            "duct = { length = 100, depth = 1.2 }".to_owned(),
+            "duct = { length = 60, depth = 1.2 }".to_owned(),
             "vehicles = [{ speed = 10, load = \"20 tf\" }, { name = \"light\", speed = 10, load = \"6 tf\" }]".to_owned(),
             "traffic = { passes = 1200, per_day = 24 }".to_owned(),
             format!("solver = {{ method = \"{method}\", node_spacing = 0.4, vehicle_step = 0.4, tolerance = 0.1 }}"),

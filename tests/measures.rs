@@ -136,7 +136,7 @@ fn what_is_recommended_holds_and_is_the_least() {
         .best()
         .filter(|_| comparison.recommended.is_some())
         .expect("a measure that holds");
-    let all = grid(&comparison, 5, 3);
+    let all = grid(&comparison, 3, 2);
     let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
     assert!(worst <= 1.0, "{}: {worst}", best.name);
     for other in &comparison.measures {
@@ -326,7 +326,7 @@ fn the_worst_of_eight_kinds_of_scenes_is_that_of_a_grid_four_times_finer() {
             println!("{kind}, {}: found {found:.4}, grid {brute:.4}", measure.name);
             assert_near(found, brute, 0.02, (kind, &measure.name));
         }
-        let all = grid(&comparison, 5, 3);
+        let all = grid(&comparison, 3, 2);
         if comparison.recommended.is_some() {
             let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
             println!("{kind}, {} at 0.2 %: {worst:.4}", best.name);

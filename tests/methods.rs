@@ -81,6 +81,7 @@ fn the_sigmoid_warns_of_its_leak_and_stops_where_all_leaks_away() {
     let run = run(&[
         "friction.law=sigmoid",
         "friction.shape_factor=1e9",
+        "duct.length=20 m",
         "traffic.passes=2",
     ]);
     assert!(run.warnings.iter().any(|warning| warning.contains("sigmoid")));

