@@ -331,7 +331,7 @@ fn band(name: &str, axes: &[&str], samples: Samples, threads: usize) -> (Band, V
 
 #[test]
 fn quantiles_of_a_linear_key_are_those_of_its_distribution() {
-    let count = 4000;
+    let count = 2000;
     for law in ["normal(0.25, 0.03)", "lognormal(0.25, 0.2)", "uniform(0.2, 0.3)"] {
         let axis = format!("{FRICTION}={law}");
         let (band, _) = band("quantiles", &[&axis], Samples { count, seed: 3 }, 2);

@@ -57,7 +57,7 @@ fn a_long_run_says_how_far_it_is() {
     for scene in [every_pass, jumps] {
         // A fine mesh keeps the jumps busy too.
         let run = format!("run scene.toml --set solver.node_spacing=0.01 --set {scene}");
-        let stopped = format!("timeout --foreground -s INT 4 '{}' {run}", creepage());
+        let stopped = format!("timeout --foreground -s INT 3 '{}' {run}", creepage());
         let mut script = folder.command("script", &["-qec", &stopped, "/dev/null"]);
         let output = script.output().expect("a terminal");
         let output = String::from_utf8(output.stdout).expect("UTF-8");

@@ -49,6 +49,7 @@ fn elements_are_never_wrong_over_thickness_and_contrast() {
 
 /// A corner of both maps that is quick enough for every run of the tests.
 #[test]
+#[ignore = "ten seconds: .ci/run runs it"]
 fn elements_are_never_wrong_on_the_coarsest_grid() {
     never_wrong(&fem::layered(2, 2).unwrap(), 0);
 }
