@@ -95,7 +95,9 @@ fn stop_half_way(folder: &Folder, (name, number): (&str, i32)) -> bool {
     let unfinished = folder.path("target.csv.unfinished");
     let is_half = || folder.names().iter().any(|name| name.ends_with(".partial"));
     // Before there are rows it is but the probe of the place.
-    while !(unfinished.exists() && is_half()) && child.try_wait().expect("a state").is_none() {}
+    while !(unfinished.exists() && is_half()) && child.try_wait().expect("a state").is_none() {
+        std::thread::sleep(Duration::from_micros(50));
+    }
     drop(shell.stdin.take());
     shell.wait().expect("it ends");
     let ended = ended_by(child.wait().expect("it ends"));

@@ -49,15 +49,11 @@ fn late_mean(run: &Run) -> [f64; 2] {
 }
 
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn long_traffic_in_random_order_shows_the_mean_over_random_orders() {
     assert_mean(true, (0.83, 0.17), (60.0, 120.0));
-    assert_mean(false, (0.9, 0.1), (50.0, 150.0));
-}
-
-#[test]
-#[ignore = "ten seconds: .ci/run runs it"]
-fn so_does_traffic_as_heavy_both_ways() {
     assert_mean(true, (0.517, 0.483), (80.0, 80.0));
+    assert_mean(false, (0.9, 0.1), (50.0, 150.0));
 }
 
 /// The answer after a million passes lies within its stated error of the mean over random runs of which every pass is simulated.

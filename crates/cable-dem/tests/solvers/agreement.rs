@@ -34,7 +34,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(ProptestConfig::with_cases(10))]
 
     /// Measured in 280 scenes: 4.2e-3 of the largest force; with steps twice as long 6.1e-3 in one of them, under Coulomb's law.
     #[test]

@@ -117,7 +117,7 @@ fn left_behind(one: &CableState, other: &CableState) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(ProptestConfig::with_cases(20))]
 
     /// Friction stays within its limit and only heats; between any two points the force changes by the weight between them and by what
     /// friction at its limit and the clamps can carry, no more.
