@@ -82,7 +82,7 @@ fn the_sigmoid_warns_of_its_leak_and_stops_where_all_leaks_away() {
         "friction.law=sigmoid",
         "friction.shape_factor=1e9",
         "duct.length=20 m",
-        "traffic.passes=2",
+        "traffic.passes=1",
     ]);
     assert!(run.warnings.iter().any(|warning| warning.contains("sigmoid")));
     let viscous = scene(&["friction.law=sigmoid", "traffic.passes=1"]);

@@ -211,6 +211,7 @@ fn assert_right(seeds: Vec<u64>) {
 /// A tenth of the scenes: those in which every pass is simulated soonest; and two that jumps once got wrong. In 1031 the first jump after
 /// the passes simulated at the start was held to nothing; in 1077 a jump to the end left 1.5 % in the last pass.
 #[test]
+#[ignore = "ten seconds: .ci/run runs it"]
 fn jumps_agree_with_every_pass() {
     assert_right(vec![3, 5, 6, 7, 8, 15, 16, 19, 20, 33, 1031, 1077]);
 }

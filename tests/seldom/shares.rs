@@ -49,7 +49,7 @@ fn assert_written_out(n: usize, rounds: u64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
 
     /// After whole rounds n to one is the sequence of n and one.
     #[test]
