@@ -104,11 +104,12 @@ impl Case {
             &request,
             |Next { phase, .. }, state| self.pass(&mut solver, phase, state).map_err(JumpError::from),
         )?;
-        Ok(evolution
+        // Of several vehicles more passes are recorded than are wanted.
+        let wanted = evolution
             .records
             .iter()
-            .map(|record| record.outcome.force.downstream)
-            .collect())
+            .filter(|record| PASSES.contains(&record.pass));
+        Ok(wanted.map(|record| record.outcome.force.downstream).collect())
     }
 }
 

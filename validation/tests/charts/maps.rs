@@ -111,7 +111,7 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
         shares.iter().sum::<f64>() / shares.len() as f64
     };
     assert_eq!((of(true, true).count(), of(false, true).count()), (10, 10));
-    assert!(mean(false, true) < 0.3, "{}", mean(false, true));
+    assert!(mean(false, true) < 0.35, "{}", mean(false, true));
     assert!(mean(true, true) > 0.85, "{}", mean(true, true));
     assert!(of(true, true).filter(|row| row.held > 0.9).count() >= 8);
     // Ground a fifth too stiff, and axles so far apart that no friction gives the forces: that is not called identifiable.
