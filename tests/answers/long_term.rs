@@ -218,7 +218,7 @@ fn jumps_agree_with_every_pass() {
 
 #[test]
 #[ignore = "120 random scenes, every pass simulated: half an hour; FIRST chooses other seeds"]
-fn jumps_agree_with_every_pass_on_many_scenes() {
+fn many_scenes_with_jumps_are_those_of_every_pass() {
     let first = std::env::var("FIRST")
         .ok()
         .and_then(|text| text.parse().ok())

@@ -122,7 +122,7 @@ fn mixes_agree_with_every_pass() {
 
 #[test]
 #[ignore = "150 random mixes, every pass simulated: ten minutes; FIRST and MIXES choose others"]
-fn mixes_agree_with_every_pass_in_many_scenes() {
+fn many_mixes_are_those_of_every_pass() {
     let first = chosen("FIRST", 0);
     assert_right(first..first + chosen("MIXES", 150), u64::MAX);
 }
