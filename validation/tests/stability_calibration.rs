@@ -6,7 +6,7 @@ use creepage_validation::stability::calibration::{Cell, Draw, Outcome, Table, dr
 #[ignore = "ten seconds: .ci/run runs it"]
 fn an_identified_shape_factor_is_never_wrong() {
     let table = Table::new(3.0).unwrap();
-    let grid = map(&table, 5, 4, 20).unwrap();
+    let grid = map(&table, 4, 3, 20).unwrap();
     assert_eq!(draws(&grid, Draw::Wrong), 0);
     assert_eq!(draws(&grid, Draw::Failed), 0);
     // Intervals of 95 % miss one truth of twenty; three standard deviations of the binomial count more are chance.
