@@ -109,8 +109,8 @@ fn a_force_out_of_reach_is_met_as_nearly_as_can_be() {
     assert!(answer.lack_of_fit.suspicious && !answer.parameters[0].identifiable);
 }
 
-/// From 1e9 1/m on, forces differ from Coulomb's by less than any load cell shows. The solver with inertia would take a thousand times the
-/// steps.
+/// From 1e9 1/m on, forces differ from Coulomb's by less than any load cell shows. With so steep a law the solver with inertia takes far
+/// more steps.
 #[test]
 fn a_steep_law_is_called_not_identifiable() {
     let forces = forces_by(SolverMethod::QuasiStatic, 0.25, 1e9, 25);

@@ -136,7 +136,7 @@ fn what_is_recommended_holds_and_is_the_least() {
         .best()
         .filter(|_| comparison.recommended.is_some())
         .expect("a measure that holds");
-    let all = grid(&comparison, 3, 2);
+    let all = grid(&comparison, 5, 3);
     let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
     assert!(worst <= 1.0, "{}: {worst}", best.name);
     for other in &comparison.measures {

@@ -64,6 +64,9 @@ fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
             "{}",
             told()
         );
+        // The map that is drawn: the jumps' own guards, without the program's.
+        let own = long_term::map(mix, 2, 2, false)?;
+        assert_eq!(own.count(GUARDED, Outcome::Right), own.cells.len(), "{name}");
     }
     // Without guards some traffic is computed wrong.
     assert!(unguarded > 0);

@@ -7,7 +7,7 @@ use super::common::{answering, gaussian, linear};
 
 const COUNT: usize = 40;
 const NOISE: f64 = 0.02;
-const DRAWS: u64 = 60;
+const DRAWS: u64 = 100;
 
 fn place(k: usize) -> f64 {
     (1.0 + k as f64).ln()
@@ -60,7 +60,7 @@ fn width(fit: &Fit) -> f64 {
     interval.upper.unwrap() - interval.lower.unwrap()
 }
 
-/// Of 60 series each whose model is off by five noises: intervals of 95 % hold the truth where the size is
+/// Of 100 series each whose model is off by five noises: intervals of 95 % hold the truth where the size is
 /// the given one, known noise or not, and nearly always where the given one is twice as large; without a
 /// discrepancy they seldom do.
 #[test]
@@ -73,9 +73,9 @@ fn intervals_hold_where_the_model_is_off_by_the_given_size() {
                 .count()
         };
         let [plain, held, wide] = [None, Some(0.1), Some(0.2)].map(count);
-        assert!((53..=60).contains(&held), "{sigma:?}: {held}");
-        assert!(wide >= held && wide >= 58, "{sigma:?}: {wide}");
-        assert!(plain < 30, "{sigma:?}: {plain}");
+        assert!((90..=99).contains(&held), "{sigma:?}: {held}");
+        assert!(wide >= held && wide >= 98, "{sigma:?}: {wide}");
+        assert!(plain < 50, "{sigma:?}: {plain}");
     }
 }
 

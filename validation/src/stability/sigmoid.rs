@@ -26,8 +26,8 @@ const NEWTON_STEPS: usize = 100;
 const ACCURACY: f64 = 1e-9;
 
 impl Chain {
-    /// Force on the fixed end after one pass of `motion` from `approach` before the duct to as far past it, in steps of `time_step` and one
-    /// from rest and to it.
+    /// Force on the fixed end as the vehicle of `motion` leaves, having driven from `approach` before the duct to as far past it in steps of
+    /// `time_step`, after one from rest.
     pub fn force(&self, motion: &DuctMotion, approach: f64, time_step: f64) -> Result<f64, CableError> {
         let length = self.spacing * self.elements as f64;
         let speed = motion.velocity();
@@ -41,13 +41,9 @@ impl Chain {
         };
         let (mut u, mut before) = (vec![0.0; self.elements], vec![0.0; self.elements + 1]);
         let mut at_end = 0.0;
-        for step in 0..=steps + 1 {
+        for step in 0..=steps {
             let x = speed * time_step * step as f64 - approach;
-            let now = if step > steps {
-                vec![0.0; self.elements + 1]
-            } else {
-                duct(x)
-            };
+            let now = duct(x);
             let increment: Vec<f64> = now
                 .iter()
                 .zip(&before)
