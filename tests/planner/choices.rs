@@ -175,8 +175,8 @@ fn what_the_scene_asks_for_is_taken_and_said() {
 
 #[test]
 fn one_candidate_of_every_part_is_chosen_and_every_other_has_a_reason() {
-    for seed in 0..12 {
-        let report = plan(&scenes::wide(seed));
+    for (seed, kind) in (0..).zip(scenes::KINDS) {
+        let report = plan(&scenes::scene(kind, seed));
         for part in [Part::Ground, Part::Cable] {
             let chosen = report.candidates.iter().filter(|c| c.part == part && c.chosen);
             assert_eq!(chosen.count(), 1, "{seed}: {part}");

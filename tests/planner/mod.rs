@@ -1,6 +1,5 @@
-//! The planner: what it chooses, that looser tolerances never cost more, and that its errors are honest.
+//! The planner: what it chooses, and that looser tolerances never cost more.
 
 mod choices;
 mod cost;
-mod honest;
 mod scenes;

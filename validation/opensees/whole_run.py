@@ -174,6 +174,7 @@ def main():
 
     header = ["series", "knob", "knob_unit", "nodes_a_depth", "steps", "node_updates", "error_share_of_force", "processor_seconds"]
     with TABLE.open("w", newline="") as file:
+        file.write(f"# {subprocess.run([program, '--version'], capture_output=True, text=True, check=True).stdout}")
         table = csv.writer(file, lineterminator="\n")
 
         def write(series, knob, unit, density, steps, nodes, error, seconds, forces):

@@ -119,7 +119,7 @@ impl GroundMap {
             let class = |cell: &[Cell; 2]| cell[model].outcome as usize;
             panels = panels.with(self.grid.panel(&title, [x, y.clone()], names, class));
         }
-        std::fs::write(file, table)?;
+        crate::write_table(file, &table)?;
         Ok(panels)
     }
 }

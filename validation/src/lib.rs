@@ -25,7 +25,9 @@ pub mod stopwatch;
 pub mod whole_range;
 
 use std::error::Error;
+use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use creepage::{Scene, SceneFile};
 
@@ -35,6 +37,38 @@ pub type Failure = Box<dyn Error + Send + Sync>;
 /// A file of the repository.
 pub fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+/// Writes a table, after a line that names the program of its numbers.
+pub fn write_table(file: &Path, table: &str) -> Result<(), Failure> {
+    let version = env!("CARGO_PKG_VERSION");
+    Ok(std::fs::write(
+        file,
+        format!("# creepage {version}, {}\n{table}", commit()?),
+    )?)
+}
+
+/// A table without that line.
+pub fn read_table(file: &Path) -> Result<csv::Reader<File>, csv::Error> {
+    csv::ReaderBuilder::new().comment(Some(b'#')).from_path(file)
+}
+
+/// The last commit of the program's sources, and whether they have changed since.
+fn commit() -> Result<String, Failure> {
+    let git = |arguments: &[&str]| -> Result<String, Failure> {
+        let mut git = Command::new("git");
+        let git = git
+            .current_dir(file(""))
+            .args(arguments)
+            .args(["--", "src", "crates/*/src"]);
+        Ok(String::from_utf8(git.output()?.stdout)?.trim().to_owned())
+    };
+    let changes = git(&["status", "--porcelain"])?;
+    let and_changes = if changes.is_empty() { "" } else { " with changes" };
+    Ok(format!(
+        "commit {}{and_changes}",
+        git(&["log", "-1", "--format=%h"])?
+    ))
 }
 
 /// The full-scale experiment's upper cable with some keys set.

@@ -2,6 +2,7 @@
 
 mod calibration_coverage;
 mod charts;
+mod honest;
 mod occurrence;
 mod stability_cable;
 mod stability_calibration;

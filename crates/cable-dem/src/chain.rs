@@ -49,6 +49,10 @@ pub(crate) fn check_precision(
     }
 }
 
+/// Change of a friction limit in a bend, as a share of it, with which a step has found its force; and rounds until then at most.
+pub(crate) const PRESSED: f64 = 1e-7;
+pub(crate) const MAX_ROUNDS: usize = 100;
+
 /// Nodes whose friction limit grows with the force F in the cable ([`crate::Section::limit_under`]): q = Σ √(a + b F²) over the sections on
 /// which a node lies, with the share s of each: a = (s μ N)², b = (s μ/R)². Node, a and b of each, node after node: with squares that are
 /// known a pass in bends takes half the time.

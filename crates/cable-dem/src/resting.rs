@@ -3,15 +3,11 @@
 use friction_chain::tridiagonal::Row;
 use friction_chain::{Chain, ChainError, Clamp, ImplicitStep, Load};
 
-use crate::chain::{Bends, chain};
+use crate::chain::{Bends, MAX_ROUNDS, PRESSED, chain};
 use crate::clamps::ClampShares;
 use crate::error::checked;
 use crate::fixed_end_friction::FixedEndFriction;
 use crate::{CableError, CableState, DuctedCable, Mesh};
-
-/// Change of a friction limit in a bend, as a share of it, with which a step has found its force; and rounds until then at most.
-const PRESSED: f64 = 1e-7;
-const MAX_ROUNDS: usize = 100;
 
 /// One cable on one mesh, at rest in a duct at rest.
 ///

@@ -12,10 +12,22 @@ pub struct Statistics {
     pub sweeps: usize,
     /// Nodes eliminated in these or moved so, with what bisections cost, or nodes advanced in time.
     pub node_updates: usize,
+    /// Stuck nodes looked at for slip, at every position of a vehicle.
+    pub watched: usize,
     /// Windows in which the iteration cycled, so that the contact states were found by bisection of the chain.
     pub cycles: usize,
     /// Most nodes in one window, apart from the steps from rest and to it.
     pub widest_window: usize,
+}
+
+/// Watched nodes that take as long as one that is eliminated: 0.5 ns each where meshes are fine.
+const WATCHED_PER_UPDATE: usize = 16;
+
+impl Statistics {
+    /// All work, in updates of a node.
+    pub fn work(&self) -> usize {
+        self.node_updates + self.watched / WATCHED_PER_UPDATE
+    }
 }
 
 impl std::ops::AddAssign for Statistics {
@@ -24,6 +36,7 @@ impl std::ops::AddAssign for Statistics {
         self.windows += other.windows;
         self.sweeps += other.sweeps;
         self.node_updates += other.node_updates;
+        self.watched += other.watched;
         self.cycles += other.cycles;
         self.widest_window = self.widest_window.max(other.widest_window);
     }

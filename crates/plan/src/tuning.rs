@@ -23,14 +23,14 @@ pub mod ground {
 /// Meshes, and the error that they leave.
 pub mod meshes {
     /// Typical errors of the force on each level: medians of 200 random scenes, rounded up,
-    /// measured against far finer runs (`tests/planner/honest.rs`). No error is stated below them.
+    /// measured against far finer runs (`validation/tests/honest.rs`). No error is stated below them.
     pub const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
     /// A length scale is at most so many slip lengths.
     pub const SLIPS: f64 = 2.0;
     /// Length of cable solved per vehicle step, averaged over repeated solves \[length scales\];
     /// right within a factor of three.
     pub const MOVED: f64 = 8.0;
-    /// Most nodes eliminated in all passes on one mesh: about twenty seconds.
+    /// Most work of all passes on one mesh, in updates of a node: about twenty seconds.
     pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 }
 

@@ -14,7 +14,7 @@ pub mod meshes {
     /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
     pub const SHARP: usize = 3;
     /// What counts of the differences between meshes as error: of the last one, the one before, and
-    /// so on. Fitted to 200 random scenes (`tests/planner/honest.rs`), so that the true error is
+    /// so on. Fitted to 200 random scenes (`validation/tests/honest.rs`), so that the true error is
     /// larger in one or two of a hundred.
     pub const WEIGHTS: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
     /// The same from 40 passes on, where chance agreement is unlikely.

@@ -255,7 +255,10 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         let (outcome, draws) = (NAMES[cell.outcome() as usize], cell.draws.len());
         format!("{b:.4e},{noise:.4e},\"{outcome}\",{draws},{counts}")
     });
-    std::fs::write(out.join("stability-calibration.csv"), header.to_owned() + &rows)?;
+    crate::write_table(
+        &out.join("stability-calibration.csv"),
+        &(header.to_owned() + &rows),
+    )?;
     let axes = [
         map.x_axis("true shape factor b, 1/m"),
         map.y_axis("standard deviation of the load cell, N"),

@@ -234,7 +234,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         figure = figure.with(map.panel(&name, axes, CLASSES, |cell| cell.outcome as usize));
         table += &case.lines(&map);
     }
-    std::fs::write(out.join("stability-heat.csv"), table)?;
+    crate::write_table(&out.join("stability-heat.csv"), &table)?;
     std::fs::write(out.join("stability-heat.svg"), figure.to_svg()?)?;
     Ok(())
 }

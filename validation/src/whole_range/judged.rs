@@ -24,7 +24,7 @@ pub enum Outcome {
     Right,
     /// An answer that cannot, or a panic.
     Wrong(String),
-    /// The scene is wrong, names a mesh that is too coarse, or has inertia that its method leaves out.
+    /// The scene is wrong, names a mesh that is too coarse or a road that is too short, or has inertia that its method leaves out.
     Input(String),
     /// No answer within 10 %, or none that jumps find.
     Refused(String),
@@ -104,6 +104,7 @@ fn refused(scene: &Scene, error: &Error) -> Outcome {
         Error::Inaccurate { cause, .. } => match cause {
             ErrorSource::Inertia => true,
             ErrorSource::Mesh => has_own_mesh,
+            ErrorSource::Road => solver.approach.is_some(),
             _ => false,
         },
         Error::Cable(CableError::CoarseMesh { .. }) => has_own_mesh,
@@ -127,13 +128,24 @@ fn possible(scene: &Scene, run: &Run) -> Result<(), String> {
     if (first.pass, last.pass) != (1, scene.traffic.passes) {
         return Err("passes are missing".to_owned());
     }
-    let largest = run.passes.iter().map(largest).fold(1e-9, f64::max);
+    let along = run.force_profile.force_n.iter().map(|force| force.abs());
+    let largest = run.passes.iter().map(largest).chain(along).fold(1e-9, f64::max);
     for (index, record) in run.passes.iter().enumerate() {
         let clamps = run
             .restraints
             .iter()
             .map(|clamp| clamp.after_passes_n[index].abs());
-        can_be(scene, record, clamps.sum(), largest).map_err(|why| format!("pass {}: {why}", record.pass))?;
+        let clamps: Vec<f64> = clamps.collect();
+        can_be(scene, record, clamps.iter().sum(), largest)
+            .map_err(|why| format!("pass {}: {why}", record.pass))?;
+        for (clamp, force) in scene.restraints.iter().zip(clamps) {
+            if force > (1.0 + ROUNDING) * clamp.holds.unwrap_or(f64::INFINITY) + ROUNDING * largest {
+                return Err(format!(
+                    "pass {}: {force} N on a clamp that holds {:?} N",
+                    record.pass, clamp.holds
+                ));
+            }
+        }
     }
     Ok(())
 }
@@ -182,10 +194,12 @@ fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Resu
             return Err(format!("{end:?} with {force} N at {inward} m"));
         }
     }
-    let friction = scene.friction.dynamic_coefficient * scene.normal_load();
-    let slope = scene.duct.slope.atan();
-    let weight = scene.cable.weight * slope.sin().abs();
-    let carried = (friction + weight) * scene.duct.length + clamps;
+    // In a bend friction grows with the force, which is nowhere larger than it is without friction that drives it.
+    let of_sections = scene.sections().into_iter().map(|section| {
+        let in_bend = section.bend * largest;
+        (section.limit + section.body_force.abs() + in_bend) * section.length
+    });
+    let carried = of_sections.sum::<f64>() + clamps;
     let between = (record.downstream_force_n - record.upstream_force_n).abs();
     if between > (1.0 + ROUNDING) * carried {
         return Err(format!("{between} N between the ends, {carried} N at most"));

@@ -1,32 +1,35 @@
 //! Random scenes over a wide range of every key: what comes of each, and whether it can be true.
 //!
 //! The first number says how many scenes, the file takes a row of each; `scene 13` prints one of them. One in twenty is computed
-//! again, on far finer terms and seen in a mirror, and the forces must agree within the stated error. A third number is that of the
-//! first scene, for work in parts.
+//! again, on far finer terms, seen in a mirror and at four times its size, and forces and movements must agree within the stated error. A
+//! third number is that of the first scene, for work in parts.
 
-mod again;
+pub mod differences;
 pub mod judged;
 pub mod scenes;
+pub mod twins;
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{available_parallelism, scope};
 use std::time::Instant;
 
-use again::{Again, again};
+use differences::{Errors, KINDS};
 use judged::{Outcome, judged};
+use twins::{Twins, twins};
 
 use crate::Failure;
 
 /// One scene in so many is computed again.
-const AGAIN: u64 = 20;
+const TWINS: u64 = 20;
 
-#[derive(Clone)]
 struct Row {
     number: u64,
     outcome: Outcome,
     stated: Option<f64>,
-    again: Again,
+    twins: Option<Twins>,
     seconds: f64,
 }
 
@@ -41,9 +44,8 @@ pub fn run(arguments: &[String]) -> Result<(), Failure> {
     let first: u64 = first.first().map_or(Ok(0), |first| first.parse())?;
     let numbers = first..first + count.parse::<u64>()?;
     let rows = rows(numbers)?;
-    let mut table = "scene,outcome,stated,finer,mirror,seconds,words\n".to_owned();
+    let mut table = header();
     for row in &rows {
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.3e}"));
         let words = match &row.outcome {
             Outcome::Right => String::new(),
             Outcome::Long(seconds) => format!("{seconds:.0} s planned"),
@@ -52,34 +54,68 @@ pub fn run(arguments: &[String]) -> Result<(), Failure> {
             | Outcome::Refused(words)
             | Outcome::Late(words) => words.lines().next().unwrap_or_default().replace('"', "'"),
         };
-        let [stated, finer, mirror] = [row.stated, row.again.finer, row.again.mirror].map(number);
-        writeln!(
+        write!(
             table,
-            "{},{},{stated},{finer},{mirror},{:.2},\"{words}\"",
+            "{},{},{}",
             row.number,
             row.outcome.name(),
-            row.seconds
+            shown(row.stated)
         )?;
+        let of = |errors: fn(&Twins) -> Option<Errors>| row.twins.as_ref().and_then(errors);
+        let [finer, mirror, larger] = [
+            of(|twins| twins.finer),
+            of(|twins| twins.mirror),
+            of(|twins| twins.larger),
+        ];
+        let movement = row.twins.as_ref().map(|twins| twins.stated[4]);
+        write!(table, ",{}", shown(movement))?;
+        for kind in 0..KINDS.len() {
+            write!(table, ",{}", shown(finer.map(|finer| finer[kind])))?;
+        }
+        let worst = |errors: Errors| errors.into_iter().fold(0.0, f64::max);
+        let [mirror, larger] = [mirror, larger].map(|errors| shown(errors.map(worst)));
+        writeln!(table, ",{mirror},{larger},{:.2},\"{words}\"", row.seconds)?;
     }
-    std::fs::write(file, table)?;
+    crate::write_table(Path::new(file), &table)?;
     for name in ["right", "wrong", "input", "refused", "late", "long"] {
         let count = rows.iter().filter(|row| row.outcome.name() == name).count();
         println!("{name:>8} {count:>6}");
     }
-    let told = |words: &str, off: fn(&Again) -> Option<f64>| {
-        let pairs = || {
-            rows.iter()
-                .filter_map(|row| Some((off(&row.again)?, row.stated?)))
-        };
-        let farther = pairs().filter(|(off, stated)| off > stated).count();
-        println!(
-            "{farther} of {} are farther from {words} than they state",
-            pairs().count()
-        );
-    };
-    told("a finer run", |again| again.finer);
-    told("their mirror image", |again| again.mirror);
+    for (kind, name) in KINDS.iter().enumerate() {
+        let other = format!("a finer run: {name}");
+        compare(&rows, &other, kind..=kind, |twins| twins.finer);
+    }
+    compare(&rows, "their mirror image", 0..=4, |twins| twins.mirror);
+    compare(&rows, "the same at four times the size", 0..=4, |twins| {
+        twins.larger
+    });
     Ok(())
+}
+
+fn header() -> String {
+    format!(
+        "scene,outcome,stated,stated_movement,{},mirror,larger,seconds,words\n",
+        KINDS.join(",")
+    )
+}
+
+fn shown(value: Option<f64>) -> String {
+    value.map_or(String::new(), |value| format!("{value:.3e}"))
+}
+
+/// Says how many answers are farther from another run than they state.
+fn compare(rows: &[Row], other: &str, kinds: RangeInclusive<usize>, errors: fn(&Twins) -> Option<Errors>) {
+    let pairs = || {
+        let twins = rows.iter().filter_map(|row| row.twins.as_ref());
+        twins.filter_map(|twins| Some((errors(twins)?, twins.stated)))
+    };
+    let is_farther =
+        |(found, stated): &(Errors, Errors)| kinds.clone().any(|kind| found[kind] > stated[kind]);
+    let farther = pairs().filter(is_farther).count();
+    println!(
+        "{farther} of {} are farther from {other} than they state",
+        pairs().count()
+    );
 }
 
 /// A row of each scene: on every core one at a time, so that none waits for another.
@@ -88,23 +124,23 @@ fn rows(numbers: std::ops::Range<u64>) -> Result<Vec<Row>, Failure> {
     let next = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|number| *number < numbers.end);
     let own = || {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-        let told = |number| {
+        let judged = |number| {
             eprintln!("scene {number} begins");
             let row = row(number);
             eprintln!("scene {number}: {}, {:.1} s", row.outcome.name(), row.seconds);
             row
         };
-        Ok(pool.install(|| std::iter::from_fn(next).map(told).collect()))
+        Ok(pool.install(|| std::iter::from_fn(next).map(judged).collect()))
     };
     let cores = available_parallelism()?.get();
-    let mut rows = scope(|threads| {
+    let rows = scope(|threads| {
         let threads: Vec<_> = (0..cores).map(|_| threads.spawn(own)).collect();
         let joined = threads
             .into_iter()
             .map(|thread| thread.join().expect("every panic of a scene is caught"));
         joined.collect::<Result<Vec<Vec<Row>>, rayon::ThreadPoolBuildError>>()
-    })?
-    .concat();
+    })?;
+    let mut rows: Vec<Row> = rows.into_iter().flatten().collect();
     rows.sort_by_key(|row| row.number);
     Ok(rows)
 }
@@ -115,16 +151,14 @@ fn row(number: u64) -> Row {
     let (outcome, stated) = judged(&text);
     let seconds = begun.elapsed().as_secs_f64();
     let is_answer = matches!(outcome, Outcome::Right | Outcome::Late(_)) && stated.is_some();
-    let again = if is_answer && number.is_multiple_of(AGAIN) {
-        again(&text).unwrap_or_default()
-    } else {
-        Again::default()
-    };
+    let twins = (is_answer && number.is_multiple_of(TWINS))
+        .then(|| twins(&text))
+        .flatten();
     Row {
         number,
         outcome,
         stated,
-        again,
+        twins,
         seconds,
     }
 }

@@ -7,6 +7,7 @@ use friction_chain::{ChainError, Clamp, Contact, ImplicitStep, Load, Stretch};
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window::{self, Window};
+use crate::chain::{MAX_ROUNDS, PRESSED};
 use crate::tuning::{UNBALANCED_SHARE, UNBALANCED_SUPPORT};
 use crate::{CableError, CableState, PassOutcome};
 
@@ -48,10 +49,8 @@ impl QuasiStatic {
             observe(vehicle, &|| self.shown(&snapshot, state));
         }
 
-        // The ground comes to rest. What the windows left out of account is settled by the same step.
         let still = passage.still();
-        self.move_duct(&last, &still);
-        self.step_whole(&still)?;
+        self.come_to_rest(&last, &still)?;
         *state = self.shown(&still, state);
         let (work, statistics) = (self.step.work, &mut self.outcome.statistics);
         (statistics.sweeps, statistics.cycles) = (work.solves, work.cycles);
@@ -93,16 +92,17 @@ impl QuasiStatic {
     }
 
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
-    /// force that it had.
-    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) {
+    /// force that it had. Returned: the largest change of a friction limit in bends, as a share of it.
+    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) -> f64 {
         self.outcome.statistics.steps += 1;
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         let u = |node| r[node] + last.adherent_at(node);
-        self.bends.press(chain, u, self.thermal_force);
+        let change = self.bends.press(chain, u, self.thermal_force);
         self.supports.load(snapshot, chain);
         let state = (&mut *self.r, &mut *self.g);
         self.outcome.dissipated += self.supports.hold([last, snapshot], chain, state, trial);
+        change
     }
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
@@ -112,6 +112,25 @@ impl QuasiStatic {
         self.moving.clear();
         self.record(snapshot);
         Ok(())
+    }
+
+    /// The ground comes to rest. What the windows left out of account is settled by the same step, and in bends by others, until the cable
+    /// presses on them with the force that it has.
+    fn come_to_rest(&mut self, last: &Snapshot<'_>, still: &Snapshot<'_>) -> Result<(), CableError> {
+        self.move_duct(last, still);
+        let mut change = f64::INFINITY;
+        for _ in 0..MAX_ROUNDS {
+            self.step_whole(still)?;
+            if self.bends.is_empty() {
+                return Ok(());
+            }
+            change = self.move_duct(still, still);
+            if change <= PRESSED {
+                return Ok(());
+            }
+        }
+        let error = ChainError::NoEquilibrium { violation: change };
+        Err(CableError::of_step(error, f64::INFINITY))
     }
 
     /// One step of the vehicle: solves the windows where the cable moves. It may begin to slip in `watched`; node 0 stands at the point
@@ -124,6 +143,7 @@ impl QuasiStatic {
     ) -> Result<(), CableError> {
         let mut windows = std::mem::take(&mut self.windows);
         self.begin_windows(snapshot, watched, &mut windows);
+        self.outcome.statistics.watched += watched.count();
         self.moving.clear();
         loop {
             for window in &mut windows {

@@ -173,6 +173,26 @@ fn a_cable_drawn_through_a_bend_is_a_capstan() -> Outcome {
     Ok(())
 }
 
+/// While the duct moves far the force changes much in a step, and with it the friction in a bend; where the cable comes to rest it presses on
+/// the bend with the force that it has.
+#[test]
+fn a_cable_at_rest_in_a_bend_needs_no_more_friction_than_there_is() -> Outcome {
+    let (length, friction, motion) = (12.0, sheathed(LIMIT), reference_motion().scaled(10.0)?);
+    for spacing in [0.5, 0.25, 0.1] {
+        let cable = cable(length, 100e6, friction, End::Spring(1e5), End::Spring(1e7))
+            .with_sections(&[straight(length).with_bend(FRICTION / 2.0)])?;
+        let mesh = Mesh::new(length, spacing, 0.5 * spacing)?;
+        let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
+        let mut run = Run::new(cable.clone(), mesh);
+        for pass in 1..=3 {
+            run.pass(&passage);
+            let share = run.state.friction_share(&cable)?;
+            assert!(share <= 1.0 + 1e-6, "{spacing} m, pass {pass}: {share}");
+        }
+    }
+    Ok(())
+}
+
 /// A steep slope above its fixed end under a level duct, whose friction holds part of it: the cable slips on the whole slope and on a
 /// length s of the level part, and the strains up to there add up to nothing.
 #[test]

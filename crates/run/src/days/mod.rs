@@ -99,7 +99,7 @@ fn find_periods(
         }
         let more = days.simulate(scene, level, Some(&fewer), progress.next(0.5), false)?;
         let error = days.difference(&more, &fewer).times(CAUTION);
-        let next = REFINEMENT_COST.saturating_mul(more.statistics.node_updates);
+        let next = REFINEMENT_COST.saturating_mul(more.statistics.work());
         if error.is_within(allowed) || 4 * next > MAX_NODE_UPDATES {
             return Ok(error);
         }

@@ -123,7 +123,7 @@ impl Search<'_> {
             };
             let off = self.simulator.difference(&finer, &passes);
             (size, passes, error) = (size.finer(), finer, Some(off));
-            if off.is_within(self.allowed) || cost * passes.statistics.node_updates > MAX_NODE_UPDATES {
+            if off.is_within(self.allowed) || cost * passes.statistics.work() > MAX_NODE_UPDATES {
                 break;
             }
         }
@@ -164,7 +164,7 @@ impl Search<'_> {
         loop {
             let order = self.simulator.plan.period.shuffled(all.len() as u64);
             let passes = self.in_place(found, order)?;
-            work += passes.statistics.node_updates;
+            work += passes.statistics.work();
             all.push(passes.records);
             if all.len() >= FEWEST_DRAWS {
                 let draws = Draws::new(&found.passes.records, &all, self.first, self.simulator.scale);

@@ -185,7 +185,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         // A run whose error is above 10 % is refused: spend more before that.
         let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
         let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 3 };
-        let last = meshes.last().map_or(0, |passes| passes.statistics.node_updates);
+        let last = meshes.last().map_or(0, |passes| passes.statistics.work());
         self.known_error.is_none()
             && REFINEMENT_COST.saturating_mul(last) <= most
             && level < self.plan.levels.finest

@@ -1,14 +1,14 @@
 //! Random scenes over the whole range that scene files allow in practice, against far finer runs: the stated error of forces after
 //! passes and during them, of forces on clamps and of movements is an upper bound but for a few, and the tolerance is kept.
 
+use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use creepage::scene::{GroundModel, SolverMethod};
-use creepage::{PassRecord, Run, Scene};
+use creepage::{Run, Scene};
+use creepage_validation::whole_range::differences::{Errors, KINDS, errors, stated};
+use fastrand::Rng;
 use rayon::prelude::*;
-
-use super::scenes;
-use crate::scenes::largest;
 
 const TOLERANCES: [f64; 3] = [0.05, 0.01, 0.002];
 /// A run that takes longer counts as a miss \[s\].
@@ -17,26 +17,6 @@ const LONGEST: Duration = Duration::from_secs(60);
 const REFERENCE_WORK: f64 = 4e8;
 /// A mesh twice as fine takes so many times the work.
 const REFINEMENT: f64 = 4.5;
-/// Forces and movements below this share of the run's largest, or of the duct's own movement, count as nothing, as in the estimate;
-/// and so does the friction on a centimetre of cable.
-const SMALL: f64 = 0.1;
-const SHORT: f64 = 0.01;
-
-/// Errors of forces after passes, of the largest and the least during them, of forces on clamps, and of movements.
-type Errors = [f64; 5];
-const KINDS: [&str; 5] = ["after", "peak", "least", "clamp", "movement"];
-
-fn stated(run: &Run) -> Errors {
-    let force = run.error_estimate.relative;
-    [force, force, force, force, run.error_estimate.parts.movement]
-}
-
-/// What counts in a run at least.
-struct Floor {
-    force: f64,
-    movement: f64,
-}
-
 /// One scene at one tolerance.
 #[derive(Debug)]
 enum Case {
@@ -51,79 +31,6 @@ enum Case {
     Refused,
     /// No reference can be had that is finer.
     Unjudged,
-}
-
-fn floor(scene: &Scene, reference: &Run) -> Floor {
-    let friction = SHORT * scene.friction.dynamic_coefficient * scene.normal_load();
-    let during = |r: &PassRecord| during(r).map(|(peak, least)| largest([peak, least]));
-    let passes = reference
-        .passes
-        .iter()
-        .flat_map(|r| forces(r).into_iter().chain(during(r)));
-    let profile = reference.force_profile.force_n.iter().copied();
-    let clamps = reference
-        .restraints
-        .iter()
-        .flat_map(|clamp| clamp.after_passes_n.iter().copied());
-    let moved = largest(reference.passes.iter().flat_map(movements));
-    Floor {
-        force: (SMALL * largest(passes.chain(profile).chain(clamps))).max(friction),
-        movement: moved.max(SMALL * reference.duct_motion.peak_longitudinal_m),
-    }
-}
-
-fn forces(r: &PassRecord) -> [f64; 3] {
-    [r.upstream_force_n, r.downstream_force_n, r.max_compression_n]
-}
-
-/// The largest and the least force on each end during a pass.
-fn during(r: &PassRecord) -> [(f64, f64); 2] {
-    let downstream = (r.downstream_peak_n, r.downstream_least_n);
-    [(r.upstream_peak_n, r.upstream_least_n), downstream]
-}
-
-fn movements(r: &PassRecord) -> [f64; 2] {
-    [r.upstream_displacement_m, r.downstream_displacement_m]
-}
-
-fn errors(scene: &Scene, run: &Run, reference: &Run) -> Errors {
-    let floor = floor(scene, reference);
-    // Tension along the cable is known after the last pass alone: there it counts as in the estimate.
-    let profile = reference.force_profile.force_n.iter();
-    let tension = profile.fold(0.0_f64, |most, force| most.max(-force));
-    let mut worst = [0.0_f64; 5];
-    let mut note = |kind: usize, found: f64, exact: f64, scale: f64| {
-        worst[kind] = worst[kind].max((found - exact).abs() / scale);
-    };
-    for (index, (record, exact)) in run.passes.iter().zip(&reference.passes).enumerate() {
-        let held = if index + 1 == run.passes.len() {
-            tension
-        } else {
-            0.0
-        };
-        let scale = largest(forces(exact)).max(floor.force).max(held);
-        for (a, b) in forces(record).into_iter().zip(forces(exact)) {
-            note(0, a, b, scale);
-        }
-        for (found, exact) in during(record).into_iter().zip(during(exact)) {
-            let scale = largest([exact.0, exact.1]).max(floor.force);
-            note(1, found.0, exact.0, scale);
-            note(2, found.1, exact.1, scale);
-        }
-        for (a, b) in movements(record).into_iter().zip(movements(exact)) {
-            note(4, a, b, floor.movement);
-        }
-    }
-    for (clamp, exact) in run.restraints.iter().zip(&reference.restraints) {
-        for (found, exact) in [
-            (&clamp.after_passes_n, &exact.after_passes_n),
-            (&clamp.during_passes_n, &exact.during_passes_n),
-        ] {
-            let scale = largest(exact.iter().copied()).max(floor.force);
-            found.iter().zip(exact).for_each(|(a, b)| note(3, *a, *b, scale));
-        }
-    }
-    worst
 }
 
 /// The finest run that can be had, at least as fine as `spacing` \[m\]; `work` is what a run at that spacing took.
@@ -151,7 +58,7 @@ fn reference(scene: &Scene, spacing: f64, work: f64, inertia: bool) -> Option<Ru
 }
 
 fn cases(seed: u64) -> Vec<Case> {
-    let mut scene = Scene::from_toml("scene", &scenes::wide(seed)).expect("a valid scene");
+    let mut scene = Scene::from_toml("scene", &wide(seed)).expect("a valid scene");
     let runs: Vec<(f64, Duration, Result<Run, creepage::Error>)> = TOLERANCES
         .iter()
         .map(|&tolerance| {
@@ -203,7 +110,7 @@ fn cases(seed: u64) -> Vec<Case> {
 }
 
 #[test]
-#[ignore = "half an hour of references on two cores: cargo test --release --test main planner::honest:: -- --ignored --nocapture"]
+#[ignore = "half an hour of references on two cores: cargo test --release -p creepage-validation honest:: -- --ignored --nocapture"]
 fn the_stated_error_is_above_the_true_one_and_the_tolerance_is_kept() {
     let number = |name: &str, default: u64| {
         std::env::var(name)
@@ -234,4 +141,122 @@ fn the_stated_error_is_above_the_true_one_and_the_tolerance_is_kept() {
         println!("{name}: understated {understated:.4}, beyond the tolerance {exceeded:.4}");
         assert!(understated + cut <= 0.02 && exceeded + cut <= 0.01, "{name}");
     }
+}
+
+/// A scene file over the whole range: 5 to 300 m, 0.4 to 4 m deep, friction from 0.05 to 1, stiff and soft cables and sheaths, layers
+/// and rock, springs and clamps, up to three vehicles of up to six wheels, both ways; without a tolerance.
+#[allow(clippy::too_many_lines, reason = "a list of what a scene may hold")]
+fn wide(seed: u64) -> String {
+    let mut random = Rng::with_seed(seed);
+    let random = &mut random;
+    let length = log_between(random, 5.0, 300.0);
+    let depth = log_between(random, 0.4, 4.0);
+    let mut text = format!(
+        "[duct]\nlength = {length}\ndepth = {depth}\nlateral_offset = {}\n[ground]\n",
+        random.choice([0.0, 0.0, 0.5, 1.0]).unwrap_or(0.0)
+    );
+    let mut line = |content: String| {
+        let _ = writeln!(text, "{content}");
+    };
+    let upper = random.usize(0..4).saturating_sub(1);
+    let thicknesses: Vec<f64> = (0..upper).map(|_| log_between(random, 0.03, 0.6)).collect();
+    if random.u8(0..3) == 0 {
+        let cover = depth.max(thicknesses.iter().sum());
+        line(format!(
+            "rigid_base_depth = {}",
+            1.3 * cover + log_between(random, 1.0, 20.0)
+        ));
+    }
+    for thickness in thicknesses {
+        let modulus = log_between(random, 1e8, 8e9);
+        line(format!(
+            "[[ground.layers]]\nthickness = {thickness}\nyoung_modulus = {modulus}\npoisson_ratio = {}",
+            between(random, 0.2, 0.45)
+        ));
+    }
+    line(format!(
+        "[[ground.layers]]\nyoung_modulus = {}\npoisson_ratio = {}",
+        log_between(random, 4e7, 9e8),
+        between(random, 0.2, 0.48)
+    ));
+    let extreme = random.u8(0..3) == 0;
+    line(format!(
+        "[cable]\nweight = {}\naxial_stiffness = {}\nnormal_load_factor = {}",
+        log_between(random, 40.0, 400.0),
+        if extreme {
+            log_between(random, 1e6, 1e9)
+        } else {
+            log_between(random, 2e6, 3e7)
+        },
+        random.choice([1.0, 1.0, 1.5]).unwrap_or(1.0)
+    ));
+    line(format!(
+        "[friction]\ndynamic_coefficient = {}",
+        between(random, 0.05, 1.0)
+    ));
+    if random.u8(0..5) == 0 {
+        line("law = \"coulomb\"".into());
+    } else {
+        line(format!("shape_factor = {}", log_between(random, 1e5, 1e9)));
+    }
+    let end = |random: &mut Rng| match random.u8(0..3) {
+        0 => "\"free\"".to_owned(),
+        1 => "\"fixed\"".to_owned(),
+        _ => format!("{{ spring = {} }}", log_between(random, 1e4, 1e8)),
+    };
+    let (upstream, downstream) = (end(random), end(random));
+    line(format!(
+        "[ends]\nupstream = {upstream}\ndownstream = {downstream}"
+    ));
+    for _ in 0..random.usize(0..5).saturating_sub(2) {
+        line(format!(
+            "[[restraints]]\nposition = {}\nstiffness = {}",
+            length * between(random, 0.02, 0.98),
+            log_between(random, 1e4, 1e8)
+        ));
+    }
+    let vehicles = random.choice([1, 1, 1, 2, 3]).unwrap_or(1);
+    for number in 0..vehicles {
+        let wheels = random.choice([1, 1, 2, 3, 4, 6]).unwrap_or(1);
+        let speed = between(random, 5.0, 17.0);
+        line(format!("[[vehicles]]\nname = \"v{number}\"\nspeed = {speed}"));
+        if wheels == 1 {
+            line(format!("load = {}", log_between(random, 3e4, 3e5)));
+        } else {
+            let mut x = 0.0;
+            let mut list = String::new();
+            for _ in 0..wheels {
+                let y = random.choice([-0.9, 0.9, 0.0]).unwrap_or(0.0);
+                let radius = random.choice([0.0, 0.1, 0.15, 0.25]).unwrap_or(0.0);
+                let load = log_between(random, 1e4, 8e4);
+                let _ = write!(
+                    list,
+                    "{{ x = {x}, y = {y:?}, load = {load}, contact_radius = {radius:?} }},"
+                );
+                if random.bool() {
+                    x -= between(random, 1.2, 5.0);
+                }
+            }
+            line(format!("wheels = [{list}]"));
+        }
+        if random.u8(0..3) == 0 {
+            line("direction = \"reverse\"".into());
+        }
+        line(format!("share = {}", between(random, 0.2, 1.0)));
+    }
+    let most = if length < 40.0 { 200 } else { 40 };
+    let passes = random.choice([1, 2, 3, 5, 8, 12, 12, 12, most]).unwrap_or(1);
+    line(format!("[traffic]\npasses = {passes}"));
+    if vehicles > 1 && random.u8(0..3) == 0 {
+        line("order = \"random\"\nseed = 3".into());
+    }
+    text
+}
+
+fn between(random: &mut Rng, low: f64, high: f64) -> f64 {
+    low + (high - low) * random.f64()
+}
+
+fn log_between(random: &mut Rng, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.f64())
 }
