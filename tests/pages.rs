@@ -93,7 +93,9 @@ fn short(line: &str) -> String {
         return words.to_owned();
     }
     // Years count before passes.
-    let mut days = words.replace("--years 20 ", "--days 1 ");
+    let mut days = words
+        .replace("--years 20 ", "--days 1 ")
+        .replace("--days 18", "--days ");
     for per_day in [800, 2000] {
         days = days.replace(&format!("--trucks-per-day {per_day}"), "--trucks-per-day 20");
     }

@@ -166,10 +166,10 @@ fn distributions_of_rows_that_do_not_fit_are_refused() {
 fn samples_on_a_coarse_mesh_are_as_good_as_they_say_and_cheap() {
     let base = || file(&["solver.tolerance=0.02", "traffic.passes=80"]);
     let law = "normal(0.25, 0.04)";
-    let samples = Samples { count: 60, seed: 3 };
+    let samples = Samples { count: 30, seed: 3 };
     let sweep = Sweep::of_table(base(), table(&[(FRICTION, &[law])]), samples).unwrap();
     let answers = answers(&sweep);
-    for sample in (0..60).step_by(20) {
+    for sample in (0..30).step_by(10) {
         let of = |name| numbers(&answers, name)[sample].unwrap();
         let row = [
             format!("{FRICTION}={}", of(FRICTION)),

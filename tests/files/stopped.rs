@@ -29,7 +29,7 @@ fn a_stopped_command_says_so_and_leaves_an_older_table() {
     let folder = Folder::new("stopped-run");
     folder.succeeds("run scene.toml --csv table.csv");
     let before = folder.contents();
-    let half = Duration::from_millis(500);
+    let half = Duration::from_millis(300);
     for signal in SIGNALS {
         for output in ["--csv table.csv", "--json"] {
             // Minutes of work.
@@ -73,6 +73,6 @@ fn a_long_run_says_how_far_it_is() {
         );
     }
     let run = format!("run scene.toml --set {every_pass}");
-    let said = stopped_after(Duration::from_secs(3), &folder, &run, SIGNALS[0]);
+    let said = stopped_after(Duration::from_secs(1), &folder, &run, SIGNALS[0]);
     assert!(said.starts_with("stopped: "), "{said}");
 }

@@ -72,7 +72,7 @@ pub(crate) struct Kriging {
     pub rows: Range<usize>,
     pub design: Design,
     mean: DVector<f64>,
-    /// What each run's neighbourhood adds to the mean, a row each.
+    /// What each run's neighbourhood adds to the mean, a column each.
     weights: DMatrix<f64>,
     /// Sum of squares of each prediction about its mean, in units of the correlations.
     squares: DVector<f64>,
@@ -109,14 +109,14 @@ impl Kriging {
             rows,
             design,
             mean,
-            weights,
+            weights: weights.transpose(),
             squares,
         }
     }
 
     /// What is predicted at a place.
     pub fn at(&self, place: &DVector<f64>) -> DVector<f64> {
-        &self.mean + self.weights.tr_mul(&self.design.correlations(place))
+        &self.mean + &self.weights * self.design.correlations(place)
     }
 
     /// Its derivatives by the shares that act on it, each with its index: ∂c/∂u = −5/(3 length²) (1 + a)
@@ -130,7 +130,7 @@ impl Kriging {
         });
         inputs.iter().enumerate().map(move |(k, &input)| {
             let near = |run: usize, _| factors[run] * (place[k] - places[run][k]);
-            (input, self.weights.tr_mul(&DVector::from_fn(factors.len(), near)))
+            (input, &self.weights * DVector::from_fn(factors.len(), near))
         })
     }
 

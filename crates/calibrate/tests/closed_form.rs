@@ -1,6 +1,7 @@
 //! Fits of closed forms: exact answers, exact covariances, coverage, and what cannot be known.
 
 use std::error::Error;
+use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use calibrate::{Calibration, CalibrationError, Loss, Model, ModelError, Parameter, Prior, Scale, Warning};
@@ -134,11 +135,7 @@ fn intervals_cover_the_truth() {
     let model = saturation(&passes(30));
     let truth = [550.0, 12.0];
     let exact = model.predict(&truth).unwrap();
-    for (loss, sigma, first, cases, expected) in [
-        (Loss::Squares, None, 1000, 400, 364..=394),
-        (Loss::Squares, Some(8.0), 1000, 400, 364..=394),
-        (Loss::Tukey, None, 7000, 200, 178..=199),
-    ] {
+    let cover = |(loss, sigma, first, cases, expected): (_, _, _, _, RangeInclusive<usize>)| {
         let mut covered = [0; 2];
         let mut seeds = Rng::with_seed(first);
         for _ in 0..cases {
@@ -153,7 +150,16 @@ fn intervals_cover_the_truth() {
         for covered in covered {
             assert!(expected.contains(&covered), "{loss:?}: {covered} of {cases}");
         }
-    }
+    };
+    std::thread::scope(|threads| {
+        for of in [
+            (Loss::Squares, None, 1000, 400, 364..=394),
+            (Loss::Squares, Some(8.0), 1000, 400, 364..=394),
+            (Loss::Tukey, None, 7000, 200, 178..=199),
+        ] {
+            threads.spawn(|| cover(of));
+        }
+    });
 }
 
 /// Beyond saturation the time constant shows no more: its upper end stays open only where it should.

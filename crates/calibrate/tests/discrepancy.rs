@@ -66,7 +66,7 @@ fn width(fit: &Fit) -> f64 {
 #[test]
 fn intervals_hold_where_the_model_is_off_by_the_given_size() {
     let holds = |fit: &Fit| fit.estimates[0].interval.contains(0.5);
-    for sigma in [None, Some(NOISE)] {
+    let judge = |sigma: Option<f64>| {
         let count = |size| {
             (0..DRAWS)
                 .filter(|&seed| holds(&fit(measured(0.1, seed), size, sigma)))
@@ -76,7 +76,12 @@ fn intervals_hold_where_the_model_is_off_by_the_given_size() {
         assert!((90..=99).contains(&held), "{sigma:?}: {held}");
         assert!(wide >= held && wide >= 98, "{sigma:?}: {wide}");
         assert!(plain < 50, "{sigma:?}: {plain}");
-    }
+    };
+    std::thread::scope(|threads| {
+        for sigma in [None, Some(NOISE)] {
+            threads.spawn(move || judge(sigma));
+        }
+    });
 }
 
 /// Where there is none, a given discrepancy makes intervals wide and does not move the noise; one that does

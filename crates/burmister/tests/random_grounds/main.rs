@@ -274,6 +274,7 @@ fn oracle_reproduces_the_half_space() {
 
 /// And by doubling: finer and longer panels with more nodes change nothing.
 #[test]
+#[ignore = "a check of the oracle alone: .ci/run runs it"]
 fn oracle_has_converged() {
     for seed in 0..8 {
         let case = Case::random(seed);
