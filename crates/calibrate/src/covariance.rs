@@ -35,7 +35,7 @@ impl Covariance {
             if i == j {
                 1.0 + ROUNDING
             } else if is_seen(i) && is_seen(j) {
-                value / scale[i] / scale[j]
+                value / (scale[i] * scale[j])
             } else {
                 0.0
             }
@@ -48,7 +48,7 @@ impl Covariance {
         let inverse = 0.5 * (&inverse + inverse.transpose());
         let matrix = inverse.map_with_location(|i, j, value| {
             if known[i] && known[j] {
-                value / scale[i] / scale[j]
+                value / (scale[i] * scale[j])
             } else {
                 0.0
             }
