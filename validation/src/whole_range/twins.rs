@@ -11,11 +11,11 @@ use super::differences::{Errors, errors, stated};
 use super::judged::run;
 
 /// By what factor the tolerance of the finer run is smaller.
-const FINER: f64 = 4.0;
+pub const FINER: f64 = 4.0;
 
 /// How many times as long all lengths are in the larger scene. Froude's scale keeps gravity and densities, so that inertia scales too: times
 /// grow as its root, forces as its cube.
-const LENGTH: f64 = 4.0;
+pub const LENGTH: f64 = 4.0;
 const TIME: f64 = 2.0;
 const FORCE: f64 = 64.0;
 
