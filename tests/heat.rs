@@ -286,6 +286,7 @@ fn a_sequence_that_does_not_fit_into_a_day_is_an_error_of_its_own() {
 
 /// A sequence that takes longer than a day: a mix of its vehicles that fits into the day stands in for it, and its error covers what that changes.
 #[test]
+#[ignore = "six seconds: .ci/run runs it"]
 fn a_sequence_longer_than_a_day_is_answered_by_its_mix() {
     let sequence = vec!["\"v\""; 149].join(", ");
     let by = |method: &str| {
@@ -306,6 +307,7 @@ fn a_sequence_longer_than_a_day_is_answered_by_its_mix() {
 
 /// With few real periods a day this short duct never comes to days that are alike: it takes more of them, and many days end as few do.
 #[test]
+#[ignore = "six seconds: .ci/run runs it"]
 fn days_that_few_real_periods_keep_restless_settle_with_more() {
     let restless = [
         "duct = { length = 4.2, depth = 2.2, slope = -0.06 }",

@@ -50,6 +50,7 @@ fn a_stopped_command_says_so_and_leaves_an_older_table() {
 
 /// What takes long shows its share and the time left at a terminal, and nothing elsewhere.
 #[test]
+#[ignore = "seven seconds of waiting: .ci/run runs it"]
 fn a_long_run_says_how_far_it_is() {
     let folder = Folder::new("progress");
     let every_pass = "solver.method=quasi-static --set traffic.passes=900000";
