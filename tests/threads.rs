@@ -32,7 +32,7 @@ fn one_thread_takes_one_core() {
         out.display()
     );
     for line in [
-        "run UPPER --set solver.tolerance=0.003",
+        "run UPPER --set solver.tolerance=0.005",
         "plan UPPER --set solver.tolerance=0.001",
         "design UPPER --limit-force 500N --set solver.tolerance=0.1",
         &sweep,
