@@ -9,7 +9,7 @@ use creepage_validation::{Failure, charts, file, occurrence, stability, whole_ra
 /// A name and what draws it into a folder.
 type Entry = (&'static str, fn(&Path) -> Result<(), Failure>);
 
-const ALL: [Entry; 15] = [
+const ALL: [Entry; 16] = [
     ("ground", charts::ground::run),
     ("cable", charts::cable::run),
     ("whole", charts::whole::run),
@@ -17,6 +17,7 @@ const ALL: [Entry; 15] = [
     ("discrepancy", charts::discrepancy::run),
     ("cost", charts::cost::run),
     ("aims", charts::aims::run),
+    ("bends", stability::bends::run),
     ("explicit", stability::explicit::run),
     ("implicit", stability::implicit::run),
     ("fem", stability::fem::run),

@@ -3,7 +3,7 @@
 use creepage::scene::SolverMethod;
 use creepage_validation::Failure;
 use creepage_validation::map::{Cell, Grid, Outcome};
-use creepage_validation::stability::{explicit, heat, implicit, long_term};
+use creepage_validation::stability::{bends, explicit, heat, implicit, long_term};
 
 /// Methods in a map: without guards, and with them.
 const BARE: usize = 0;
@@ -117,5 +117,24 @@ fn days_that_break_a_sequence_are_announced() -> Tested {
         assert_eq!(said(SolverMethod::PassLaw)?, broken, "{per_day} a day");
         assert!(!said(SolverMethod::QuasiStatic)?, "{per_day} a day");
     }
+    Ok(())
+}
+
+/// Where a bend is so tight that it counts with which force the cable presses on it, the stated error holds that too.
+#[test]
+fn what_the_force_of_the_step_before_costs_in_a_bend_is_stated() -> Tested {
+    let map = bends::map(2, 2, bends::STIFFNESSES[1])?;
+    let [rough_and_tight, wide] = [map.cells[2].error, map.cells[3].error];
+    assert!(rough_and_tight > 0.02 && wide < 1e-4, "{rough_and_tight} {wide}");
+    let run = |tolerance| -> Result<_, creepage_validation::Failure> {
+        let mut scene = bends::scene(1.6, 1.0, bends::STIFFNESSES[1], 1.0)?;
+        (scene.solver.node_spacing, scene.solver.vehicle_step) = (None, None);
+        scene.solver.tolerance = tolerance;
+        Ok(creepage::run(&scene)?)
+    };
+    let (found, finer) = (run(0.05)?, run(0.02)?);
+    let forces = [&found, &finer].map(|run| run.passes[19].downstream_force_n);
+    let (off, stated) = (forces[0] / forces[1] - 1.0, found.error_estimate.relative);
+    assert!(off > 0.01 && off < stated, "{off} {stated}");
     Ok(())
 }

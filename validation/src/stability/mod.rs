@@ -1,5 +1,6 @@
 //! Where methods fail, mapped. Each map is a file here: a grid of runs coloured by outcome.
 
+pub mod bends;
 pub mod burmister;
 pub mod calibration;
 pub mod explicit;

@@ -139,6 +139,25 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
     Ok(())
 }
 
+/// What a bend costs that presses with the force of the step before: nothing where it is wide, and the more the tighter it is.
+#[test]
+fn wide_bends_cost_nothing() -> Tested {
+    let mut reader = read_table(&folder().join("stability-bends.csv"))?;
+    let mut tight = 0.0_f64;
+    for record in reader.records() {
+        let record = record?;
+        let [stiffness, radius, friction, error] = [0, 1, 2, 3].map(|column| record[column].parse::<f64>());
+        let (stiffness, radius, friction, error) = (stiffness?, radius?, friction?, error?);
+        assert!(radius < 8.0 || error <= 3.6e-3, "{record:?}");
+        assert!(radius < 20.0 || error <= 3e-4, "{record:?}");
+        assert!(stiffness > 1e7 || error <= 5e-3, "{record:?}");
+        assert!(friction > 0.5 || radius < 2.0 || error <= 7e-3, "{record:?}");
+        tight = tight.max(error);
+    }
+    assert!((0.05..0.07).contains(&tight), "{tight}");
+    Ok(())
+}
+
 /// Random scenes over the whole range of every key: no answer is wrong, few are missing or late, and what is stated holds.
 #[test]
 fn answers_over_the_whole_range_can_be_true() -> Tested {
