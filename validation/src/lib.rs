@@ -60,7 +60,7 @@ fn commit() -> Result<String, Failure> {
         let git = git
             .current_dir(file(""))
             .args(arguments)
-            .args(["--", "src", "crates/*/src"]);
+            .args(["--", "src", "crates/*/src/*"]);
         Ok(String::from_utf8(git.output()?.stdout)?.trim().to_owned())
     };
     let changes = git(&["status", "--porcelain"])?;
