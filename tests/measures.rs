@@ -129,6 +129,7 @@ fn the_worst_is_that_of_a_finer_grid() {
 
 /// The measure that is recommended holds in every combination, and of those that hold none has fewer parts.
 #[test]
+#[ignore = "fifteen runs at 0.2 %, a quarter of a minute: .ci/run runs it"]
 fn what_is_recommended_holds_and_is_the_least() {
     let (file, limits) = (file(&[]), limits(250.0, 0.005));
     let comparison = compared(&file, &limits);
@@ -137,7 +138,7 @@ fn what_is_recommended_holds_and_is_the_least() {
         .filter(|_| comparison.recommended.is_some())
         .expect("a measure that holds");
     let all = grid(&comparison, 5, 3);
-    let worst = worst_of(&file, &comparison, best, &all, &limits, 0.005);
+    let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
     assert!(worst <= 1.0, "{}: {worst}", best.name);
     for other in &comparison.measures {
         let holds = other.kept == 15 && worst_share(other) <= 1.0;
@@ -328,7 +329,7 @@ fn the_worst_of_eight_kinds_of_scenes_is_that_of_a_grid_four_times_finer() {
         }
         let all = grid(&comparison, 3, 2);
         if comparison.recommended.is_some() {
-            let worst = worst_of(&file, &comparison, best, &all, &limits, 0.005);
+            let worst = worst_of(&file, &comparison, best, &all, &limits, 0.002);
             println!("{kind}, {} at 0.2 %: {worst:.4}", best.name);
             assert!(worst <= 1.0, "{kind}, {}: {worst}", best.name);
         } else {

@@ -96,7 +96,8 @@ fn short(line: &str) -> String {
     // Years count before passes.
     let mut days = words
         .replace("--years 20 ", "--days 1 ")
-        .replace("--days 18", "--days ");
+        .replace("--days 182 ", "--days 2 ")
+        .replace("--days 183 ", "--days 3 ");
     for per_day in [800, 2000] {
         days = days.replace(&format!("--trucks-per-day {per_day}"), "--trucks-per-day 20");
     }

@@ -41,10 +41,13 @@ pub fn file(path: &str) -> PathBuf {
 
 /// Writes a table, after a line that names the program of its numbers.
 pub fn write_table(file: &Path, table: &str) -> Result<(), Failure> {
-    let version = env!("CARGO_PKG_VERSION");
+    let (version, commit) = (
+        env!("CARGO_PKG_VERSION"),
+        commit().unwrap_or("unknown".to_owned()),
+    );
     Ok(std::fs::write(
         file,
-        format!("# creepage {version}, {}\n{table}", commit()?),
+        format!("# creepage {version}, commit {commit}\n{table}"),
     )?)
 }
 
@@ -53,22 +56,23 @@ pub fn read_table(file: &Path) -> Result<csv::Reader<File>, csv::Error> {
     csv::ReaderBuilder::new().comment(Some(b'#')).from_path(file)
 }
 
-/// The last commit of the program's sources, and whether they have changed since.
-fn commit() -> Result<String, Failure> {
-    let git = |arguments: &[&str]| -> Result<String, Failure> {
+/// The last commit of the sources, and whether they have changed since; `None` where git does not say.
+fn commit() -> Option<String> {
+    const SOURCES: [&str; 5] = ["--", "src", "crates/*/src/*", "validation/src", "Cargo.lock"];
+    let git = |arguments: &[&str]| {
         let mut git = Command::new("git");
-        let git = git
+        let output = git
             .current_dir(file(""))
             .args(arguments)
-            .args(["--", "src", "crates/*/src/*"]);
-        Ok(String::from_utf8(git.output()?.stdout)?.trim().to_owned())
+            .args(SOURCES)
+            .output()
+            .ok()?;
+        let said = String::from_utf8(output.stdout).ok()?;
+        output.status.success().then(|| said.trim().to_owned())
     };
     let changes = git(&["status", "--porcelain"])?;
     let and_changes = if changes.is_empty() { "" } else { " with changes" };
-    Ok(format!(
-        "commit {}{and_changes}",
-        git(&["log", "-1", "--format=%h"])?
-    ))
+    Some(git(&["log", "-1", "--format=%h"])? + and_changes)
 }
 
 /// The full-scale experiment's upper cable with some keys set.

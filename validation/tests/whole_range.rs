@@ -1,4 +1,4 @@
-//! Random scenes over the whole allowed range of every key: few quick ones of the ten thousand.
+//! Random scenes over the whole allowed range of the keys: few quick ones of the ten thousand.
 
 use creepage::Scene;
 use creepage_validation::whole_range::judged::{Outcome, judged, run};

@@ -6,7 +6,7 @@ use crate::section::shares;
 use crate::{CableError, DuctedCable, End, Mesh};
 
 /// Share of the friction limit up to which rounding may blur equilibrium.
-const MAX_ROUNDING: f64 = 1e-3;
+pub(crate) const MAX_ROUNDING: f64 = 1e-3;
 
 /// The chain of `cable` on `mesh` in `clamps`, without force in it.
 pub(crate) fn chain(cable: &DuctedCable, mesh: &Mesh, clamps: Vec<Clamp>) -> Result<Chain, CableError> {

@@ -1,4 +1,4 @@
-//! Map 7: bends, over their radius and friction, for three cables: what it costs that the cable presses on a bend with the force of the step
+//! Map 8: bends, over their radius and friction, for three cables: what it costs that the cable presses on a bend with the force of the step
 //! before.
 //!
 //! A duct of 30 m whose middle third bends, twenty passes. Steps of half a node spacing, as a run takes them, are compared with steps sixteen

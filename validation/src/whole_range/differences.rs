@@ -1,10 +1,15 @@
 //! How far the answers of two runs of one scene lie apart, kind by kind, as the stated error counts them.
 
-use creepage::{DayExtremes, PassRecord, RestraintRange, Run, Scene};
+use creepage::{DayExtremes, PassRecord, Run, Scene};
 
 /// Shares of the forces after passes, of the largest and the least during them, of the forces on clamps, and of the movements.
 pub type Errors = [f64; 5];
 pub const KINDS: [&str; 5] = ["after", "peak", "least", "clamp", "movement"];
+const AFTER: usize = 0;
+const PEAK: usize = 1;
+const LEAST: usize = 2;
+const CLAMP: usize = 3;
+pub const MOVEMENT: usize = 4;
 
 /// Forces and movements below this share of the run's largest, or of the duct's own movement, count as nothing, as in the estimate;
 /// and so does the friction on a centimetre of cable.
@@ -20,6 +25,9 @@ pub fn stated(run: &Run) -> Errors {
 /// How far `run` is from `exact` in the passes or days that both list.
 pub fn errors(scene: &Scene, run: &Run, exact: &Run) -> Errors {
     let scale = Scale::new(scene, exact);
+    if pairs(&run.passes, &exact.passes, |pass| pass.pass).is_empty() {
+        return [f64::INFINITY; 5];
+    }
     if exact.days.is_empty() {
         of_passes(run, exact, &scale)
     } else {
@@ -29,7 +37,11 @@ pub fn errors(scene: &Scene, run: &Run, exact: &Run) -> Errors {
 
 /// What the differences are relative to at least.
 struct Scale {
+    /// What counts as nothing, and what the forces of passes are relative to at least \[N\].
+    nothing: f64,
     force: f64,
+    /// The same of movements \[m\].
+    still: f64,
     movement: f64,
     /// The largest tension along the cable, which is known after the last pass alone.
     tension: f64,
@@ -41,40 +53,28 @@ impl Scale {
             let during = during(pass).into_iter().flatten();
             forces(pass).into_iter().chain(during)
         });
-        let of_days = exact
-            .days
-            .iter()
-            .flat_map(|day| day_forces(day).into_iter().flatten());
+        let of_days = exact.days.iter().flat_map(day_forces);
         let clamps = exact
             .restraints
             .iter()
             .flat_map(|clamp| clamp.after_passes_n.iter().copied());
-        let most = largest(of_passes).max(largest(clamps));
-        let tension = exact
-            .force_profile
-            .force_n
-            .iter()
-            .fold(0.0, |most: f64, force| most.max(-force));
-        // Where heat moves the cable, or where it is pulled more than pressed, all is relative to the largest.
-        let share = if exact.days.is_empty() && tension <= most {
-            SMALL
-        } else {
-            1.0
-        };
-        let most = most.max(tension).max(largest(of_days));
-        let moved = exact.passes.iter().flat_map(movements);
-        let moved = moved.chain(
-            exact
-                .days
-                .iter()
-                .flat_map(|day| day_movements(day).into_iter().flatten()),
+        let along = &exact.force_profile.force_n;
+        let most = largest(
+            of_passes
+                .chain(of_days)
+                .chain(clamps)
+                .chain(along.iter().copied()),
         );
+        // A heated cable has its largest force at other hours than those of its passes.
+        let share = if exact.days.is_empty() { SMALL } else { 1.0 };
+        let nothing = (SHORT * scene.friction_limit()).max(f64::MIN_POSITIVE);
+        let still = SMALL * exact.duct_motion.peak_longitudinal_m;
         Self {
-            force: (share * most)
-                .max(SHORT * scene.friction_limit())
-                .max(f64::MIN_POSITIVE),
-            movement: largest(moved).max(SMALL * exact.duct_motion.peak_longitudinal_m),
-            tension,
+            nothing,
+            force: nothing.max(share * most),
+            still,
+            movement: largest(exact.passes.iter().flat_map(movements)).max(still),
+            tension: along.iter().fold(0.0, |most: f64, force| most.max(-force)),
         }
     }
 }
@@ -85,21 +85,24 @@ struct Worst(Errors);
 
 impl Worst {
     fn note(&mut self, kind: usize, found: f64, exact: f64, scale: f64) {
-        self.0[kind] = self.0[kind].max((found - exact).abs() / scale);
+        let error = (found - exact).abs() / scale;
+        // What is no number is wrong.
+        self.0[kind] = self.0[kind].max(if error.is_nan() { f64::INFINITY } else { error });
     }
 
-    /// The least and the largest of a force.
-    fn range(&mut self, kinds: [usize; 2], found: [f64; 2], exact: [f64; 2], scale: f64) {
-        for end in 0..2 {
-            self.note(kinds[end], found[end], exact[end], scale);
-        }
+    /// Forces or movements at one place.
+    fn all<const N: usize>(&mut self, kind: usize, found: [f64; N], exact: [f64; N], scale: f64) {
+        found
+            .into_iter()
+            .zip(exact)
+            .for_each(|(found, exact)| self.note(kind, found, exact, scale));
     }
 }
 
 fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
     let mut worst = Worst::default();
     let last = exact.passes.last().map(|pass| pass.pass);
-    let pairs: Vec<(usize, usize)> = pairs(&run.passes, &exact.passes, |pass| pass.pass);
+    let pairs = pairs(&run.passes, &exact.passes, |pass| pass.pass);
     for &(index, at) in &pairs {
         let (found, exact) = (&run.passes[index], &exact.passes[at]);
         let tension = if Some(exact.pass) == last {
@@ -108,15 +111,13 @@ fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
             0.0
         };
         let whole = largest(forces(exact)).max(scale.force).max(tension);
-        for (found, exact) in forces(found).into_iter().zip(forces(exact)) {
-            worst.note(0, found, exact, whole);
-        }
+        worst.all(AFTER, forces(found), forces(exact), whole);
         for (found, exact) in during(found).into_iter().zip(during(exact)) {
-            worst.range([2, 1], found, exact, largest(exact).max(scale.force));
+            let whole = largest(exact).max(scale.force);
+            worst.note(LEAST, found[0], exact[0], whole);
+            worst.note(PEAK, found[1], exact[1], whole);
         }
-        for (found, exact) in movements(found).into_iter().zip(movements(exact)) {
-            worst.note(4, found, exact, scale.movement);
-        }
+        worst.all(MOVEMENT, movements(found), movements(exact), scale.movement);
     }
     for (clamp, exact) in run.restraints.iter().zip(&exact.restraints) {
         for (found, exact) in [
@@ -125,33 +126,40 @@ fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
         ] {
             let whole = largest(exact.iter().copied()).max(scale.force);
             for &(index, at) in &pairs {
-                worst.note(3, found[index], exact[at], whole);
+                worst.note(CLAMP, found[index], exact[at], whole);
             }
         }
     }
     worst.0
 }
 
+/// Days are judged by their own largest values, at rest; passes by the forces on the ends.
 fn of_days(run: &Run, exact: &Run, scale: &Scale) -> Errors {
     let mut worst = Worst::default();
     for (index, at) in pairs(&run.days, &exact.days, |day| day.day) {
         let (found, exact) = (&run.days[index], &exact.days[at]);
-        for (found, exact) in day_forces(found).into_iter().zip(day_forces(exact)) {
-            worst.range([2, 1], found, exact, scale.force);
+        let whole = largest(day_forces(exact)).max(scale.nothing);
+        worst.all(LEAST, day_least(found), day_least(exact), whole);
+        worst.all(PEAK, day_most(found), day_most(exact), whole);
+        let clamps = |day: &DayExtremes| -> Vec<f64> {
+            let ranges = day.restraints.iter();
+            ranges.flat_map(|range| [range.min_n, range.max_n]).collect()
+        };
+        let on_clamps = largest(clamps(exact)).max(whole);
+        for (found, exact) in clamps(found).into_iter().zip(clamps(exact)) {
+            worst.note(CLAMP, found, exact, on_clamps);
         }
-        for (found, exact) in found.restraints.iter().zip(&exact.restraints) {
-            let range = |range: &RestraintRange| [range.min_n, range.max_n];
-            worst.range([3, 3], range(found), range(exact), scale.force);
-        }
-        for (found, exact) in day_movements(found).into_iter().zip(day_movements(exact)) {
-            worst.range([4, 4], found, exact, scale.movement);
-        }
+        let moved = largest(day_movements(exact)).max(scale.still);
+        worst.all(MOVEMENT, day_movements(found), day_movements(exact), moved);
     }
     for (index, at) in pairs(&run.passes, &exact.passes, |pass| pass.pass) {
-        let (found, exact) = (forces(&run.passes[index]), forces(&exact.passes[at]));
-        for end in 0..2 {
-            worst.note(0, found[end], exact[end], scale.force);
-        }
+        let on_ends = |pass: &PassRecord| [pass.upstream_force_n, pass.downstream_force_n];
+        worst.all(
+            AFTER,
+            on_ends(&run.passes[index]),
+            on_ends(&exact.passes[at]),
+            scale.force,
+        );
     }
     worst.0
 }
@@ -182,19 +190,26 @@ fn movements(pass: &PassRecord) -> [f64; 2] {
     [pass.upstream_displacement_m, pass.downstream_displacement_m]
 }
 
-/// The least and the largest force on each end in a day.
-fn day_forces(day: &DayExtremes) -> [[f64; 2]; 2] {
-    let upstream = [day.upstream_min_n, day.upstream_max_n];
-    [upstream, [day.downstream_min_n, day.downstream_max_n]]
+/// The least forces of a day: on each end and, as the largest tension, in the cable.
+fn day_least(day: &DayExtremes) -> [f64; 3] {
+    [day.upstream_min_n, day.downstream_min_n, -day.max_tension_n]
 }
 
-fn day_movements(day: &DayExtremes) -> [[f64; 2]; 2] {
+fn day_most(day: &DayExtremes) -> [f64; 3] {
+    [day.upstream_max_n, day.downstream_max_n, day.max_compression_n]
+}
+
+fn day_forces(day: &DayExtremes) -> Vec<f64> {
+    [day_least(day), day_most(day)].concat()
+}
+
+fn day_movements(day: &DayExtremes) -> [f64; 4] {
     let upstream = [day.upstream_displacement_min_m, day.upstream_displacement_max_m];
     let downstream = [
         day.downstream_displacement_min_m,
         day.downstream_displacement_max_m,
     ];
-    [upstream, downstream]
+    [upstream[0], upstream[1], downstream[0], downstream[1]]
 }
 
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {

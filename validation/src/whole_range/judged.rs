@@ -162,6 +162,10 @@ fn largest(record: &PassRecord) -> f64 {
 /// Each end carries what holds it, and both together no more than friction, weight and `clamps` leave between them.
 fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Result<(), String> {
     let numbers = [
+        record.upstream_force_n,
+        record.downstream_force_n,
+        record.max_compression_n,
+        clamps,
         record.upstream_peak_n,
         record.downstream_peak_n,
         record.upstream_least_n,
@@ -194,7 +198,7 @@ fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Resu
             return Err(format!("{end:?} with {force} N at {inward} m"));
         }
     }
-    // In a bend friction grows with the force, which is nowhere larger than it is without friction that drives it.
+    // In a bend friction grows with the force in the cable, here the largest of all that are known.
     let of_sections = scene.sections().into_iter().map(|section| {
         let in_bend = section.bend * largest;
         (section.limit + section.body_force.abs() + in_bend) * section.length

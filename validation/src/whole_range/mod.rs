@@ -11,12 +11,13 @@ pub mod twins;
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
+use std::panic::catch_unwind;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{available_parallelism, scope};
 use std::time::Instant;
 
-use differences::{Errors, KINDS};
+use differences::{Errors, KINDS, MOVEMENT};
 use judged::{Outcome, judged};
 use twins::{Twins, twins};
 
@@ -67,14 +68,21 @@ pub fn run(arguments: &[String]) -> Result<(), Failure> {
             of(|twins| twins.mirror),
             of(|twins| twins.larger),
         ];
-        let movement = row.twins.as_ref().map(|twins| twins.stated[4]);
+        let movement = row.twins.as_ref().map(|twins| twins.stated[MOVEMENT]);
         write!(table, ",{}", shown(movement))?;
         for kind in 0..KINDS.len() {
             write!(table, ",{}", shown(finer.map(|finer| finer[kind])))?;
         }
-        let worst = |errors: Errors| errors.into_iter().fold(0.0, f64::max);
-        let [mirror, larger] = [mirror, larger].map(|errors| shown(errors.map(worst)));
-        writeln!(table, ",{mirror},{larger},{:.2},\"{words}\"", row.seconds)?;
+        let force = |errors: Errors| {
+            errors[..MOVEMENT]
+                .iter()
+                .fold(0.0, |most: f64, error| most.max(*error))
+        };
+        for twin in [mirror, larger] {
+            let movement = twin.map(|errors| errors[MOVEMENT]);
+            write!(table, ",{},{}", shown(twin.map(force)), shown(movement))?;
+        }
+        writeln!(table, ",{:.2},\"{words}\"", row.seconds)?;
     }
     crate::write_table(Path::new(file), &table)?;
     for name in ["right", "wrong", "input", "refused", "late", "long"] {
@@ -94,7 +102,7 @@ pub fn run(arguments: &[String]) -> Result<(), Failure> {
 
 fn header() -> String {
     format!(
-        "scene,outcome,stated,stated_movement,{},mirror,larger,seconds,words\n",
+        "scene,outcome,stated,stated_movement,{},mirror,mirror_movement,larger,larger_movement,seconds,words\n",
         KINDS.join(",")
     )
 }
@@ -150,10 +158,9 @@ fn row(number: u64) -> Row {
     let begun = Instant::now();
     let (outcome, stated) = judged(&text);
     let seconds = begun.elapsed().as_secs_f64();
-    let is_answer = matches!(outcome, Outcome::Right | Outcome::Late(_)) && stated.is_some();
-    let twins = (is_answer && number.is_multiple_of(TWINS))
-        .then(|| twins(&text))
-        .flatten();
+    let has_twins = outcome == Outcome::Right && number.is_multiple_of(TWINS);
+    let twins = has_twins.then(|| catch_unwind(|| twins(&text)).unwrap_or(Some(Twins::panic())));
+    let twins = twins.flatten();
     Row {
         number,
         outcome,

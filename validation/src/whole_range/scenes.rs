@@ -1,4 +1,4 @@
-//! Random scenes over a wide range of every key: most values as a road has them, some from far beyond that.
+//! Random scenes over a wide range of every key but histograms and presets: most values as a road has them, some from far beyond that.
 
 use std::fmt::Write;
 

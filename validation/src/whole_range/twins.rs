@@ -3,7 +3,7 @@
 use std::mem::swap;
 
 use creepage::scene::End;
-use creepage::{Run, Scene};
+use creepage::{Error, Run, Scene};
 use ground_field::{Direction, Modulus};
 use serde_json::Value;
 
@@ -19,17 +19,31 @@ pub const LENGTH: f64 = 4.0;
 const TIME: f64 = 2.0;
 const FORCE: f64 = 64.0;
 
-/// How far the answer of a scene lies from those of other runs; `None` where such a run gives no answer in time.
+/// How far the answer of a scene lies from those of other runs; infinitely far where the other has no answer though it has one. `None` where
+/// that takes too long, or where the other scene is out of range.
 #[derive(Clone, Copy, Default)]
 pub struct Twins {
     /// What the answer states.
     pub stated: Errors,
-    /// From a run that is to be [`FINER`] times as exact.
+    /// From a run that is to be [`FINER`] times as exact; `None` also where it is not.
     pub finer: Option<Errors>,
     /// From the same duct, looked at from its other side.
     pub mirror: Option<Errors>,
     /// From the same duct at [`LENGTH`] times its size.
     pub larger: Option<Errors>,
+}
+
+impl Twins {
+    /// One that stops the program.
+    pub fn panic() -> Self {
+        let all = Some([f64::INFINITY; 5]);
+        Self {
+            stated: [0.0; 5],
+            finer: all,
+            mirror: all,
+            larger: all,
+        }
+    }
 }
 
 /// What further runs of the scene `text` say of its answer.
@@ -52,14 +66,20 @@ pub fn twins(text: &str) -> Option<Twins> {
 
 /// How far the answer `own` of a scene lies from that of its mirror image.
 pub fn mirror(scene: &Scene, own: &Run) -> Option<Errors> {
-    let other = run(&mirrored(scene.clone())).ok()?;
-    Some(errors(scene, own, &turned(other)))
+    off(scene, own, run(&mirrored(scene.clone())).map(turned))
 }
 
 /// How far it lies from that of the scene at [`LENGTH`] times its size.
 pub fn larger(scene: &Scene, own: &Run) -> Option<Errors> {
-    let other = run(&enlarged(scene.clone())).ok()?;
-    Some(errors(scene, own, &reduced(&other)?))
+    off(scene, own, run(&enlarged(scene.clone())).map(|run| reduced(&run)))
+}
+
+fn off(scene: &Scene, own: &Run, other: Result<Run, Error>) -> Option<Errors> {
+    match other {
+        Ok(other) => Some(errors(scene, own, &other)),
+        Err(Error::Stopped | Error::Scene(_)) => None,
+        Err(_) => Some([f64::INFINITY; 5]),
+    }
 }
 
 /// The scene as seen from the other side of the road, where left is right.
@@ -188,10 +208,10 @@ fn enlarged(mut scene: Scene) -> Scene {
 }
 
 /// What the scene itself answers, from the answer of the larger one.
-fn reduced(run: &Run) -> Option<Run> {
-    let mut answer = serde_json::to_value(run).ok()?;
+fn reduced(run: &Run) -> Run {
+    let mut answer = serde_json::to_value(run).expect("numbers and texts");
     reduce("", &mut answer);
-    serde_json::from_value(answer).ok()
+    serde_json::from_value(answer).expect("the same fields")
 }
 
 /// Divides forces and lengths, by the units in which their names end; other numbers are not compared.

@@ -148,8 +148,8 @@ fn wide_bends_cost_nothing() -> Tested {
         let record = record?;
         let [stiffness, radius, friction, error] = [0, 1, 2, 3].map(|column| record[column].parse::<f64>());
         let (stiffness, radius, friction, error) = (stiffness?, radius?, friction?, error?);
-        assert!(radius < 8.0 || error <= 3.6e-3, "{record:?}");
-        assert!(radius < 20.0 || error <= 3e-4, "{record:?}");
+        assert!(radius < 8.9 || error <= 3.6e-3, "{record:?}");
+        assert!(radius < 28.0 || error <= 3e-4, "{record:?}");
         assert!(stiffness > 1e7 || error <= 5e-3, "{record:?}");
         assert!(friction > 0.5 || radius < 2.0 || error <= 7e-3, "{record:?}");
         tight = tight.max(error);
@@ -174,6 +174,8 @@ fn answers_over_the_whole_range_can_be_true() -> Tested {
         let off = |names: &[&str]| names.iter().filter_map(|name| number(name)).reduce(f64::max);
         let stated = number("stated");
         assert!(off(&["mirror", "larger"]) <= stated, "{record:?}");
+        let movement = off(&["mirror_movement", "larger_movement"]);
+        assert!(movement <= number("stated_movement"), "{record:?}");
         let finer = off(&["finer", "after", "peak", "least", "clamp"]);
         compared += f64::from(u8::from(finer.is_some()));
         let is_beyond = finer > stated || number("movement") > number("stated_movement");

@@ -7,7 +7,7 @@ use friction_chain::{ChainError, Clamp, Contact, ImplicitStep, Load, Stretch};
 use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window::{self, Window};
-use crate::chain::{MAX_ROUNDS, PRESSED};
+use crate::chain::{MAX_ROUNDING, MAX_ROUNDS, PRESSED};
 use crate::tuning::{UNBALANCED_SHARE, UNBALANCED_SUPPORT};
 use crate::{CableError, CableState, PassOutcome};
 
@@ -51,6 +51,7 @@ impl QuasiStatic {
 
         let still = passage.still();
         self.come_to_rest(&last, &still)?;
+        self.outcome.statistics.steps = passage.positions.len() + 1;
         *state = self.shown(&still, state);
         let (work, statistics) = (self.step.work, &mut self.outcome.statistics);
         (statistics.sweeps, statistics.cycles) = (work.solves, work.cycles);
@@ -94,7 +95,6 @@ impl QuasiStatic {
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
     /// force that it had. Returned: the largest change of a friction limit in bends, as a share of it.
     fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) -> f64 {
-        self.outcome.statistics.steps += 1;
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         let u = |node| r[node] + last.adherent_at(node);
@@ -114,8 +114,8 @@ impl QuasiStatic {
         Ok(())
     }
 
-    /// The ground comes to rest. What the windows left out of account is settled by the same step, and in bends by others, until the cable
-    /// presses on them with the force that it has.
+    /// The ground comes to rest. What the windows left out of account is settled by the same step, and in bends by further ones, until the cable
+    /// presses on them with the force that it has, to rounding.
     fn come_to_rest(&mut self, last: &Snapshot<'_>, still: &Snapshot<'_>) -> Result<(), CableError> {
         self.move_duct(last, still);
         let mut change = f64::INFINITY;
@@ -124,8 +124,9 @@ impl QuasiStatic {
             if self.bends.is_empty() {
                 return Ok(());
             }
+            let before = change;
             change = self.move_duct(still, still);
-            if change <= PRESSED {
+            if change <= PRESSED || change <= MAX_ROUNDING && change >= before {
                 return Ok(());
             }
         }
