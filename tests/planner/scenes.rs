@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use fastrand::Rng;
+use testkit::{between, log_between};
 
 /// What is particular about a scene.
 pub const KINDS: [&str; 12] = [
@@ -81,14 +82,6 @@ pub fn scene(kind: &str, seed: u64) -> String {
     };
     line(format!("[traffic]\npasses = {passes}"));
     text
-}
-
-fn between(random: &mut Rng, low: f64, high: f64) -> f64 {
-    low + (high - low) * random.f64()
-}
-
-fn log_between(random: &mut Rng, low: f64, high: f64) -> f64 {
-    low * (high / low).powf(random.f64())
 }
 
 fn ground(random: &mut Rng, kind: &str, line: &mut impl FnMut(String)) {

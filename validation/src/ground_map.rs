@@ -119,7 +119,7 @@ impl GroundMap {
             let class = |cell: &[Cell; 2]| cell[model].outcome as usize;
             panels = panels.with(self.grid.panel(&title, [x, y.clone()], names, class));
         }
-        crate::write_table(file, &table)?;
+        crate::table::write(file, &table)?;
         Ok(panels)
     }
 }

@@ -4,6 +4,7 @@ mod calibration_coverage;
 mod charts;
 mod honest;
 mod occurrence;
+mod ordinary_scenes;
 mod stability_cable;
 mod stability_calibration;
 mod stability_ground;

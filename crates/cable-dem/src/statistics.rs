@@ -1,5 +1,7 @@
 //! What a pass cost.
 
+use crate::tuning::WATCHED_PER_UPDATE;
+
 /// Counts of work that do not depend on the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
@@ -12,16 +14,13 @@ pub struct Statistics {
     pub sweeps: usize,
     /// Nodes eliminated in these or moved so, with what bisections cost, or nodes advanced in time.
     pub node_updates: usize,
-    /// Stuck nodes looked at for slip, at every position of a vehicle.
+    /// Nodes looked at for slip, at every position of a vehicle.
     pub watched: usize,
     /// Windows in which the iteration cycled, so that the contact states were found by bisection of the chain.
     pub cycles: usize,
     /// Most nodes in one window, apart from the steps from rest and to it.
     pub widest_window: usize,
 }
-
-/// Watched nodes that take as long as one that is eliminated: 0.5 ns each where meshes are fine.
-const WATCHED_PER_UPDATE: usize = 16;
 
 impl Statistics {
     /// All work, in updates of a node.

@@ -44,7 +44,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         println!("{name}: {each:.4} s, meant {aim} s, least {least}");
         writeln!(table, "{name},{aim},{each:.3e},{counted},{least}")?;
     }
-    crate::write_table(&out.join("aims.csv"), &table)?;
+    crate::table::write(&out.join("aims.csv"), &table)?;
     Ok(())
 }
 

@@ -274,7 +274,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             uncertainties.push(panel.truth.1);
         }
     }
-    crate::write_table(&out.join("cable.csv"), &table)?;
+    crate::table::write(&out.join("cable.csv"), &table)?;
     let columns = LENGTHS
         .iter()
         .flat_map(|length| PASSES.map(|passes| (length, passes)));

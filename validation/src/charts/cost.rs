@@ -120,7 +120,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         }
     }
     threads(&mut points)?;
-    crate::write_table(&out.join("cost.csv"), &table(&points))?;
+    crate::table::write(&out.join("cost.csv"), &table(&points))?;
     std::fs::write(out.join("cost.svg"), figure(&points).to_svg()?)?;
     Ok(())
 }

@@ -184,7 +184,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         }
         panels = panels.with(chart);
     }
-    crate::write_table(&out.join("discrepancy.csv"), &table)?;
+    crate::table::write(&out.join("discrepancy.csv"), &table)?;
     std::fs::write(out.join("discrepancy.svg"), panels.to_svg()?)?;
     Ok(())
 }

@@ -261,7 +261,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             }
         }
     }
-    crate::write_table(&out.join("ground.csv"), &table)?;
+    crate::table::write(&out.join("ground.csv"), &table)?;
 
     let panels: Vec<(String, f64)> = grounds
         .iter()

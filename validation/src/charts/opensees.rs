@@ -22,7 +22,7 @@ const ERROR: usize = 6;
 const SECONDS: usize = 7;
 
 pub fn run(out: &Path) -> Result<(), Failure> {
-    let mut reader = crate::read_table(&out.join("opensees.csv"))?;
+    let mut reader = crate::table::read(&out.join("opensees.csv"))?;
     let (mut points, mut own_error) = (Vec::new(), 0.0);
     for row in reader.records() {
         let row = row?;

@@ -213,7 +213,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             add(1, density, "nodes a depth", found, seconds)?;
         }
     }
-    crate::write_table(&out.join("whole.csv"), &table)?;
+    crate::table::write(&out.join("whole.csv"), &table)?;
     let panels = PANELS.iter().zip(truths.iter().rev());
     let panels: Vec<(String, f64)> = panels
         .map(|(panel, truth)| (panel.name.to_owned(), truth.1))

@@ -10,8 +10,8 @@ use std::path::Path;
 use creepage::figure::Panels;
 use creepage::{Run, Scene};
 
-use crate::Failure;
 use crate::map::{DEPTH, Grid, decades};
+use crate::{Failure, largest};
 
 /// Nodes a depth.
 const NODES: f64 = 6.0;
@@ -73,26 +73,34 @@ fn forces(run: &Run) -> Vec<f64> {
 
 /// A map of `radii` × `frictions` cells for one cable.
 pub fn map(radii: usize, frictions: usize, stiffness: f64) -> Result<Grid<Cell>, Failure> {
-    let cell = |_, radius: f64, friction: f64| -> Result<Cell, Failure> {
-        let run = |radius, step| -> Result<Vec<f64>, Failure> {
-            let scene = scene(radius, friction, stiffness, step)?;
-            Ok(forces(&creepage::run(&scene)?))
+    let (radii, frictions) = (decades(0.2, 2.2, radii), decades(-1.0, 0.0, frictions));
+    // By steps of half a node spacing, and by short ones.
+    let run = |radius, friction| -> Result<[Vec<f64>; 2], Failure> {
+        let by = |shorter| -> Result<Vec<f64>, Failure> {
+            Ok(forces(&creepage::run(&scene(
+                radius, friction, stiffness, shorter,
+            )?)?))
         };
-        let (usual, short) = (run(radius, 1.0)?, run(radius, SHORTER)?);
-        let straight = run(STRAIGHT, 1.0)?.into_iter().zip(run(STRAIGHT, SHORTER)?);
-        let bent = usual.iter().zip(&short);
-        let apart = bent
-            .zip(straight)
-            .map(|((usual, short), straight)| (usual - straight.0) - (short - straight.1));
-        let apart: Vec<f64> = apart.collect();
-        let largest = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
-        let force = largest(&short);
+        Ok([by(1.0)?, by(SHORTER)?])
+    };
+    let straight = frictions.iter().map(|friction| run(STRAIGHT, *friction));
+    let straight = straight.collect::<Result<Vec<_>, _>>()?;
+    let columns = radii.len();
+    let cell = |index: usize, radius, friction| -> Result<Cell, Failure> {
+        let ([usual, short], [usual_straight, short_straight]) =
+            (run(radius, friction)?, &straight[index / columns]);
+        let bent = usual.iter().zip(&short).map(|(usual, short)| usual - short);
+        let straight = usual_straight
+            .iter()
+            .zip(short_straight)
+            .map(|(usual, short)| usual - short);
+        let force = largest(short.iter().copied());
         Ok(Cell {
-            error: largest(&apart) / force,
+            error: largest(bent.zip(straight).map(|(bent, straight)| bent - straight)) / force,
             force,
         })
     };
-    Grid::fill(decades(0.2, 2.2, radii), decades(-1.0, 0.0, frictions), cell)
+    Grid::fill(radii, frictions, cell)
 }
 
 /// Draws the map.
@@ -130,7 +138,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             )
         });
     }
-    crate::write_table(&out.join("stability-bends.csv"), &table)?;
+    crate::table::write(&out.join("stability-bends.csv"), &table)?;
     std::fs::write(out.join("stability-bends.svg"), figure.to_svg()?)?;
     Ok(())
 }

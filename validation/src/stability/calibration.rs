@@ -255,7 +255,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         let (outcome, draws) = (NAMES[cell.outcome() as usize], cell.draws.len());
         format!("{b:.4e},{noise:.4e},\"{outcome}\",{draws},{counts}")
     });
-    crate::write_table(
+    crate::table::write(
         &out.join("stability-calibration.csv"),
         &(header.to_owned() + &rows),
     )?;

@@ -183,7 +183,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         &grid,
         &[(limit, 10.0), (limit, 100.0)],
     );
-    crate::write_table(&out.join("stability-explicit.csv"), &table)?;
+    crate::table::write(&out.join("stability-explicit.csv"), &table)?;
     std::fs::write(out.join("stability-explicit.svg"), figure.to_svg()?)?;
     Ok(())
 }

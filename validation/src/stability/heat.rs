@@ -10,9 +10,9 @@ use creepage::figure::Panels;
 use creepage::scene::SolverMethod;
 use creepage::{DayExtremes, Run, Scene};
 
-use crate::Failure;
 use crate::cable_map::{EA, LIMIT};
 use crate::map::{DEPTH, Grid, decades};
+use crate::{Failure, largest};
 
 /// Asked of every run.
 const TOLERANCE: f64 = 0.01;
@@ -206,11 +206,10 @@ fn worst(found: &Run, right: &Run) -> f64 {
             day.max_tension_n,
         ]
     };
-    let largest = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
     let days = found.days.iter().zip(&right.days);
     days.fold(0.0, |worst, (found, right)| {
         let apart = forces(found).into_iter().zip(forces(right)).map(|(a, b)| a - b);
-        worst.max(largest(&apart.collect::<Vec<_>>()) / largest(&forces(right)).max(0.01 * LIMIT))
+        worst.max(largest(apart) / largest(forces(right)).max(0.01 * LIMIT))
     })
 }
 
@@ -234,7 +233,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         figure = figure.with(map.panel(&name, axes, CLASSES, |cell| cell.outcome as usize));
         table += &case.lines(&map);
     }
-    crate::write_table(&out.join("stability-heat.csv"), &table)?;
+    crate::table::write(&out.join("stability-heat.csv"), &table)?;
     std::fs::write(out.join("stability-heat.svg"), figure.to_svg()?)?;
     Ok(())
 }

@@ -216,7 +216,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
     .panel_size(700.0, 480.0);
     let figure = charts.into_iter().fold(figure, Panels::with);
     let table = "map,shape_factor_per_m,vehicle_step_m,outcome,force_n,right_force_n\n".to_owned() + &rows;
-    crate::write_table(&out.join("stability-implicit.csv"), &table)?;
+    crate::table::write(&out.join("stability-implicit.csv"), &table)?;
     std::fs::write(out.join("stability-implicit.svg"), figure.to_svg()?)?;
     Ok(())
 }

@@ -223,7 +223,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         figure = charts.into_iter().fold(figure, Panels::with);
         table += &rows;
     }
-    crate::write_table(&out.join("stability-long-term.csv"), &table)?;
+    crate::table::write(&out.join("stability-long-term.csv"), &table)?;
     std::fs::write(out.join("stability-long-term.svg"), figure.to_svg()?)?;
     Ok(())
 }

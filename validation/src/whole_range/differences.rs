@@ -2,6 +2,8 @@
 
 use creepage::{DayExtremes, PassRecord, Run, Scene};
 
+use crate::largest;
+
 /// Shares of the forces after passes, of the largest and the least during them, of the forces on clamps, and of the movements.
 pub type Errors = [f64; 5];
 pub const KINDS: [&str; 5] = ["after", "peak", "least", "clamp", "movement"];
@@ -210,8 +212,4 @@ fn day_movements(day: &DayExtremes) -> [f64; 4] {
         day.downstream_displacement_max_m,
     ];
     [upstream[0], upstream[1], downstream[0], downstream[1]]
-}
-
-fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |most, value| most.max(value.abs()))
 }

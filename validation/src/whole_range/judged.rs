@@ -8,6 +8,8 @@ use creepage::cable_dem::CableError;
 use creepage::scene::End;
 use creepage::{Error, ErrorSource, PassRecord, Progress, Run, RunOptions, Scene};
 
+use crate::largest;
+
 /// Scenes whose plan states a longer time \[s\] are not run.
 const LONGEST: f64 = 6.0;
 /// Time after which a run that was to take less than [`LONGEST`] is given up.
@@ -47,15 +49,15 @@ impl Outcome {
     }
 }
 
-/// What comes of the scene `text`, and its error as a share of the forces where there is an answer.
-pub fn judged(text: &str) -> (Outcome, Option<f64>) {
+/// What comes of the scene `text`, and its answer where there is one.
+pub fn judged(text: &str) -> (Outcome, Option<Run>) {
     match catch_unwind(AssertUnwindSafe(|| outcome(text))) {
         Ok(judged) => judged,
         Err(_) => (Outcome::Wrong("panic".to_owned()), None),
     }
 }
 
-fn outcome(text: &str) -> (Outcome, Option<f64>) {
+fn outcome(text: &str) -> (Outcome, Option<Run>) {
     let scene = match Scene::from_toml("scene.toml", text) {
         Ok(scene) => scene,
         Err(error) => return (Outcome::Input(error.to_string()), None),
@@ -72,11 +74,8 @@ fn outcome(text: &str) -> (Outcome, Option<f64>) {
         Err(Error::Stopped) => return (Outcome::Late(format!("planned {seconds:.1} s")), None),
         Err(error) => return (refused(&scene, &error), None),
     };
-    let stated = Some(run.error_estimate.relative);
-    if let Err(reason) = possible(&scene, &run) {
-        return (Outcome::Wrong(reason), stated);
-    }
-    (Outcome::Right, stated)
+    let outcome = possible(&scene, &run).map_or_else(Outcome::Wrong, |()| Outcome::Right);
+    (outcome, Some(run))
 }
 
 /// The run of a scene, unless it takes longer than `GIVEN_UP`.
@@ -128,8 +127,12 @@ fn possible(scene: &Scene, run: &Run) -> Result<(), String> {
     if (first.pass, last.pass) != (1, scene.traffic.passes) {
         return Err("passes are missing".to_owned());
     }
-    let along = run.force_profile.force_n.iter().map(|force| force.abs());
-    let largest = run.passes.iter().map(largest).chain(along).fold(1e-9, f64::max);
+    let of_passes = run.passes.iter().flat_map(|record| {
+        let ends = [record.upstream_force_n, record.downstream_force_n];
+        ends.into_iter().chain([record.max_compression_n])
+    });
+    let along = run.force_profile.force_n.iter().copied();
+    let largest = largest(of_passes.chain(along)).max(1e-9);
     for (index, record) in run.passes.iter().enumerate() {
         let clamps = run
             .restraints
@@ -148,15 +151,6 @@ fn possible(scene: &Scene, run: &Run) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-fn largest(record: &PassRecord) -> f64 {
-    let forces = [
-        record.upstream_force_n,
-        record.downstream_force_n,
-        record.max_compression_n,
-    ];
-    forces.into_iter().fold(0.0, |most, force| most.max(force.abs()))
 }
 
 /// Each end carries what holds it, and both together no more than friction, weight and `clamps` leave between them.
@@ -199,10 +193,10 @@ fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Resu
         }
     }
     // In a bend friction grows with the force in the cable, here the largest of all that are known.
-    let of_sections = scene.sections().into_iter().map(|section| {
-        let in_bend = section.bend * largest;
-        (section.limit + section.body_force.abs() + in_bend) * section.length
-    });
+    let of_sections = scene
+        .sections()
+        .into_iter()
+        .map(|section| (section.limit_under(largest) + section.body_force.abs()) * section.length);
     let carried = of_sections.sum::<f64>() + clamps;
     let between = (record.downstream_force_n - record.upstream_force_n).abs();
     if between > (1.0 + ROUNDING) * carried {

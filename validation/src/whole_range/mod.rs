@@ -9,19 +9,19 @@ pub mod judged;
 pub mod scenes;
 pub mod twins;
 
-use std::fmt::Write;
 use std::ops::RangeInclusive;
-use std::panic::catch_unwind;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{available_parallelism, scope};
 use std::time::Instant;
 
+use creepage::Scene;
 use differences::{Errors, KINDS, MOVEMENT};
 use judged::{Outcome, judged};
 use twins::{Twins, twins};
 
-use crate::Failure;
+use crate::{Failure, largest};
 
 /// One scene in so many is computed again.
 const TWINS: u64 = 20;
@@ -32,6 +32,35 @@ struct Row {
     stated: Option<f64>,
     twins: Option<Twins>,
     seconds: f64,
+}
+
+impl Row {
+    /// Its line of the table.
+    fn line(&self) -> String {
+        let words = match &self.outcome {
+            Outcome::Right => String::new(),
+            Outcome::Long(seconds) => format!("{seconds:.0} s planned"),
+            Outcome::Wrong(words)
+            | Outcome::Input(words)
+            | Outcome::Refused(words)
+            | Outcome::Late(words) => words.lines().next().unwrap_or_default().replace('"', "'"),
+        };
+        let twins = self.twins.as_ref();
+        let mut errors = vec![self.stated, twins.map(|twins| twins.stated[MOVEMENT])];
+        let finer = twins.and_then(|twins| twins.finer);
+        errors.extend((0..KINDS.len()).map(|kind| finer.map(|finer| finer[kind])));
+        for twin in [
+            twins.and_then(|twins| twins.mirror),
+            twins.and_then(|twins| twins.larger),
+        ] {
+            errors.push(twin.map(|errors| largest(errors[..MOVEMENT].iter().copied())));
+            errors.push(twin.map(|errors| errors[MOVEMENT]));
+        }
+        let shown = |error: Option<f64>| error.map_or(String::new(), |error| format!("{error:.3e}"));
+        let errors: Vec<String> = errors.into_iter().map(shown).collect();
+        let (number, name, errors) = (self.number, self.outcome.name(), errors.join(","));
+        format!("{number},{name},{errors},{:.2},\"{words}\"\n", self.seconds)
+    }
 }
 
 pub fn run(arguments: &[String]) -> Result<(), Failure> {
@@ -45,46 +74,8 @@ pub fn run(arguments: &[String]) -> Result<(), Failure> {
     let first: u64 = first.first().map_or(Ok(0), |first| first.parse())?;
     let numbers = first..first + count.parse::<u64>()?;
     let rows = rows(numbers)?;
-    let mut table = header();
-    for row in &rows {
-        let words = match &row.outcome {
-            Outcome::Right => String::new(),
-            Outcome::Long(seconds) => format!("{seconds:.0} s planned"),
-            Outcome::Wrong(words)
-            | Outcome::Input(words)
-            | Outcome::Refused(words)
-            | Outcome::Late(words) => words.lines().next().unwrap_or_default().replace('"', "'"),
-        };
-        write!(
-            table,
-            "{},{},{}",
-            row.number,
-            row.outcome.name(),
-            shown(row.stated)
-        )?;
-        let of = |errors: fn(&Twins) -> Option<Errors>| row.twins.as_ref().and_then(errors);
-        let [finer, mirror, larger] = [
-            of(|twins| twins.finer),
-            of(|twins| twins.mirror),
-            of(|twins| twins.larger),
-        ];
-        let movement = row.twins.as_ref().map(|twins| twins.stated[MOVEMENT]);
-        write!(table, ",{}", shown(movement))?;
-        for kind in 0..KINDS.len() {
-            write!(table, ",{}", shown(finer.map(|finer| finer[kind])))?;
-        }
-        let force = |errors: Errors| {
-            errors[..MOVEMENT]
-                .iter()
-                .fold(0.0, |most: f64, error| most.max(*error))
-        };
-        for twin in [mirror, larger] {
-            let movement = twin.map(|errors| errors[MOVEMENT]);
-            write!(table, ",{},{}", shown(twin.map(force)), shown(movement))?;
-        }
-        writeln!(table, ",{:.2},\"{words}\"", row.seconds)?;
-    }
-    crate::write_table(Path::new(file), &table)?;
+    let lines: String = rows.iter().map(Row::line).collect();
+    crate::table::write(Path::new(file), &(header() + &lines))?;
     for name in ["right", "wrong", "input", "refused", "late", "long"] {
         let count = rows.iter().filter(|row| row.outcome.name() == name).count();
         println!("{name:>8} {count:>6}");
@@ -93,8 +84,8 @@ pub fn run(arguments: &[String]) -> Result<(), Failure> {
         let other = format!("a finer run: {name}");
         compare(&rows, &other, kind..=kind, |twins| twins.finer);
     }
-    compare(&rows, "their mirror image", 0..=4, |twins| twins.mirror);
-    compare(&rows, "the same at four times the size", 0..=4, |twins| {
+    compare(&rows, "their mirror image", 0..=MOVEMENT, |twins| twins.mirror);
+    compare(&rows, "the same at four times the size", 0..=MOVEMENT, |twins| {
         twins.larger
     });
     Ok(())
@@ -105,10 +96,6 @@ fn header() -> String {
         "scene,outcome,stated,stated_movement,{},mirror,mirror_movement,larger,larger_movement,seconds,words\n",
         KINDS.join(",")
     )
-}
-
-fn shown(value: Option<f64>) -> String {
-    value.map_or(String::new(), |value| format!("{value:.3e}"))
 }
 
 /// Says how many answers are farther from another run than they state.
@@ -156,15 +143,20 @@ fn rows(numbers: std::ops::Range<u64>) -> Result<Vec<Row>, Failure> {
 fn row(number: u64) -> Row {
     let text = scenes::scene(number);
     let begun = Instant::now();
-    let (outcome, stated) = judged(&text);
+    let (mut outcome, run) = judged(&text);
     let seconds = begun.elapsed().as_secs_f64();
     let has_twins = outcome == Outcome::Right && number.is_multiple_of(TWINS);
-    let twins = has_twins.then(|| catch_unwind(|| twins(&text)).unwrap_or(Some(Twins::panic())));
-    let twins = twins.flatten();
+    let scene = Scene::from_toml("scene.toml", &text).ok().filter(|_| has_twins);
+    let twins = scene.zip(run.as_ref()).and_then(|(scene, run)| {
+        let twins = catch_unwind(AssertUnwindSafe(|| twins(&scene, run)));
+        twins
+            .map_err(|_| outcome = Outcome::Wrong("panic of a twin".to_owned()))
+            .ok()
+    });
     Row {
         number,
         outcome,
-        stated,
+        stated: run.map(|run| run.error_estimate.relative),
         twins,
         seconds,
     }

@@ -63,7 +63,7 @@ impl Draw {
     }
 
     fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
-        low + (high - low) * self.rng.f64()
+        testkit::between(&mut self.rng, low, high)
     }
 
     /// Evenly over powers of ten, from the range that is usual, or from a wide one.

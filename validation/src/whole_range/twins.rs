@@ -21,7 +21,6 @@ const FORCE: f64 = 64.0;
 
 /// How far the answer of a scene lies from those of other runs; infinitely far where the other has no answer though it has one. `None` where
 /// that takes too long, or where the other scene is out of range.
-#[derive(Clone, Copy, Default)]
 pub struct Twins {
     /// What the answer states.
     pub stated: Errors,
@@ -33,35 +32,20 @@ pub struct Twins {
     pub larger: Option<Errors>,
 }
 
-impl Twins {
-    /// One that stops the program.
-    pub fn panic() -> Self {
-        let all = Some([f64::INFINITY; 5]);
-        Self {
-            stated: [0.0; 5],
-            finer: all,
-            mirror: all,
-            larger: all,
-        }
-    }
-}
-
-/// What further runs of the scene `text` say of its answer.
-pub fn twins(text: &str) -> Option<Twins> {
-    let scene = Scene::from_toml("scene.toml", text).ok()?;
-    let own = run(&scene).ok()?;
+/// What further runs of a scene say of its answer `own`.
+pub fn twins(scene: &Scene, own: &Run) -> Twins {
     let whole = own.error_estimate.relative.max(1e-3);
     let mut finer = scene.clone();
     finer.solver.tolerance = whole / FINER;
     // One that does not come to its tolerance proves nothing.
     let is_finer = |other: &Run| other.error_estimate.relative < 2.0 * whole / FINER;
     let finer = run(&finer).ok().filter(is_finer);
-    Some(Twins {
-        stated: stated(&own),
-        finer: finer.map(|finer| errors(&scene, &own, &finer)),
-        mirror: mirror(&scene, &own),
-        larger: larger(&scene, &own),
-    })
+    Twins {
+        stated: stated(own),
+        finer: finer.map(|finer| errors(scene, own, &finer)),
+        mirror: mirror(scene, own),
+        larger: larger(scene, own),
+    }
 }
 
 /// How far the answer `own` of a scene lies from that of its mirror image.

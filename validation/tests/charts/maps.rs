@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use creepage_validation::read_table;
+use creepage_validation::table;
 
 use super::{Tested, folder};
 
@@ -19,7 +19,7 @@ fn with_guards_no_cell_of_a_map_is_wrong() -> Tested {
         ("burmister", 2, 3, "burmister"),
     ];
     for (name, series, outcome, guarded) in maps {
-        let mut reader = read_table(&folder().join(format!("stability-{name}.csv")))?;
+        let mut reader = table::read(&folder().join(format!("stability-{name}.csv")))?;
         let (mut right, mut wrong_without) = (0, 0);
         for record in reader.records() {
             let record = record?;
@@ -36,7 +36,7 @@ fn with_guards_no_cell_of_a_map_is_wrong() -> Tested {
             "{name}: {right}, {wrong_without}"
         );
     }
-    let mut reader = read_table(&folder().join("stability-heat.csv"))?;
+    let mut reader = table::read(&folder().join("stability-heat.csv"))?;
     for record in reader.records() {
         let record = record?;
         assert!(record[3].starts_with("within"), "heat: {record:?}");
@@ -47,7 +47,7 @@ fn with_guards_no_cell_of_a_map_is_wrong() -> Tested {
 /// No fit that identifies the shape factor is wrong, and few intervals miss it; a noise of 30 N hides it.
 #[test]
 fn an_identified_shape_factor_is_right() -> Tested {
-    let mut reader = read_table(&folder().join("stability-calibration.csv"))?;
+    let mut reader = table::read(&folder().join("stability-calibration.csv"))?;
     let header = reader.headers()?.clone();
     let (mut identified, mut missed) = (0, 0);
     for record in reader.records() {
@@ -80,7 +80,7 @@ struct Draws {
 }
 
 fn draws() -> Result<Vec<Draws>, Box<dyn Error>> {
-    let mut reader = read_table(&folder().join("discrepancy.csv"))?;
+    let mut reader = table::read(&folder().join("discrepancy.csv"))?;
     let mut rows: Vec<Draws> = Vec::new();
     for record in reader.records() {
         let record = record?;
@@ -142,7 +142,7 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
 /// What a bend costs that presses with the force of the step before: nothing where it is wide, and the more the tighter it is.
 #[test]
 fn wide_bends_cost_nothing() -> Tested {
-    let mut reader = read_table(&folder().join("stability-bends.csv"))?;
+    let mut reader = table::read(&folder().join("stability-bends.csv"))?;
     let mut tight = 0.0_f64;
     for record in reader.records() {
         let record = record?;
@@ -161,7 +161,7 @@ fn wide_bends_cost_nothing() -> Tested {
 /// Random scenes over the whole range of every key: no answer is wrong, few are missing or late, and what is stated holds.
 #[test]
 fn answers_over_the_whole_range_can_be_true() -> Tested {
-    let mut reader = read_table(&folder().join("whole-range.csv"))?;
+    let mut reader = table::read(&folder().join("whole-range.csv"))?;
     let header = reader.headers()?.clone();
     let column = |name: &str| header.iter().position(|column| column == name);
     let mut counts = std::collections::BTreeMap::<String, f64>::new();

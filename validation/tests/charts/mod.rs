@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::PathBuf;
 
-use creepage_validation::read_table;
+use creepage_validation::table;
 
 type Tested = Result<(), Box<dyn Error>>;
 
@@ -51,7 +51,7 @@ fn names(extension: &str) -> Result<BTreeSet<String>, Box<dyn Error>> {
 
 /// The answered rows of a work-precision chart and the truth's own, in which time and count are missing.
 fn rows(name: &str, panel: &[&str], cost: &str) -> Result<Vec<Row>, Box<dyn Error>> {
-    let mut reader = read_table(&folder().join(name).with_extension("csv"))?;
+    let mut reader = table::read(&folder().join(name).with_extension("csv"))?;
     let header = reader.headers()?.clone();
     let column = |wanted: &str| {
         let found = header.iter().position(|name| name == wanted);
@@ -136,7 +136,7 @@ fn seconds(rows: &[Row], panel: &str, method: &str, error: f64) -> f64 {
 
 /// What runs cost in a panel of the chart of costs: work, seconds and node updates where they are counted.
 fn cost(panel: &str, series: &str) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
-    let mut reader = read_table(&folder().join("cost.csv"))?;
+    let mut reader = table::read(&folder().join("cost.csv"))?;
     let mut points = Vec::new();
     for record in reader.records() {
         let record = record?;
@@ -178,7 +178,7 @@ fn no_cost_grows_faster_than_the_page_says() -> Tested {
 
 #[test]
 fn what_is_counted_takes_little_more_than_bare_solves() -> Tested {
-    let mut reader = read_table(&folder().join("aims.csv"))?;
+    let mut reader = table::read(&folder().join("aims.csv"))?;
     let page = page()?;
     let mut counted = 0;
     for record in reader.records() {
@@ -200,7 +200,7 @@ fn what_is_counted_takes_little_more_than_bare_solves() -> Tested {
 #[test]
 fn every_table_is_sound_and_every_figure_on_the_page() -> Tested {
     for name in names("csv")? {
-        let mut reader = read_table(&folder().join(&name).with_extension("csv"))?;
+        let mut reader = table::read(&folder().join(&name).with_extension("csv"))?;
         let mut rows = 0;
         for record in reader.records() {
             // An unequal number of fields is an error.
@@ -242,7 +242,7 @@ fn the_truth_is_finer_than_what_it_judges() -> Tested {
         }
     }
     // The mesh of a run stands in its row; every duct of this chart is 1.2 m deep.
-    let mut reader = read_table(&folder().join("whole.csv"))?;
+    let mut reader = table::read(&folder().join("whole.csv"))?;
     let mut density = 0.0;
     for record in reader.records() {
         let record = record?;

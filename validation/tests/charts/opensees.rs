@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::error::Error;
 
-use creepage_validation::read_table;
+use creepage_validation::table;
 
 use super::{RUN, Row, Tested, folder, of, rows, seconds};
 
@@ -16,7 +16,7 @@ fn table() -> Result<Vec<Row>, Box<dyn Error>> {
 
 /// Forces after every pass, by the nodes a depth.
 fn forces(series: &str) -> Result<BTreeMap<String, Vec<f64>>, Box<dyn Error>> {
-    let mut reader = read_table(&folder().join("opensees.csv"))?;
+    let mut reader = table::read(&folder().join("opensees.csv"))?;
     let header = reader.headers()?.clone();
     let mut found = BTreeMap::new();
     for record in reader.records() {
