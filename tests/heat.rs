@@ -305,6 +305,42 @@ fn a_sequence_longer_than_a_day_is_answered_by_its_mix() {
     assert!((found / right - 1.0).abs() <= stated, "{found} {right} {stated}");
 }
 
+/// Traffic that takes away little of friction's hold leaves steps of many periods nowhere to go: all passes of a day are simulated, and few
+/// days.
+#[test]
+fn days_under_weak_traffic_are_those_of_every_pass() {
+    let weak = [
+        "duct = { length = 5, depth = 0.74 }",
+        "ground = { layers = [{ young_modulus = \"460 MPa\", poisson_ratio = 0.4 }] }",
+        "cable = { weight = 116, axial_stiffness = 4.3e7 }",
+        "friction = { law = \"coulomb\", dynamic_coefficient = 0.56 }",
+        "ends = { upstream = \"free\", downstream = { spring = 2.3e5 } }",
+        "vehicles = [{ speed = 7, lateral_offset = -2.5, load = 2e4 }]",
+        "heat = { expansion = 8.6e-6, daily_swing = 2.7 }",
+    ];
+    let by = |passes: u64, method: &str| {
+        let traffic = format!("traffic = {{ passes = {passes}, per_day = 250 }}");
+        let solver = format!(
+            "solver = {{ method = \"{method}\", node_spacing = 0.2, vehicle_step = 0.2, tolerance = 0.1 }}"
+        );
+        run(&[&weak[..], &[&traffic, &solver]].concat())
+    };
+    let (long, every) = (by(275_000, "auto"), by(2500, "quasi-static"));
+    assert!(long.cost.simulated_passes < 10_000, "{:?}", long.cost);
+    for number in [1, 2, 5, 10] {
+        let (long, every) = (day(&long, number), day(&every, number));
+        for (found, right) in [
+            (long.downstream_max_n, every.downstream_max_n),
+            (long.downstream_min_n, every.downstream_min_n),
+        ] {
+            assert!(
+                (found - right).abs() < 1e-3 * every.downstream_max_n,
+                "day {number}: {found} {right}"
+            );
+        }
+    }
+}
+
 /// With few real periods a day this short duct never comes to days that are alike: it takes more of them, and many days end as few do.
 #[test]
 #[ignore = "six seconds: .ci/run runs it"]

@@ -92,7 +92,13 @@ pub fn assert_possible(scene: &Scene, run: &Run) {
 
     let allowed = 0.1_f64.max(scene.solver.tolerance);
     let stated = &run.error_estimate;
-    assert!((0.0..=allowed).contains(&stated.relative), "{stated:?}");
+    // Any error is allowed of forces that are small relative to friction on a length as the duct is deep.
+    let largest = run.passes.iter().map(largest_force).fold(0.0, f64::max);
+    let small = 0.1 * scene.duct.depth * scene.friction_limit() / largest;
+    assert!(
+        (0.0..=allowed.max(small)).contains(&stated.relative),
+        "{stated:?}"
+    );
     // A movement that is not known so well, as of an end that hardly moves, is told.
     let told = run
         .warnings

@@ -128,3 +128,37 @@ fn a_named_mesh_of_few_nodes_a_depth_is_answered_on_layers_too() {
     let run = creepage::run(&scene).expect("an answer");
     assert!(run.error_estimate.relative < 0.1, "{:?}", run.error_estimate);
 }
+
+/// Where nothing creeps the ends slip on a centimetre of cable, less than meshes resolve: forces of a fraction of a newton are answered all
+/// the same, with the error that they have.
+#[test]
+fn forces_too_small_to_matter_are_answered_with_a_large_error() {
+    let scene = upper(&[
+        "duct = { length = 3.0, depth = 1.2 }",
+        "ground = { vertical_peak = 0.2e-6, layers = [{ young_modulus = 8e8, poisson_ratio = 0.4 }] }",
+        "friction = { law = \"coulomb\", dynamic_coefficient = 0.25 }",
+        "ends = { upstream = \"free\", downstream = \"free\" }",
+        "traffic = { passes = 3 }",
+    ]);
+    let named = |spacing: f64| {
+        let mut scene = scene.clone();
+        scene.solver.node_spacing = Some(spacing);
+        answer(&scene).expect("an answer")
+    };
+    let exact = named(0.001);
+    for spacing in [0.02, 0.005] {
+        let run = named(spacing);
+        let stated = run.error_estimate.relative;
+        assert!(stated > 0.3, "{spacing} m: {stated}");
+        assert!(run.warnings.iter().any(|warning| warning.contains("so small")));
+        // A share of what friction holds on a centimetre.
+        let scale = 0.01 * scene.friction_limit();
+        for (found, exact) in run.passes.iter().zip(&exact.passes) {
+            let (found, exact) = (found.max_compression_n, exact.max_compression_n);
+            assert!(
+                (found - exact).abs() <= stated * scale,
+                "{spacing} m: {found} {exact}"
+            );
+        }
+    }
+}

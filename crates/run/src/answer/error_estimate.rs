@@ -120,12 +120,16 @@ impl ErrorParts {
         largest.map_or(ErrorSource::Mesh, |(source, _)| source)
     }
 
-    /// What keeps the forces from being an answer: passes or days that could be simulated, if that
-    /// would do, else the largest part.
-    fn cause(&self, tolerance: f64) -> ErrorSource {
+    /// The refusal of an answer with so large an error of the forces. Its cause are passes or days
+    /// that could be simulated, if that would do, else the largest part.
+    pub fn refusal(&self, tolerance: f64) -> Error {
         let skipped = self.passes + self.days;
         let skipping = !is_doubtful(self.total().less(skipped).force, tolerance);
-        self.largest(|source| source.is_skipping() == skipping, |share| share.force)
+        Error::Inaccurate {
+            reached: self.total().force,
+            asked: tolerance,
+            cause: self.largest(|source| source.is_skipping() == skipping, |share| share.force),
+        }
     }
 }
 
@@ -154,13 +158,8 @@ pub fn is_doubtful(reached: f64, tolerance: f64) -> bool {
 
 /// Refuses an answer whose error of the force is too large to be one.
 pub fn judge(error: &ErrorParts, tolerance: f64) -> Result<(), Error> {
-    let reached = error.total().force;
-    if is_doubtful(reached, tolerance) {
-        return Err(Error::Inaccurate {
-            reached,
-            asked: tolerance,
-            cause: error.cause(tolerance),
-        });
+    if is_doubtful(error.total().force, tolerance) {
+        return Err(error.refusal(tolerance));
     }
     Ok(())
 }

@@ -16,7 +16,8 @@ use creepage_scene::{Heat, Scene};
 
 /// Days simulated after the first one, before any is jumped over.
 const FIRST_DAYS: u64 = 3;
-/// Days simulated after which no more are jumped over, and after which the run gives up.
+/// Days simulated after which no more are jumped over, and after which the run gives up; with few
+/// passes of each it gives up at the first, as steps of many periods then lead nowhere.
 const MOST_DAYS: (u64, u64) = (150, 1000);
 
 const SECONDS_A_DAY: f64 = 86_400.0;
@@ -100,7 +101,9 @@ impl DaySimulator<'_> {
         let least = (scale.force, scale.movement);
         let jumps =
             Jumps::new(finer * tolerance, levels.length_scale, least)?.with_start(FIRST_DAYS, first_jump)?;
-        Ok(jumps.with_most_passes(MOST_DAYS.0, MOST_DAYS.1))
+        let (jumping, all) = MOST_DAYS;
+        let most = if self.day()?.is_simulated() { all } else { jumping };
+        Ok(jumps.with_most_passes(jumping, most))
     }
 
     /// Largest difference on any listed day.

@@ -15,7 +15,7 @@ use crate::answer::differences::Shares;
 use crate::answer::error_estimate::ErrorParts;
 use crate::passes::{Passes, RunOptions};
 use crate::refine::{MeshLoop, OnMeshes, Solved, Work, on_coarse_level};
-use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, SHARE, TYPICAL};
+use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, HOPELESS, SHARE, STALLED, TYPICAL};
 use crate::tuning::meshes::{FINDING, REFINEMENT_COST};
 use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Plan};
@@ -80,30 +80,48 @@ fn coarse(days: &DaySimulator<'_>, level: usize) -> Result<(usize, Passes), Erro
 }
 
 /// Gives `days` as many simulated periods as are enough for `level`, found on a coarser one; and
-/// the error that they leave.
-fn find_periods(
+/// the error that they leave. Where steps between them lead nowhere, as under traffic that hardly
+/// takes friction's hold away, all passes of a day are simulated.
+fn find_periods(days: &mut DaySimulator<'_>, level: usize, progress: Progress<'_>) -> Result<Shares, Error> {
+    let allowed = Shares::both(SHARE * days.plan.scene.solver.tolerance);
+    let found = few_periods(days, level, allowed, progress);
+    let leads_nowhere = match &found {
+        Ok(error) => error.worse() > HOPELESS && !error.is_within(allowed),
+        Err(error) => matches!(error, Error::Jumps(_)),
+    };
+    if !leads_nowhere {
+        return found;
+    }
+    days.periods_a_day = u64::MAX;
+    Ok(Shares::default())
+}
+
+/// Doubles the simulated periods of a day until their error is `allowed`, does not fall, or would
+/// cost too much to make smaller.
+fn few_periods(
     days: &mut DaySimulator<'_>,
     level: usize,
+    allowed: Shares,
     mut progress: Progress<'_>,
 ) -> Result<Shares, Error> {
-    let scene = days.plan.scene;
-    let allowed = Shares::both(SHARE * scene.solver.tolerance);
     if days.day()?.is_simulated() {
         return Ok(Shares::default());
     }
     let (level, mut fewer) = coarse(days, level)?;
+    let mut before = f64::INFINITY;
     loop {
         days.periods_a_day *= 2;
         if days.day()?.is_simulated() {
             return Ok(Shares::default());
         }
-        let more = days.simulate(scene, level, Some(&fewer), progress.next(0.5), false)?;
+        let more = days.simulate(days.plan.scene, level, Some(&fewer), progress.next(0.5), false)?;
         let error = days.difference(&more, &fewer).times(CAUTION);
         let next = REFINEMENT_COST.saturating_mul(more.statistics.work());
-        if error.is_within(allowed) || 4 * next > MAX_NODE_UPDATES {
+        let stalls = error.worse() > HOPELESS && error.worse() > STALLED * before;
+        if error.is_within(allowed) || stalls || 4 * next > MAX_NODE_UPDATES {
             return Ok(error);
         }
-        fewer = more;
+        (fewer, before) = (more, error.worse());
     }
 }
 

@@ -9,7 +9,7 @@ use cycle_jump::{Beyond, Jumps, Next, Record, Request, evolve, peaks};
 use super::listing::Listing;
 use super::solver::PassSolver;
 use super::task::{Jumping, Task};
-use crate::answer::differences::Scale;
+use crate::answer::differences::{Scale, largest_force};
 use crate::answer::{ForceProfile, Stage, balance, beyond};
 use crate::tuning::jumps::PATIENCE;
 use creepage_plan::{Error, cable::traffic, ground::length_scale};
@@ -37,6 +37,19 @@ pub struct Passes {
     pub peaks: Vec<Record>,
     /// The days, of a cable that is heated every day.
     pub days: Option<Days>,
+}
+
+impl Passes {
+    /// The largest force on an end, in the cable or on a clamp, at least `least` \[N\].
+    pub fn largest_force(&self, least: f64) -> f64 {
+        let records = self.records.iter().chain(&self.peaks);
+        let of_passes = records.flat_map(|Record { outcome, .. }| {
+            let clamps = outcome.restraint_ranges.as_flattened().iter();
+            clamps.map(|force| force.abs()).chain([largest_force(outcome)])
+        });
+        let of_days = self.days.iter().map(|days| days.extremes.largest_force());
+        of_passes.chain(of_days).fold(least, f64::max)
+    }
 }
 
 /// Passes under way.

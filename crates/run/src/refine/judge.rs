@@ -3,18 +3,50 @@
 
 use cable_dem::Mesh;
 
-use crate::answer::differences::Shares;
-use crate::answer::error_estimate::{self, ErrorParts};
+use crate::answer::differences::{Scale, Shares};
+use crate::answer::error_estimate::{ErrorParts, is_doubtful};
+use crate::passes::Passes;
 use creepage_plan::{
     Error, ErrorSource, MOST_PASSES, Plan,
     shown::{exact_percent, percent},
 };
+use creepage_scene::four_digits;
 
-/// Refuses an answer that is none, and warns of one that is not as good as asked.
-pub fn judge(error: &ErrorParts, plan: &Plan<'_>, warnings: &mut Vec<String>) -> Result<(), Error> {
+/// Friction on this share of the duct's depth holds a force whose error does not matter: a few
+/// newtons, where nothing creeps and only ends slip, on less cable than any mesh resolves.
+const SLIGHT: f64 = 0.1;
+
+/// The force that an error may have whatever share of the forces it is \[N\].
+fn slight_force(plan: &Plan<'_>) -> f64 {
+    SLIGHT * plan.scene.duct.depth * plan.scene.friction_limit()
+}
+
+/// Whether these `passes` with this `error` of the forces are no answer.
+pub fn is_refused(error: &ErrorParts, plan: &Plan<'_>, passes: &Passes) -> bool {
+    let least = Scale::new(plan.scene, &plan.ground.motions).force;
+    let share = error.total().force;
+    let is_slight = share * passes.largest_force(least) <= slight_force(plan);
+    is_doubtful(share, plan.scene.solver.tolerance) && !is_slight
+}
+
+/// Refuses `passes` that are no answer, and warns of those that are not as good as asked.
+pub fn judge(
+    error: &ErrorParts,
+    plan: &Plan<'_>,
+    passes: &Passes,
+    warnings: &mut Vec<String>,
+) -> Result<(), Error> {
     let (scene, total) = (plan.scene, error.total());
     let tolerance = scene.solver.tolerance;
-    error_estimate::judge(error, tolerance)?;
+    if is_refused(error, plan, passes) {
+        return Err(error.refusal(tolerance));
+    }
+    if is_doubtful(total.force, tolerance) {
+        let slight = four_digits(slight_force(plan));
+        warnings.push(format!(
+            "the forces are so small that their error is below {slight} N, which friction holds on a tenth of the duct's depth"
+        ));
+    }
     let exceeds = [(total.force, ""), (total.movement, " of the movement")].into_iter();
     let exceeds = exceeds.filter(|(share, _)| *share > tolerance);
     let exceeds = exceeds.map(|(share, of)| format!("the estimated error{of} is {}", percent(share)));

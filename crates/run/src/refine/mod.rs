@@ -7,12 +7,13 @@ use std::cell::RefCell;
 
 use cable_dem::{CableError, Mesh, Statistics};
 
+use judge::is_refused;
 pub use judge::judge;
 
 use crate::Progress;
 use crate::answer::FixedMesh;
 use crate::answer::differences::{Scale, Shares};
-use crate::answer::error_estimate::{self, ErrorParts};
+use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{HeatRecord, RandomSpread};
 use crate::passes::{Passes, RunOptions};
 use crate::tuning::meshes::{LEAST_SHARE, REFINEMENT_COST, SHARP};
@@ -137,8 +138,8 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         // One mesh alone does not show its error; and no mesh that the scene names is refused for
         // what coarser ones show.
         let alone = meshes.len() == 1 && self.known_error.is_none();
-        let refused = error_estimate::is_doubtful(error.total().force, plan.scene.solver.tolerance);
         let passes = meshes.pop().ok_or(Error::NoPass)?;
+        let refused = is_refused(&error, plan, &passes);
         if self.options.verify || alone || plan.levels.named && refused {
             let finer = simulation.simulate(plan.scene, level + 1, Some(&passes), next(), true)?;
             error.mesh = simulation.difference(&passes, &finer).times(VERIFIED);
@@ -181,13 +182,14 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
 
     /// Whether there is a mesh after `level` that is not too costly.
     fn may_refine(&self, level: usize, meshes: &[Passes], error: &ErrorParts) -> bool {
-        let tolerance = self.plan.scene.solver.tolerance;
-        // A run whose error is above 10 % is refused: spend more before that.
-        let is_hard = tolerance < USUAL || error_estimate::is_doubtful(error.total().force, tolerance);
+        let Some(last) = meshes.last() else {
+            return false;
+        };
+        // Spend more before a run is refused.
+        let is_hard = self.plan.scene.solver.tolerance < USUAL || is_refused(error, self.plan, last);
         let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 3 };
-        let last = meshes.last().map_or(0, |passes| passes.statistics.work());
         self.known_error.is_none()
-            && REFINEMENT_COST.saturating_mul(last) <= most
+            && REFINEMENT_COST.saturating_mul(last.statistics.work()) <= most
             && level < self.plan.levels.finest
     }
 

@@ -98,6 +98,6 @@ fn solve(plan: &Plan<'_>, method: SolverMethod, options: &RunOptions<'_>) -> Res
         let solver = PassSolver::new(&Task::of(plan, scene, solved.mesh))?;
         solver.time_steps(&mut solved.reasons, &mut solved.warnings)?;
     }
-    judge(&solved.error, plan, &mut solved.warnings)?;
+    judge(&solved.error, plan, &solved.passes, &mut solved.warnings)?;
     Ok(solved)
 }
