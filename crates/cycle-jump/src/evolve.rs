@@ -38,6 +38,7 @@ pub fn evolve<E: From<JumpError>>(
         done: 0,
         schedule: Vec::new(),
         has_rejected: false,
+        missed: 0.0,
         repeats: None,
     };
     let length = request.period();
@@ -61,6 +62,7 @@ pub fn evolve<E: From<JumpError>>(
         simulated: 0,
         schedule: walk.schedule.clone(),
         has_rejected: walk.has_rejected,
+        missed: walk.missed,
         beyond: None,
     };
     if let (Some(known), Some(&last)) = (known, request.beyond.iter().max()) {
@@ -79,6 +81,7 @@ struct Walk<'a, P> {
     done: u64,
     schedule: Vec<u64>,
     has_rejected: bool,
+    missed: f64,
     repeats: Option<(u64, f64)>,
 }
 
@@ -262,6 +265,7 @@ where
             known.length = shorter.min((self.done as f64).max(SHORTEST_JUMP as f64));
             return Ok(());
         }
+        self.missed = self.missed.max(error);
         self.simulation.advance(&missed)?;
         let begin = self.done;
         self.done += length + 1;

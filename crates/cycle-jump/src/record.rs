@@ -35,6 +35,9 @@ pub struct Evolution {
     pub schedule: Vec<u64>,
     /// Whether a jump was taken back: what it has shown of the slope is not in a run that follows the others.
     pub has_rejected: bool,
+    /// The most that a jump had missed before it was corrected, as a share of the largest force or
+    /// movement: that of another run, on another mesh, tells how far its error is that of this one.
+    pub missed: f64,
     /// Where the forces lead; `None` where nothing beyond the last pass was wanted, or they do not
     /// become steady.
     pub beyond: Option<Beyond>,

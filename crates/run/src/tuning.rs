@@ -34,6 +34,10 @@ pub mod jumps {
     pub const LARGEST: f64 = 0.06;
     /// Share of the tolerance that jumps may take: the first mesh leaves about as much.
     pub const SHARE: f64 = 0.4;
+    /// The error of jumps grows at most so many times from the mesh they were found on to the last:
+    /// with as many as they missed, forces are stated up to five times as far off as they are, and
+    /// with none movements of two in thirty random scenes are twice as far off as stated.
+    pub const MOST_GROWN: f64 = 2.0;
     /// Passes simulated at the start, about, and fewest and most periods of them.
     pub const FIRST_PASSES: usize = 120;
     pub const FEWEST_FIRST_PERIODS: u64 = 2;

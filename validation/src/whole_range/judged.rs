@@ -11,7 +11,7 @@ use creepage::{Error, ErrorSource, PassRecord, Progress, Run, RunOptions, Scene}
 use crate::largest;
 
 /// Scenes whose plan states a longer time \[s\] are not run.
-const LONGEST: f64 = 6.0;
+const LONGEST: f64 = 3.0;
 /// Time after which a run that was to take less than [`LONGEST`] is given up.
 const GIVEN_UP: Duration = Duration::from_secs(100);
 /// An error that is allowed.
@@ -109,6 +109,7 @@ fn refused(scene: &Scene, error: &Error) -> Outcome {
             _ => false,
         },
         Error::Cable(CableError::CoarseMesh { .. }) => has_own_mesh,
+        Error::Cable(CableError::UnstableStep { .. }) => solver.time_step.is_some(),
         _ => false,
     };
     if is_due_to_scene {

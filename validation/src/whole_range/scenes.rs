@@ -353,7 +353,7 @@ impl Draw {
 
     fn solver(&mut self, method: &str) {
         self.table("[solver]");
-        self.given("tolerance", [0.01, 0.1], [0.0005, 0.5]);
+        self.given("tolerance", [0.03, 0.1], [0.0005, 0.5]);
         self.line("method", format!("\"{method}\""));
         self.perhaps(0.02, "node_spacing", [0.05, 0.5], [0.001, 10.0]);
         self.perhaps(0.02, "vehicle_step", [0.05, 0.5], [0.001, 10.0]);

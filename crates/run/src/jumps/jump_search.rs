@@ -13,7 +13,7 @@ use crate::answer::differences::{Shares, difference, extremes_difference};
 use crate::passes::{Jumping, Passes};
 use crate::refine::{OnMeshes, on_coarse_level};
 use crate::tuning::jumps::{
-    FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, SHARE, SHORT,
+    FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, MOST_GROWN, SHARE, SHORT,
 };
 use crate::tuning::meshes::REFINEMENT_COST;
 use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
@@ -36,6 +36,15 @@ pub struct Found {
     pub draws: Option<Draws>,
 }
 
+impl Found {
+    /// How many times as large their error is in `passes` on another mesh as where it was found: as
+    /// many as what they missed.
+    pub fn grown(&self, passes: &Passes) -> f64 {
+        let least = self.passes.missed.max(f64::MIN_POSITIVE);
+        (passes.missed / least).clamp(1.0, MOST_GROWN)
+    }
+}
+
 /// Finds jumps for the passes of a plan that take at most their share of the tolerance, or the best
 /// that are affordable.
 pub fn find<'a>(simulator: PassSimulator<'a>, progress: Progress<'a>) -> Result<Found, Error> {
@@ -46,7 +55,8 @@ pub fn find<'a>(simulator: PassSimulator<'a>, progress: Progress<'a>) -> Result<
         progress,
     };
     let mut found = search.jumps()?;
-    found.error = found.error + search.mix_error(&found)?;
+    // Forces and movements are of the same displacements: either may agree by chance.
+    found.error = Shares::both(found.error.worse()) + search.mix_error(&found)?;
     if simulator.plan.period.is_drawn {
         let draws = search.draws(&found)?;
         found.error = found.error + draws.error;

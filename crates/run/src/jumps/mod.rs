@@ -82,6 +82,7 @@ pub fn solve(
         jumps: good_enough,
     });
     if let Some(found) = &found {
+        solved.error.passes = solved.error.passes.times(found.grown(&solved.passes));
         if let Some(draws) = &found.draws {
             draws.correct(&mut solved.passes);
         }

@@ -31,6 +31,8 @@ pub struct Passes {
     pub schedule: Vec<u64>,
     /// Whether a jump was taken back, so that passes which follow the schedule are not these.
     pub has_rejected: bool,
+    /// The most that a jump had missed before it was corrected, as a share of what is large.
+    pub missed: f64,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
     /// Passes of the period beside the records that show more.
@@ -76,6 +78,7 @@ impl<'a> Simulation<'a> {
             simulated: 0,
             schedule: Vec::new(),
             has_rejected: false,
+            missed: 0.0,
             beyond: None,
             peaks: Vec::new(),
             days: None,
@@ -197,6 +200,7 @@ impl Task<'_> {
             simulated: evolution.simulated,
             schedule: evolution.schedule,
             has_rejected: evolution.has_rejected,
+            missed: evolution.missed,
             beyond: evolution.beyond,
             ..simulation.passes
         })
