@@ -1,4 +1,4 @@
-//! Numbers found by experiment, with the fits of `tests/calibration_coverage.rs`, which this workspace keeps:
+//! Numbers found by experiment, with the fits of `validation/tests/calibration_coverage.rs`, which this workspace keeps:
 //! friction and shape factor of a cable from 60 readings, twelve truths. Runs are those of a fit in the mean.
 
 /// First runs for each parameter of the model and one more. Half of them learn as much later and may

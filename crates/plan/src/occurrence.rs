@@ -14,7 +14,7 @@
 //! *Limits.* One concentrated load, a half-space with ν = 0.4, traffic one way, a level duct, no
 //! clamps; the table is for a sheath with EA/(S z²) = 0.056, S = q b/2, and a stiffer one raises
 //! f*/q by up to 0.03. Elsewhere the numbers are rough: a go or no-go, not a force to design with.
-//! *Origin.* Runs of `examples/occurrence.rs`, pass after pass; `tests/occurrence.rs` repeats some.
+//! *Origin.* Runs of `validation/src/occurrence.rs`, pass after pass; `tests/occurrence.rs` repeats some.
 
 use ground_field::DuctMotion;
 use serde::Serialize;

@@ -2,11 +2,12 @@
 //!
 //! All forces count by which limits, designs and reports judge, place by place: in the cable those
 //! on its ends and the largest compression and tension after a pass, on each end the largest and
-//! the least during it, on each clamp that after it. A force in the cable or on an end is relative
-//! to the largest at its place in that pass, a force on a clamp to the largest on that clamp in the
-//! run; if a tenth of the largest of all in the run is more, or what friction holds on a centimetre
-//! of cable, they are relative to that. A movement of an end is relative to the largest of the run,
-//! or to a tenth of the duct's own. A clamp moves in proportion to its force.
+//! the least during it, on each clamp those after it and during it. A force in the cable or on an
+//! end is relative to the largest at its place in that pass, a force on a clamp to the largest on
+//! that clamp in the run; if a tenth of the largest of all in the run is more, or what friction
+//! holds on a centimetre of cable, they are relative to that. A movement of an end is relative to
+//! the largest of the run, or to a tenth of the duct's own. A clamp moves in proportion to its
+//! force.
 
 use cable_dem::PassOutcome;
 use cycle_jump::Record;
