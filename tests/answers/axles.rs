@@ -112,7 +112,7 @@ fn the_spread_is_that_of_the_last_passes() {
     assert!(spread.q05_n < last && last < spread.q95_n, "{spread:?} {last}");
 }
 
-/// What twelve stand-ins cannot answer as exactly as asked, all axles do where they are few.
+/// What a mix that stands in cannot answer as exactly as asked, all axles do where they are few.
 #[test]
 fn few_axles_are_simulated_one_by_one() {
     let method = |overrides: &[&str]| {
