@@ -1,6 +1,6 @@
 //! The cable as a chain of nodes with bounded friction, as the implicit step takes it.
 
-use friction_chain::{Chain, Clamp, rounding};
+use friction_chain::{Chain, Clamp, Stretch, rounding};
 
 use crate::section::shares;
 use crate::{CableError, DuctedCable, End, Mesh};
@@ -86,11 +86,25 @@ impl Bends {
 
     /// Lets the cable of `chain` press on the bends with the force that displacements `u` \[m\] and the `thermal_force` \[N\] make. Returned:
     /// the largest change of a friction limit, as a share of it.
-    #[inline]
     pub fn press(&self, chain: &mut Chain, u: impl Fn(usize) -> f64, thermal_force: f64) -> f64 {
+        let (lo, hi) = (0, chain.nodes().len() - 1);
+        self.press_within(chain, Stretch { lo, hi }, u, thermal_force)
+    }
+
+    /// The same in a part of the chain and on the node at either side of it.
+    #[inline]
+    pub fn press_within(
+        &self,
+        chain: &mut Chain,
+        part: Stretch,
+        u: impl Fn(usize) -> f64,
+        thermal_force: f64,
+    ) -> f64 {
         let (last, stiffness) = (chain.nodes().len() - 1, chain.stiffness());
         let mut change = 0.0_f64;
-        for parts in self.0.chunk_by(|one, next| one.0 == next.0) {
+        let from = self.0.partition_point(|(node, ..)| node + 1 < part.lo);
+        let to = self.0.partition_point(|(node, ..)| *node <= part.hi + 1);
+        for parts in self.0[from..to].chunk_by(|one, next| one.0 == next.0) {
             let i = parts[0].0;
             let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
             let stretch = (u(after) - u(before)) / (after - before) as f64;

@@ -39,7 +39,7 @@ pub mod methods {
     /// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, and
     /// explicit.
     pub const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
-    pub const EXPLICIT_SECONDS: f64 = 1e-9;
+    pub const EXPLICIT_SECONDS: f64 = 8e-9;
     /// Periods that are simulated at the start, and then for every factor e of periods: half of all
     /// scenes need fewer, and nearly all.
     pub const TYPICAL_PERIODS: (f64, f64) = (12.0, 2.2);

@@ -31,17 +31,13 @@ impl QuasiStatic {
         let mut watched = self.bounds.free;
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
-            self.move_duct(&last, &snapshot);
             let under = self.bounds.under(snapshot.node, passage.reach);
+            // A node is looked at once more where adhesion no longer reaches it.
+            let near = watched.hull(under);
+            self.move_duct(&last, &snapshot, near);
             if step == 0 {
                 self.step_whole(&snapshot)?;
             } else {
-                // A node is looked at once more where adhesion no longer reaches it, and all of them where the friction limit changes.
-                let near = if self.bends.is_empty() {
-                    watched.hull(under)
-                } else {
-                    self.bounds.free
-                };
                 self.step_windows(&snapshot, near, passage.first_point(&snapshot))?;
             }
             (last, watched) = (snapshot, under);
@@ -93,12 +89,16 @@ impl QuasiStatic {
     }
 
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
-    /// force that it had. Returned: the largest change of a friction limit in bends, as a share of it.
-    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>) -> f64 {
+    /// force that it had, where it moved and `near` the vehicle. Returned: the largest change of a friction limit there, as a share of it.
+    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, near: Stretch) -> f64 {
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         let u = |node| r[node] + last.adherent_at(node);
-        let change = self.bends.press(chain, u, self.thermal_force);
+        let moved = self.moving.iter().map(|window| window.stretch);
+        let pressed = moved
+            .chain([near])
+            .map(|part| self.bends.press_within(chain, part, u, self.thermal_force));
+        let change = pressed.fold(0.0, f64::max);
         self.supports.load(snapshot, chain);
         let state = (&mut *self.r, &mut *self.g);
         self.outcome.dissipated += self.supports.hold([last, snapshot], chain, state, trial);
@@ -117,7 +117,7 @@ impl QuasiStatic {
     /// The ground comes to rest. What the windows left out of account is settled by the same step, and in bends by further ones, until the cable
     /// presses on them with the force that it has, to rounding.
     fn come_to_rest(&mut self, last: &Snapshot<'_>, still: &Snapshot<'_>) -> Result<(), CableError> {
-        self.move_duct(last, still);
+        self.move_duct(last, still, self.bounds.free);
         let mut change = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
             self.step_whole(still)?;
@@ -125,7 +125,7 @@ impl QuasiStatic {
                 return Ok(());
             }
             let before = change;
-            change = self.move_duct(still, still);
+            change = self.move_duct(still, still, self.bounds.free);
             if change <= PRESSED || change <= MAX_ROUNDING && change >= before {
                 return Ok(());
             }
