@@ -99,6 +99,8 @@ pub fn assert_possible(scene: &Scene, run: &Run) {
         (0.0..=allowed.max(small)).contains(&stated.relative),
         "{stated:?}"
     );
+    let is_small = |warning: &String| warning.contains("so small");
+    assert_eq!(stated.relative > allowed, run.warnings.iter().any(is_small));
     // A movement that is not known so well, as of an end that hardly moves, is told.
     let told = run
         .warnings

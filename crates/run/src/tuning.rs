@@ -35,8 +35,8 @@ pub mod jumps {
     /// Share of the tolerance that jumps may take: the first mesh leaves about as much.
     pub const SHARE: f64 = 0.4;
     /// The error of jumps grows at most so many times from the mesh they were found on to the last:
-    /// with as many as they missed, forces are stated up to five times as far off as they are, and
-    /// with none movements of two in thirty random scenes are twice as far off as stated.
+    /// if as many as they missed, forces are stated up to five times as far off as they are, and if
+    /// not at all, movements of two in thirty random scenes are twice as far off as stated.
     pub const MOST_GROWN: f64 = 2.0;
     /// Passes simulated at the start, about, and fewest and most periods of them.
     pub const FIRST_PASSES: usize = 120;
@@ -61,6 +61,10 @@ pub mod days {
     /// to 2 whatever was simulated of a day; with all passes real they took a tenth of the time.
     pub const HOPELESS: f64 = 0.1;
     pub const STALLED: f64 = 0.75;
+    /// All passes of a day are simulated if so many days are affordable on the first mesh by the
+    /// nodes that a pass takes as a rule. Under traffic that moves little it takes a tenth of them:
+    /// twenty days, and those six scenes simulated 3 to 19.
+    pub const FULL_DAYS: u64 = 2;
     /// Share of the tolerance that days with few simulated periods may take, and jumps over days.
     pub const SHARE: f64 = 0.5;
     /// Typical errors of the forces with 3, 6, 12, … nodes a depth, below which none is stated, and

@@ -89,13 +89,15 @@ impl QuasiStatic {
     }
 
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
-    /// force that it had, where it moved and `near` the vehicle. Returned: the largest change of a friction limit there, as a share of it.
+    /// force that it had, where it moved, at supports and `near` the vehicle. Returned: the largest change of a friction limit there, as a share of it.
     fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, near: Stretch) -> f64 {
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         let u = |node| r[node] + last.adherent_at(node);
         let moved = self.moving.iter().map(|window| window.stretch);
+        let held = self.supports.each.iter().map(|support| support.window);
         let pressed = moved
+            .chain(held)
             .chain([near])
             .map(|part| self.bends.press_within(chain, part, u, self.thermal_force));
         let change = pressed.fold(0.0, f64::max);

@@ -16,8 +16,7 @@ use creepage_scene::{Heat, Scene};
 
 /// Days simulated after the first one, before any is jumped over.
 const FIRST_DAYS: u64 = 3;
-/// Days simulated after which no more are jumped over, and after which the run gives up; with few
-/// passes of each it gives up at the first, as steps of many periods then lead nowhere.
+/// Days simulated after which no more are jumped over, and after which the run gives up.
 const MOST_DAYS: (u64, u64) = (150, 1000);
 
 const SECONDS_A_DAY: f64 = 86_400.0;
@@ -34,6 +33,9 @@ pub struct DaySimulator<'a> {
     pub begin: usize,
     /// Simulated periods a day.
     pub periods_a_day: u64,
+    /// Whether it gives up once no more days are jumped over: all passes of a day may be simulated
+    /// instead.
+    pub gives_up_early: bool,
     /// Whether days are jumped over with a quarter of the error and a first jump half as long,
     /// which shows the error of the others.
     pub finer: bool,
@@ -102,7 +104,7 @@ impl DaySimulator<'_> {
         let jumps =
             Jumps::new(finer * tolerance, levels.length_scale, least)?.with_start(FIRST_DAYS, first_jump)?;
         let (jumping, all) = MOST_DAYS;
-        let most = if self.day()?.is_simulated() { all } else { jumping };
+        let most = if self.gives_up_early { jumping } else { all };
         Ok(jumps.with_most_passes(jumping, most))
     }
 

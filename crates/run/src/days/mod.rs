@@ -15,12 +15,12 @@ use crate::answer::differences::Shares;
 use crate::answer::error_estimate::ErrorParts;
 use crate::passes::{Passes, RunOptions};
 use crate::refine::{MeshLoop, OnMeshes, Solved, Work, on_coarse_level};
-use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, HOPELESS, SHARE, STALLED, TYPICAL};
+use crate::tuning::days::{CAUTION, COARSER, FIRST_PERIODS, FULL_DAYS, HOPELESS, SHARE, STALLED, TYPICAL};
 use crate::tuning::meshes::{FINDING, REFINEMENT_COST};
 use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Plan};
 use creepage_scene::{Heat, SolverMethod};
-use day_simulator::DaySimulator;
+use day_simulator::{DaySimulator, a_day};
 
 /// Carries `plan`, whose scene has `heat`, out, where `error` has what no mesh makes smaller.
 pub fn solve(
@@ -37,6 +37,7 @@ pub fn solve(
         heat,
         every_pass: method != SolverMethod::PassLaw,
         begin: 0,
+        gives_up_early: false,
         periods_a_day: FIRST_PERIODS,
         finer: false,
         work: &work,
@@ -84,16 +85,22 @@ fn coarse(days: &DaySimulator<'_>, level: usize) -> Result<(usize, Passes), Erro
 /// takes friction's hold away, all passes of a day are simulated.
 fn find_periods(days: &mut DaySimulator<'_>, level: usize, progress: Progress<'_>) -> Result<Shares, Error> {
     let allowed = Shares::both(SHARE * days.plan.scene.solver.tolerance);
-    let found = few_periods(days, level, allowed, progress);
+    let may_simulate_all = FULL_DAYS * a_day(days.plan.scene) <= days.plan.levels.affordable_passes(level);
+    let mut search = DaySimulator {
+        gives_up_early: may_simulate_all,
+        ..*days
+    };
+    let found = few_periods(&mut search, level, allowed, progress);
     let leads_nowhere = match &found {
         Ok(error) => error.worse() > HOPELESS && !error.is_within(allowed),
         Err(error) => matches!(error, Error::Jumps(_)),
     };
-    if !leads_nowhere {
-        return found;
+    if leads_nowhere && may_simulate_all {
+        days.periods_a_day = u64::MAX;
+        return Ok(Shares::default());
     }
-    days.periods_a_day = u64::MAX;
-    Ok(Shares::default())
+    days.periods_a_day = search.periods_a_day;
+    found
 }
 
 /// Doubles the simulated periods of a day until their error is `allowed`, does not fall, or would

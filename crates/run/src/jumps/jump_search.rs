@@ -30,18 +30,22 @@ pub struct Found {
     pub level: usize,
     pub passes: Passes,
     pub size: JumpSize,
-    /// What they leave wrong, as periods do that stand in for the traffic.
+    /// What they leave wrong.
+    pub jumps: Shares,
+    /// The same with what periods do that stand in for the traffic.
     pub error: Shares,
     /// What a random order changes.
     pub draws: Option<Draws>,
 }
 
 impl Found {
-    /// How many times as large their error is in `passes` on another mesh as where it was found: as
-    /// many as what they missed.
-    pub fn grown(&self, passes: &Passes) -> f64 {
-        let least = self.passes.missed.max(f64::MIN_POSITIVE);
-        (passes.missed / least).clamp(1.0, MOST_GROWN)
+    /// What they leave wrong in `passes` on another mesh: as many times as much as they have missed
+    /// there.
+    pub fn error_of(&self, passes: &Passes) -> Shares {
+        // Jumps that missed less than their error say nothing of it.
+        let least = self.passes.missed.max(self.jumps.worse());
+        let times = (passes.missed / least.max(f64::MIN_POSITIVE)).clamp(1.0, MOST_GROWN);
+        self.error + self.jumps.times(times - 1.0)
     }
 }
 
@@ -55,8 +59,7 @@ pub fn find<'a>(simulator: PassSimulator<'a>, progress: Progress<'a>) -> Result<
         progress,
     };
     let mut found = search.jumps()?;
-    // Forces and movements are of the same displacements: either may agree by chance.
-    found.error = Shares::both(found.error.worse()) + search.mix_error(&found)?;
+    found.error = found.jumps + search.mix_error(&found)?;
     if simulator.plan.period.is_drawn {
         let draws = search.draws(&found)?;
         found.error = found.error + draws.error;
@@ -145,10 +148,13 @@ impl Search<'_> {
             let others = self.simulate(level, others, period)?;
             error = self.simulator.difference(&passes, &others);
         }
+        // Both are of the same displacements, and movements are fewer: they may agree by chance.
+        error.movement = error.worse();
         Ok(Found {
             level,
             passes,
             size,
+            jumps: error,
             error,
             draws: None,
         })

@@ -79,10 +79,9 @@ pub fn solve(
     let mut solved = meshes.refine(plan.levels.first, options.progress.part(begin, 1.0), error)?;
     solved.shown = Some(FixedMesh {
         error: solved.error.mesh,
-        jumps: good_enough,
+        jumps: good_enough.map(|(size, _)| (size, solved.error.passes)),
     });
     if let Some(found) = &found {
-        solved.error.passes = solved.error.passes.times(found.grown(&solved.passes));
         if let Some(draws) = &found.draws {
             draws.correct(&mut solved.passes);
         }
@@ -125,6 +124,10 @@ impl OnMeshes for PassSimulator<'_> {
 
     fn difference(&self, one: &Passes, other: &Passes) -> Shares {
         difference(&one.records, &other.records, self.scale)
+    }
+
+    fn passes_error(&self, passes: &Passes, found: Shares) -> Shares {
+        self.found.map_or(found, |jumps| jumps.error_of(passes))
     }
 
     /// A scheme of second order leaves a third of the last difference and a twelfth of the one before.

@@ -49,7 +49,12 @@ impl Passes {
             let clamps = outcome.restraint_ranges.as_flattened().iter();
             clamps.map(|force| force.abs()).chain([largest_force(outcome)])
         });
-        let of_days = self.days.iter().map(|days| days.extremes.largest_force());
+        let of_days = self.days.iter().flat_map(|days| {
+            let clamps = days.extremes.restraints.as_flattened().iter();
+            clamps
+                .map(|force| force.abs())
+                .chain([days.extremes.largest_force()])
+        });
         of_passes.chain(of_days).fold(least, f64::max)
     }
 }

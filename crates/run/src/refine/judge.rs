@@ -12,8 +12,8 @@ use creepage_plan::{
 };
 use creepage_scene::four_digits;
 
-/// Friction on this share of the duct's depth holds a force whose error does not matter: a few
-/// newtons, where nothing creeps and only ends slip, on less cable than any mesh resolves.
+/// Friction on this share of the duct's depth holds a force whose error does not matter, as a rule a
+/// few newtons: where nothing creeps only ends slip, on less cable than any mesh resolves.
 const SLIGHT: f64 = 0.1;
 
 /// The force that an error may have whatever share of the forces it is \[N\].
@@ -21,11 +21,15 @@ fn slight_force(plan: &Plan<'_>) -> f64 {
     SLIGHT * plan.scene.duct.depth * plan.scene.friction_limit()
 }
 
+/// The largest force of `passes`, if that counts \[N\].
+fn largest(plan: &Plan<'_>, passes: &Passes) -> f64 {
+    passes.largest_force(Scale::new(plan.scene, &plan.ground.motions).force)
+}
+
 /// Whether these `passes` with this `error` of the forces are no answer.
 pub fn is_refused(error: &ErrorParts, plan: &Plan<'_>, passes: &Passes) -> bool {
-    let least = Scale::new(plan.scene, &plan.ground.motions).force;
     let share = error.total().force;
-    let is_slight = share * passes.largest_force(least) <= slight_force(plan);
+    let is_slight = share * largest(plan, passes) <= slight_force(plan);
     is_doubtful(share, plan.scene.solver.tolerance) && !is_slight
 }
 
@@ -42,9 +46,9 @@ pub fn judge(
         return Err(error.refusal(tolerance));
     }
     if is_doubtful(total.force, tolerance) {
-        let slight = four_digits(slight_force(plan));
+        let [wrong, slight] = [total.force * largest(plan, passes), slight_force(plan)].map(four_digits);
         warnings.push(format!(
-            "the forces are so small that their error is below {slight} N, which friction holds on a tenth of the duct's depth"
+            "the forces are so small that their error, {wrong} N, is below the {slight} N that friction holds on a tenth of the duct's depth"
         ));
     }
     let exceeds = [(total.force, ""), (total.movement, " of the movement")].into_iter();

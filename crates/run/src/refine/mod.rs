@@ -44,6 +44,11 @@ pub trait OnMeshes {
     /// Difference of passes on two meshes.
     fn difference(&self, one: &Passes, other: &Passes) -> Shares;
 
+    /// What passes that are not simulated leave wrong in `passes`, if that was `found` on another mesh.
+    fn passes_error(&self, _passes: &Passes, found: Shares) -> Shares {
+        found
+    }
+
     /// Error on `level`, the last of these two or more meshes from coarse to fine.
     fn mesh_error(&self, level: usize, meshes: &[Passes]) -> Shares;
 }
@@ -119,7 +124,11 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
             let passes = simulation.simulate(plan.scene, level, meshes.last(), part, level == first);
             meshes.extend(unless_coarse(passes, level < first)?);
         }
+        let found = error.passes;
         loop {
+            if let Some(last) = meshes.last() {
+                error.passes = simulation.passes_error(last, found);
+            }
             error.mesh = match self.known_error {
                 Some(known) => known,
                 None if meshes.len() > 1 => simulation.mesh_error(level, &meshes),
