@@ -89,7 +89,8 @@ impl QuasiStatic {
     }
 
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
-    /// force that it had, where it moved, at supports and `near` the vehicle. Returned: the largest change of a friction limit there, as a share of it.
+    /// force that it had, where it moved, at supports and `near` the vehicle. Returned: the largest change of a friction limit there, as
+    /// a share of it.
     fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, near: Stretch) -> f64 {
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;

@@ -30,22 +30,22 @@ pub struct Found {
     pub level: usize,
     pub passes: Passes,
     pub size: JumpSize,
-    /// What they leave wrong.
-    pub jumps: Shares,
-    /// The same with what periods do that stand in for the traffic.
-    pub error: Shares,
+    /// What they leave wrong on that level.
+    jumps: Shares,
+    /// What periods leave wrong that stand in for the traffic.
+    stand_ins: Shares,
     /// What a random order changes.
     pub draws: Option<Draws>,
 }
 
 impl Found {
-    /// What they leave wrong in `passes` on another mesh: as many times as much as they have missed
-    /// there.
+    /// What is wrong in `passes` by these jumps, on another mesh as many times as much as they have
+    /// missed there.
     pub fn error_of(&self, passes: &Passes) -> Shares {
         // Jumps that missed less than their error say nothing of it.
         let least = self.passes.missed.max(self.jumps.worse());
         let times = (passes.missed / least.max(f64::MIN_POSITIVE)).clamp(1.0, MOST_GROWN);
-        self.error + self.jumps.times(times - 1.0)
+        self.jumps.times(times) + self.stand_ins
     }
 }
 
@@ -59,10 +59,10 @@ pub fn find<'a>(simulator: PassSimulator<'a>, progress: Progress<'a>) -> Result<
         progress,
     };
     let mut found = search.jumps()?;
-    found.error = found.jumps + search.mix_error(&found)?;
+    found.stand_ins = search.mix_error(&found)?;
     if simulator.plan.period.is_drawn {
         let draws = search.draws(&found)?;
-        found.error = found.error + draws.error;
+        found.stand_ins = found.stand_ins + draws.error;
         found.draws = Some(draws);
     }
     Ok(found)
@@ -155,7 +155,7 @@ impl Search<'_> {
             passes,
             size,
             jumps: error,
-            error,
+            stand_ins: Shares::default(),
             draws: None,
         })
     }

@@ -59,7 +59,7 @@ pub fn solve(
     let known_jumps = known.and_then(|known| known.jumps).filter(|_| jumps);
     let good_enough = found
         .as_ref()
-        .map(|found| (found.size, found.error))
+        .map(|found| (found.size, found.error_of(&found.passes)))
         .or(known_jumps);
     if let Some((size, left)) = good_enough {
         let mut jumping = Jumping::new(&plan.period, size);

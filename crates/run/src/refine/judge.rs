@@ -29,8 +29,8 @@ fn largest(plan: &Plan<'_>, passes: &Passes) -> f64 {
 /// Whether these `passes` with this `error` of the forces are no answer.
 pub fn is_refused(error: &ErrorParts, plan: &Plan<'_>, passes: &Passes) -> bool {
     let share = error.total().force;
-    let is_slight = share * largest(plan, passes) <= slight_force(plan);
-    is_doubtful(share, plan.scene.solver.tolerance) && !is_slight
+    let is_slight = || share * largest(plan, passes) <= slight_force(plan);
+    is_doubtful(share, plan.scene.solver.tolerance) && !is_slight()
 }
 
 /// Refuses `passes` that are no answer, and warns of those that are not as good as asked.
