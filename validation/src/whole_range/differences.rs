@@ -7,7 +7,7 @@ use crate::largest;
 /// Shares of the forces after passes, of the largest and the least during them, of the forces on clamps, and of the movements.
 pub type Errors = [f64; 5];
 pub const KINDS: [&str; 5] = ["after", "peak", "least", "clamp", "movement"];
-const AFTER: usize = 0;
+pub const AFTER: usize = 0;
 const PEAK: usize = 1;
 const LEAST: usize = 2;
 const CLAMP: usize = 3;
@@ -45,7 +45,8 @@ struct Scale {
     /// The same of movements \[m\].
     still: f64,
     movement: f64,
-    /// The largest tension along the cable, which is known after the last pass alone.
+    /// The largest tension along the cable, known after the last pass, with which the forces after every pass are compared: those of a
+    /// cable that is free at both ends are mostly tension.
     tension: f64,
 }
 
@@ -103,16 +104,10 @@ impl Worst {
 
 fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
     let mut worst = Worst::default();
-    let last = exact.passes.last().map(|pass| pass.pass);
     let pairs = pairs(&run.passes, &exact.passes, |pass| pass.pass);
     for &(index, at) in &pairs {
         let (found, exact) = (&run.passes[index], &exact.passes[at]);
-        let tension = if Some(exact.pass) == last {
-            scale.tension
-        } else {
-            0.0
-        };
-        let whole = largest(forces(exact)).max(scale.force).max(tension);
+        let whole = largest(forces(exact)).max(scale.force).max(scale.tension);
         worst.all(AFTER, forces(found), forces(exact), whole);
         for (found, exact) in during(found).into_iter().zip(during(exact)) {
             let whole = largest(exact).max(scale.force);
@@ -122,14 +117,16 @@ fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
         worst.all(MOVEMENT, movements(found), movements(exact), scale.movement);
     }
     for (clamp, exact) in run.restraints.iter().zip(&exact.restraints) {
-        for (found, exact) in [
-            (&clamp.after_passes_n, &exact.after_passes_n),
-            (&clamp.during_passes_n, &exact.during_passes_n),
-        ] {
-            let whole = largest(exact.iter().copied()).max(scale.force);
-            for &(index, at) in &pairs {
-                worst.note(CLAMP, found[index], exact[at], whole);
-            }
+        // Of a clamp that is pulled about as hard as it is pressed during a pass the larger force may be either.
+        let size = |force: f64| force.abs();
+        let (after, during) = (
+            [&clamp.after_passes_n, &exact.after_passes_n],
+            [&clamp.during_passes_n, &exact.during_passes_n],
+        );
+        let whole = [after, during].map(|[_, exact]| largest(exact.iter().copied()).max(scale.force));
+        for &(index, at) in &pairs {
+            worst.note(CLAMP, after[0][index], after[1][at], whole[0]);
+            worst.note(CLAMP, size(during[0][index]), size(during[1][at]), whole[1]);
         }
     }
     worst.0

@@ -24,8 +24,8 @@ const FORCE: f64 = 64.0;
 pub struct Twins {
     /// What the answer states.
     pub stated: Errors,
-    /// From a run that is to be [`FINER`] times as exact; `None` also where it is not.
-    pub finer: Option<Errors>,
+    /// From a run that is to be [`FINER`] times as exact, and what that one states; `None` also where it is not.
+    pub finer: Option<(Errors, Errors)>,
     /// From the same duct, looked at from its other side.
     pub mirror: Option<Errors>,
     /// From the same duct at [`LENGTH`] times its size.
@@ -42,7 +42,7 @@ pub fn twins(scene: &Scene, own: &Run) -> Twins {
     let finer = run(&finer).ok().filter(is_finer);
     Twins {
         stated: stated(own),
-        finer: finer.map(|finer| errors(scene, own, &finer)),
+        finer: finer.map(|finer| (errors(scene, own, &finer), stated(&finer))),
         mirror: mirror(scene, own),
         larger: larger(scene, own),
     }
