@@ -8,7 +8,7 @@ use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window::{self, Window};
 use crate::chain::{MAX_ROUNDING, MAX_ROUNDS, PRESSED};
-use crate::tuning::{UNBALANCED_SHARE, UNBALANCED_SUPPORT};
+use crate::tuning::{BLOCK, UNBALANCED_SHARE, UNBALANCED_SUPPORT};
 use crate::{CableError, CableState, PassOutcome};
 
 /// Solves at most in which clamps change between sticking and sliding: a few are right at once.
@@ -32,13 +32,14 @@ impl QuasiStatic {
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
             let under = self.bounds.under(snapshot.node, passage.reach);
-            // A node is looked at once more where adhesion no longer reaches it.
-            let near = watched.hull(under);
-            self.move_duct(&last, &snapshot, near);
             if step == 0 {
+                self.move_duct(&last, &snapshot, Some(self.bounds.free));
                 self.step_whole(&snapshot)?;
             } else {
-                self.step_windows(&snapshot, near, passage.first_point(&snapshot))?;
+                // A node is looked at once more where adhesion no longer reaches it.
+                let strained = self.strained(&snapshot, watched.hull(under));
+                self.move_duct(&last, &snapshot, strained);
+                self.step_windows(&snapshot, strained, passage.first_point(&snapshot))?;
             }
             (last, watched) = (snapshot, under);
             let vehicle = self.mesh.lattice_step() * position as f64;
@@ -89,17 +90,19 @@ impl QuasiStatic {
     }
 
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
-    /// force that it had, where it moved, at supports and `near` the vehicle. Returned: the largest change of a friction limit there, as
+    /// force that it had, where it moved, at supports and in the `strained` part. Returned: the largest change of a friction limit there, as
     /// a share of it.
-    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, near: Stretch) -> f64 {
+    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, strained: Option<Stretch>) -> f64 {
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         let u = |node| r[node] + last.adherent_at(node);
         let moved = self.moving.iter().map(|window| window.stretch);
         let held = self.supports.each.iter().map(|support| support.window);
+        // As far as the windows of what begins to slip.
+        let begun = strained.map(|part| self.bounds.widened(part, self.bounds.margin));
         let pressed = moved
             .chain(held)
-            .chain([near])
+            .chain(begun)
             .map(|part| self.bends.press_within(chain, part, u, self.thermal_force));
         let change = pressed.fold(0.0, f64::max);
         self.supports.load(snapshot, chain);
@@ -120,7 +123,7 @@ impl QuasiStatic {
     /// The ground comes to rest. What the windows left out of account is settled by the same step, and in bends by further ones, until the cable
     /// presses on them with the force that it has, to rounding.
     fn come_to_rest(&mut self, last: &Snapshot<'_>, still: &Snapshot<'_>) -> Result<(), CableError> {
-        self.move_duct(last, still, self.bounds.free);
+        self.move_duct(last, still, Some(self.bounds.free));
         let mut change = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
             self.step_whole(still)?;
@@ -128,7 +131,7 @@ impl QuasiStatic {
                 return Ok(());
             }
             let before = change;
-            change = self.move_duct(still, still, self.bounds.free);
+            change = self.move_duct(still, still, Some(self.bounds.free));
             if change <= PRESSED || change <= MAX_ROUNDING && change >= before {
                 return Ok(());
             }
@@ -137,17 +140,16 @@ impl QuasiStatic {
         Err(CableError::of_step(error, f64::INFINITY))
     }
 
-    /// One step of the vehicle: solves the windows where the cable moves. It may begin to slip in `watched`; node 0 stands at the point
-    /// `first` of the lattice.
+    /// One step of the vehicle: solves the windows where the cable moves. It may begin to slip in the part that is `strained`; node 0 stands
+    /// at the point `first` of the lattice.
     fn step_windows(
         &mut self,
         snapshot: &Snapshot<'_>,
-        watched: Stretch,
+        strained: Option<Stretch>,
         first: usize,
     ) -> Result<(), CableError> {
         let mut windows = std::mem::take(&mut self.windows);
-        self.begin_windows(snapshot, watched, &mut windows);
-        self.outcome.statistics.watched += watched.count();
+        self.begin_windows(snapshot, strained, &mut windows);
         self.moving.clear();
         loop {
             for window in &mut windows {
@@ -195,23 +197,41 @@ impl QuasiStatic {
         Ok(solved)
     }
 
-    /// Finds the `windows` of a step: around what moved in the last one, what of `watched` begins to slip, and supports that are due.
-    fn begin_windows(&self, snapshot: &Snapshot<'_>, watched: Stretch, windows: &mut Vec<Window>) {
-        let (bounds, chain) = (self.bounds, &self.step.chain);
-        let above = |limit: f64| (1.0 + SLIPPING_SHARE) * limit;
-        let slips =
-            |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes()[node].limit);
+    /// The part of `watched` in which friction may exceed its limit, in whole blocks of nodes; none if it cannot anywhere.
+    fn strained(&mut self, snapshot: &Snapshot<'_>, watched: Stretch) -> Option<Stretch> {
+        self.outcome.statistics.watched += watched.count();
+        let least = (1.0 + SLIPPING_SHARE) * self.cable.least_limit();
         // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
-        let least = above(self.cable.least_limit());
-        let may_slip = |block: Range<usize>| {
-            let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
+        let exceeds = |block: &Range<usize>| {
+            let pairs = self.g[block.clone()]
+                .iter()
+                .zip(&snapshot.adhesion[block.clone()]);
             pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
         };
+        let end = watched.hi + 1;
+        let mut blocks = (watched.lo..end)
+            .step_by(BLOCK)
+            .map(|from| from..(from + BLOCK).min(end));
+        let first = blocks.find(exceeds)?;
+        let last = blocks.rfind(exceeds).unwrap_or_else(|| first.clone());
+        Some(Stretch {
+            lo: first.start,
+            hi: last.end - 1,
+        })
+    }
+
+    /// Finds the `windows` of a step: around what moved in the last one, what begins to slip in the part that is `strained`, and supports that
+    /// are due.
+    fn begin_windows(&self, snapshot: &Snapshot<'_>, strained: Option<Stretch>, windows: &mut Vec<Window>) {
+        let (bounds, nodes) = (self.bounds, self.step.chain.nodes());
+        let slips = |&node: &usize| {
+            (self.g[node] + snapshot.adhesion[node]).abs() > (1.0 + SLIPPING_SHARE) * nodes[node].limit
+        };
         windows.clone_from(&self.moving);
-        let (mut from, end) = (watched.lo, watched.hi + 1);
+        let (mut from, end) = strained.map_or((0, 0), |part| (part.lo, part.hi + 1));
         let known = self.moving.iter().map(|part| (part.stretch.lo, part.stretch.hi));
         for (lo, hi) in known.chain([(end, end)]) {
-            window::slipping(from..lo.min(end), may_slip, slips, |begun| {
+            window::slipping(from..lo.min(end), slips, |begun| {
                 windows.push(Window::travelling(bounds.widened(begun, bounds.margin)));
             });
             from = from.max(hi + 1);
