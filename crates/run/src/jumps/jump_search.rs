@@ -261,4 +261,84 @@ passes = 120
             assert!((force - exact).abs() <= 0.01 * exact, "{force} {exact}");
         }
     }
+
+    /// Jumps that miss more on the last mesh than on the coarse one where they were found.
+    const ROUGH: &str = "
+[duct]
+length = 10.15
+depth = 1.29
+[[ground.layers]]
+thickness = 0.205
+young_modulus = 9.33e8
+poisson_ratio = 0.266
+[[ground.layers]]
+thickness = 0.1975
+young_modulus = 3.876e8
+poisson_ratio = 0.362
+[[ground.layers]]
+young_modulus = 1.05e8
+poisson_ratio = 0.2465
+[cable]
+weight = 21.3
+axial_stiffness = 1.48e7
+normal_load_factor = 1.3
+[friction]
+law = \"coulomb\"
+dynamic_coefficient = 0.28
+[ends]
+upstream = { spring = 2.45e5 }
+downstream = \"free\"
+[[vehicles]]
+speed = 18
+direction = \"reverse\"
+lateral_offset = 2.63
+wheels = [
+    { x = 0, y = 1.02, load = 37800, contact_radius = 0.1 },
+    { x = 0, y = -1.02, load = 37800, contact_radius = 0.1 },
+    { x = -5.03, y = 0.9, load = 35400, contact_radius = 0.117 },
+    { x = -5.03, y = -0.9, load = 35400, contact_radius = 0.117 },
+    { x = -8.57, y = 0.83, load = 30100, contact_radius = 0.1885 },
+    { x = -8.57, y = -0.83, load = 30100, contact_radius = 0.1885 },
+]
+[traffic]
+passes = 40
+[solver]
+tolerance = 0.0998
+";
+
+    #[test]
+    fn what_jumps_miss_on_a_finer_mesh_is_stated() {
+        let of =
+            |solver: &str| run(&Scene::from_toml("scene", &(ROUGH.to_owned() + solver)).unwrap()).unwrap();
+        let jumped = of("method = \"pass-law\"");
+        let (spacing, step) = (jumped.plan.node_spacing_m, jumped.plan.vehicle_step_m);
+        let every = of(&format!(
+            "method = \"quasi-static\"\nnode_spacing = {spacing}\nvehicle_step = {step}"
+        ));
+        let movements =
+            |pass: &crate::PassRecord| [pass.upstream_displacement_m, pass.downstream_displacement_m];
+        let pairs = jumped
+            .passes
+            .iter()
+            .map(|pass| (pass, &every.passes[pass.pass as usize - 1]));
+        let off = pairs.flat_map(|(own, exact)| {
+            let (own, exact) = (movements(own), movements(exact));
+            [0, 1].map(|end| (own[end] - exact[end]).abs())
+        });
+        let largest = every
+            .passes
+            .iter()
+            .flat_map(movements)
+            .fold(0.0, |most: f64, moved| most.max(moved.abs()));
+        let (off, stated) = (
+            off.fold(0.0, f64::max) / largest,
+            jumped.error_estimate.parts.passes,
+        );
+        assert!(
+            jumped.cost.simulated_passes < 40 && off <= stated,
+            "{off} {stated}"
+        );
+        // As found on the coarse mesh it would not be.
+        assert!(off > stated / super::MOST_GROWN, "{off} {stated}");
+    }
 }
