@@ -10,6 +10,8 @@ mod day_simulator;
 mod locked_law;
 mod record;
 
+use cable_dem::CableError;
+
 use crate::Progress;
 use crate::answer::differences::Shares;
 use crate::answer::error_estimate::ErrorParts;
@@ -81,8 +83,8 @@ fn coarse(days: &DaySimulator<'_>, level: usize) -> Result<(usize, Passes), Erro
 }
 
 /// Gives `days` as many simulated periods as are enough for `level`, found on a coarser one; and
-/// the error that they leave. Where steps between them lead nowhere, as under traffic that hardly
-/// takes friction's hold away, all passes of a day are simulated.
+/// the error that they leave. Where steps between them find no balance or lead nowhere, as under
+/// traffic that hardly takes friction's hold away, all passes of a day are simulated.
 fn find_periods(days: &mut DaySimulator<'_>, level: usize, progress: Progress<'_>) -> Result<Shares, Error> {
     let allowed = Shares::both(SHARE * days.plan.scene.solver.tolerance);
     let may_simulate_all = FULL_DAYS * a_day(days.plan.scene) <= days.plan.levels.affordable_passes(level);
@@ -93,7 +95,10 @@ fn find_periods(days: &mut DaySimulator<'_>, level: usize, progress: Progress<'_
     let found = few_periods(&mut search, level, allowed, progress);
     let leads_nowhere = match &found {
         Ok(error) => error.worse() > HOPELESS && !error.is_within(allowed),
-        Err(error) => matches!(error, Error::Jumps(_)),
+        Err(error) => matches!(
+            error,
+            Error::Jumps(_) | Error::Cable(CableError::NoConvergence { .. })
+        ),
     };
     if leads_nowhere && may_simulate_all {
         days.periods_a_day = u64::MAX;
