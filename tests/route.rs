@@ -102,6 +102,43 @@ fn a_route_of_equal_sections_is_the_plain_duct() {
     assert_eq!(sloping.passes, slope.passes);
 }
 
+/// Seen from the other side of the road, vehicles of very different weight over a tight bend leave the same forces all along the cable.
+#[test]
+fn a_tight_bend_has_no_direction() {
+    let left_by = |ends: &str, directions: [&str; 3]| {
+        let [light, heavy, back] = directions;
+        let vehicles = format!(
+            r#"vehicles=[{{load="2 tf", speed="40 km/h", direction="{light}"}}, {{load="50 tf", speed="40 km/h", direction="{heavy}"}},
+            {{load="50 tf", speed="40 km/h", direction="{back}"}}]"#
+        );
+        let run = run(&[
+            "duct.length=120 m",
+            r#"route=[{length="30 m"}, {length="60 m", bend_radius="2 m"}, {}]"#,
+            "ground.layers.0.young_modulus=60 MPa",
+            r#"friction={law="coulomb", dynamic_coefficient=0.3}"#,
+            ends,
+            &vehicles,
+            "traffic.passes=3",
+            r#"solver={method="quasi-static", tolerance=0.4, node_spacing=0.1, vehicle_step=0.6}"#,
+        ]);
+        run.force_profile.force_n
+    };
+    let (forward, reverse) = ("forward", "reverse");
+    let own = left_by(
+        r#"ends={upstream="free", downstream={spring=1e5}}"#,
+        [forward, reverse, forward],
+    );
+    let mut mirrored = left_by(
+        r#"ends={upstream={spring=1e5}, downstream="free"}"#,
+        [reverse, forward, reverse],
+    );
+    mirrored.reverse();
+    let largest = own.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    for (force, other) in own.iter().zip(&mirrored) {
+        assert!((force - other).abs() <= 1e-9 * largest, "{force} {other}");
+    }
+}
+
 /// Jumps over a route with a bend and a clamp that slips in every pass.
 #[test]
 fn jumps_follow_every_pass_on_a_route() {

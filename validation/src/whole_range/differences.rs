@@ -45,8 +45,8 @@ struct Scale {
     /// The same of movements \[m\].
     still: f64,
     movement: f64,
-    /// The largest tension along the cable, known after the last pass, with which the forces after every pass are compared: those of a
-    /// cable that is free at both ends are mostly tension.
+    /// The largest tension along the cable, which is known after the last pass alone. Compression inside is relative to it after every pass:
+    /// in a cable that is free at both ends there is hardly any.
     tension: f64,
 }
 
@@ -104,11 +104,15 @@ impl Worst {
 
 fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
     let mut worst = Worst::default();
+    let last = exact.passes.last().map(|pass| pass.pass);
     let pairs = pairs(&run.passes, &exact.passes, |pass| pass.pass);
     for &(index, at) in &pairs {
         let (found, exact) = (&run.passes[index], &exact.passes[at]);
-        let whole = largest(forces(exact)).max(scale.force).max(scale.tension);
-        worst.all(AFTER, forces(found), forces(exact), whole);
+        let whole = largest(forces(exact)).max(scale.force);
+        let inside = whole.max(scale.tension);
+        let on_ends = if Some(exact.pass) == last { inside } else { whole };
+        worst.all(AFTER, ends(found), ends(exact), on_ends);
+        worst.note(AFTER, found.max_compression_n, exact.max_compression_n, inside);
         for (found, exact) in during(found).into_iter().zip(during(exact)) {
             let whole = largest(exact).max(scale.force);
             worst.note(LEAST, found[0], exact[0], whole);
@@ -117,16 +121,14 @@ fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
         worst.all(MOVEMENT, movements(found), movements(exact), scale.movement);
     }
     for (clamp, exact) in run.restraints.iter().zip(&exact.restraints) {
-        // Of a clamp that is pulled about as hard as it is pressed during a pass the larger force may be either.
-        let size = |force: f64| force.abs();
-        let (after, during) = (
-            [&clamp.after_passes_n, &exact.after_passes_n],
-            [&clamp.during_passes_n, &exact.during_passes_n],
-        );
-        let whole = [after, during].map(|[_, exact]| largest(exact.iter().copied()).max(scale.force));
-        for &(index, at) in &pairs {
-            worst.note(CLAMP, after[0][index], after[1][at], whole[0]);
-            worst.note(CLAMP, size(during[0][index]), size(during[1][at]), whole[1]);
+        for (found, exact) in [
+            (&clamp.after_passes_n, &exact.after_passes_n),
+            (&clamp.during_passes_n, &exact.during_passes_n),
+        ] {
+            let whole = largest(exact.iter().copied()).max(scale.force);
+            for &(index, at) in &pairs {
+                worst.note(CLAMP, found[index], exact[at], whole);
+            }
         }
     }
     worst.0
@@ -152,13 +154,8 @@ fn of_days(run: &Run, exact: &Run, scale: &Scale) -> Errors {
         worst.all(MOVEMENT, day_movements(found), day_movements(exact), moved);
     }
     for (index, at) in pairs(&run.passes, &exact.passes, |pass| pass.pass) {
-        let on_ends = |pass: &PassRecord| [pass.upstream_force_n, pass.downstream_force_n];
-        worst.all(
-            AFTER,
-            on_ends(&run.passes[index]),
-            on_ends(&exact.passes[at]),
-            scale.force,
-        );
+        let (found, exact) = (&run.passes[index], &exact.passes[at]);
+        worst.all(AFTER, ends(found), ends(exact), scale.force);
     }
     worst.0
 }
@@ -169,6 +166,10 @@ fn pairs<T>(own: &[T], other: &[T], number: impl Fn(&T) -> u64) -> Vec<(usize, u
     let own = own.iter().enumerate();
     own.filter_map(|(index, item)| Some((index, same(number(item))?)))
         .collect()
+}
+
+fn ends(pass: &PassRecord) -> [f64; 2] {
+    [pass.upstream_force_n, pass.downstream_force_n]
 }
 
 fn forces(pass: &PassRecord) -> [f64; 3] {

@@ -42,10 +42,26 @@ pub fn twins(scene: &Scene, own: &Run) -> Twins {
     let finer = run(&finer).ok().filter(is_finer);
     Twins {
         stated: stated(own),
-        finer: finer.map(|finer| (errors(scene, own, &finer), stated(&finer))),
+        finer: finer.map(|finer| {
+            (
+                errors(scene, &sized(own.clone()), &sized(finer.clone())),
+                stated(&finer),
+            )
+        }),
         mirror: mirror(scene, own),
         larger: larger(scene, own),
     }
+}
+
+/// Without the signs of the largest forces on clamps during a pass: of a clamp that is pulled about as hard as it is pressed a finer run may
+/// show the other one.
+fn sized(mut run: Run) -> Run {
+    let during = run
+        .restraints
+        .iter_mut()
+        .flat_map(|clamp| &mut clamp.during_passes_n);
+    during.for_each(|force| *force = force.abs());
+    run
 }
 
 /// How far the answer `own` of a scene lies from that of its mirror image.

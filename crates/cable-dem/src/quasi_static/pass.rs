@@ -8,7 +8,7 @@ use super::QuasiStatic;
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::window::{self, Window};
 use crate::chain::{MAX_ROUNDING, MAX_ROUNDS, PRESSED};
-use crate::tuning::{BLOCK, UNBALANCED_SHARE, UNBALANCED_SUPPORT};
+use crate::tuning::{GROWN, UNBALANCED_SHARE, UNBALANCED_SUPPORT};
 use crate::{CableError, CableState, PassOutcome};
 
 /// Solves at most in which clamps change between sticking and sliding: a few are right at once.
@@ -32,14 +32,14 @@ impl QuasiStatic {
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
             let under = self.bounds.under(snapshot.node, passage.reach);
+            // A node is looked at once more where adhesion no longer reaches it.
+            let near = watched.hull(under);
             if step == 0 {
                 self.move_duct(&last, &snapshot, Some(self.bounds.free));
                 self.step_whole(&snapshot)?;
             } else {
-                // A node is looked at once more where adhesion no longer reaches it.
-                let strained = self.strained(&snapshot, watched.hull(under));
-                self.move_duct(&last, &snapshot, strained);
-                self.step_windows(&snapshot, strained, passage.first_point(&snapshot))?;
+                self.move_duct(&last, &snapshot, self.strained(&snapshot, near));
+                self.step_windows(&snapshot, near, passage.first_point(&snapshot))?;
             }
             (last, watched) = (snapshot, under);
             let vehicle = self.mesh.lattice_step() * position as f64;
@@ -89,20 +89,34 @@ impl QuasiStatic {
         state
     }
 
+    /// The part of a duct with bends, `near` the vehicle, that windows may take in of what begins to slip: around the first and the last
+    /// node whose friction exceeds the least limit.
+    fn strained(&self, snapshot: &Snapshot<'_>, near: Stretch) -> Option<Stretch> {
+        if self.bends.is_empty() {
+            return None;
+        }
+        let least = (1.0 + SLIPPING_SHARE) * self.cable.least_limit();
+        let exceeds = |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > least;
+        let mut nodes = near.nodes();
+        let lo = nodes.find(exceeds)?;
+        let hi = nodes.rfind(exceeds).unwrap_or(lo);
+        Some(
+            self.bounds
+                .widened(Stretch { lo, hi }, self.bounds.margin + GROWN),
+        )
+    }
+
     /// Brings loads, fixed ends and friction limits from the snapshot `last` to the next one. The cable presses on the bends with the
-    /// force that it had, where it moved, at supports and in the `strained` part. Returned: the largest change of a friction limit there, as
-    /// a share of it.
-    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, strained: Option<Stretch>) -> f64 {
+    /// force that it had, where it moved, at supports and in a `part`. Returned: the largest change of a friction limit there, as a share of it.
+    fn move_duct(&mut self, last: &Snapshot<'_>, snapshot: &Snapshot<'_>, part: Option<Stretch>) -> f64 {
         let ImplicitStep { chain, trial, .. } = &mut self.step;
         let r = &self.r;
         let u = |node| r[node] + last.adherent_at(node);
         let moved = self.moving.iter().map(|window| window.stretch);
         let held = self.supports.each.iter().map(|support| support.window);
-        // As far as the windows of what begins to slip.
-        let begun = strained.map(|part| self.bounds.widened(part, self.bounds.margin));
         let pressed = moved
             .chain(held)
-            .chain(begun)
+            .chain(part)
             .map(|part| self.bends.press_within(chain, part, u, self.thermal_force));
         let change = pressed.fold(0.0, f64::max);
         self.supports.load(snapshot, chain);
@@ -140,16 +154,17 @@ impl QuasiStatic {
         Err(CableError::of_step(error, f64::INFINITY))
     }
 
-    /// One step of the vehicle: solves the windows where the cable moves. It may begin to slip in the part that is `strained`; node 0 stands
-    /// at the point `first` of the lattice.
+    /// One step of the vehicle: solves the windows where the cable moves. It may begin to slip in `watched`; node 0 stands at the point
+    /// `first` of the lattice.
     fn step_windows(
         &mut self,
         snapshot: &Snapshot<'_>,
-        strained: Option<Stretch>,
+        watched: Stretch,
         first: usize,
     ) -> Result<(), CableError> {
         let mut windows = std::mem::take(&mut self.windows);
-        self.begin_windows(snapshot, strained, &mut windows);
+        self.begin_windows(snapshot, watched, &mut windows);
+        self.outcome.statistics.watched += watched.count();
         self.moving.clear();
         loop {
             for window in &mut windows {
@@ -197,41 +212,23 @@ impl QuasiStatic {
         Ok(solved)
     }
 
-    /// The part of `watched` in which friction may exceed its limit, in whole blocks of nodes; none if it cannot anywhere.
-    fn strained(&mut self, snapshot: &Snapshot<'_>, watched: Stretch) -> Option<Stretch> {
-        self.outcome.statistics.watched += watched.count();
-        let least = (1.0 + SLIPPING_SHARE) * self.cable.least_limit();
+    /// Finds the `windows` of a step: around what moved in the last one, what of `watched` begins to slip, and supports that are due.
+    fn begin_windows(&self, snapshot: &Snapshot<'_>, watched: Stretch, windows: &mut Vec<Window>) {
+        let (bounds, chain) = (self.bounds, &self.step.chain);
+        let above = |limit: f64| (1.0 + SLIPPING_SHARE) * limit;
+        let slips =
+            |&node: &usize| (self.g[node] + snapshot.adhesion[node]).abs() > above(chain.nodes()[node].limit);
         // Without a branch several nodes are looked at at once: a third of the time of a pass in which few slip.
-        let exceeds = |block: &Range<usize>| {
-            let pairs = self.g[block.clone()]
-                .iter()
-                .zip(&snapshot.adhesion[block.clone()]);
+        let least = above(self.cable.least_limit());
+        let may_slip = |block: Range<usize>| {
+            let pairs = self.g[block.clone()].iter().zip(&snapshot.adhesion[block]);
             pairs.fold(false, |any, (g, adhesion)| any | ((g + adhesion).abs() > least))
         };
-        let end = watched.hi + 1;
-        let mut blocks = (watched.lo..end)
-            .step_by(BLOCK)
-            .map(|from| from..(from + BLOCK).min(end));
-        let first = blocks.find(exceeds)?;
-        let last = blocks.rfind(exceeds).unwrap_or_else(|| first.clone());
-        Some(Stretch {
-            lo: first.start,
-            hi: last.end - 1,
-        })
-    }
-
-    /// Finds the `windows` of a step: around what moved in the last one, what begins to slip in the part that is `strained`, and supports that
-    /// are due.
-    fn begin_windows(&self, snapshot: &Snapshot<'_>, strained: Option<Stretch>, windows: &mut Vec<Window>) {
-        let (bounds, nodes) = (self.bounds, self.step.chain.nodes());
-        let slips = |&node: &usize| {
-            (self.g[node] + snapshot.adhesion[node]).abs() > (1.0 + SLIPPING_SHARE) * nodes[node].limit
-        };
         windows.clone_from(&self.moving);
-        let (mut from, end) = strained.map_or((0, 0), |part| (part.lo, part.hi + 1));
+        let (mut from, end) = (watched.lo, watched.hi + 1);
         let known = self.moving.iter().map(|part| (part.stretch.lo, part.stretch.hi));
         for (lo, hi) in known.chain([(end, end)]) {
-            window::slipping(from..lo.min(end), slips, |begun| {
+            window::slipping(from..lo.min(end), may_slip, slips, |begun| {
                 windows.push(Window::travelling(bounds.widened(begun, bounds.margin)));
             });
             from = from.max(hi + 1);

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use friction_chain::Stretch;
 
-use crate::tuning::GAP;
+use crate::tuning::{BLOCK, GAP};
 
 /// Where windows may lie, and how far beyond a disturbance they reach.
 #[derive(Debug, Clone, Copy)]
@@ -123,12 +123,23 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(&usize) -> bool, parts: &mu
     }
 }
 
-/// Finds the stretches of `nodes` that slip side by side.
-pub(super) fn slipping(nodes: Range<usize>, slips: impl Fn(&usize) -> bool, mut found: impl FnMut(Stretch)) {
+/// Finds the stretches of `nodes` that slip side by side, where a block of nodes `may_slip`.
+pub(super) fn slipping(
+    nodes: Range<usize>,
+    may_slip: impl Fn(Range<usize>) -> bool,
+    slips: impl Fn(&usize) -> bool,
+    mut found: impl FnMut(Stretch),
+) {
     let (mut from, end) = (nodes.start, nodes.end);
-    while let Some(lo) = (from..end).find(&slips) {
-        from = (lo..end).find(|node| !slips(node)).unwrap_or(end);
-        found(Stretch { lo, hi: from - 1 });
+    while from < end {
+        let mut block = from..(from + BLOCK).min(end);
+        from = block.end;
+        if may_slip(block.clone()) {
+            if let Some(lo) = block.find(&slips) {
+                from = (lo..end).find(|node| !slips(node)).unwrap_or(end);
+                found(Stretch { lo, hi: from - 1 });
+            }
+        }
     }
 }
 
