@@ -6,7 +6,9 @@ use std::sync::Mutex;
 use creepage::design::{DesignError, DesignOptions, Limits, Place, design};
 use creepage::measures::Study;
 use creepage::sweep::{Axis, Samples, Sweep, SweepError, SweepOptions};
-use creepage::{CalibrateOptions, Error, Progress, Reading, Readings, RunOptions, calibrate, run_with};
+use creepage::{
+    CalibrateOptions, Error, Progress, Reading, Readings, RunOptions, SceneFile, calibrate, run_with,
+};
 
 use crate::scenes::{upper, upper_file};
 
@@ -20,6 +22,27 @@ fn jumps(progress: Progress<'_>) -> Result<(), bool> {
     };
     let run = run_with(&upper(&["duct.length=20 m", "traffic.passes=1000000"]), &options);
     run.map(drop).map_err(|error| matches!(error, Error::Stopped))
+}
+
+/// Days whose traffic may begin with either vehicle.
+fn days(progress: Progress<'_>) -> Result<(), bool> {
+    let file = SceneFile::read("examples/scenes/two-directions.toml").expect("a file");
+    let heat = ["heat.daily_swing=15 K", "heat.expansion=17e-6 /K"];
+    let traffic = [
+        "duct.length=12 m",
+        "traffic.passes=205",
+        "traffic.per_day=41",
+        "solver.method=pass-law",
+    ];
+    let file = file.with(&[heat.as_slice(), &traffic].concat());
+    let scene = file.and_then(|file| file.scene()).expect("a scene");
+    let options = RunOptions {
+        progress,
+        ..RunOptions::default()
+    };
+    run_with(&scene, &options)
+        .map(drop)
+        .map_err(|error| matches!(error, Error::Stopped))
 }
 
 fn fit(progress: Progress<'_>) -> Result<(), bool> {
@@ -88,8 +111,9 @@ fn reported(compute: Computation, last: usize) -> (Vec<f64>, Result<(), bool>) {
 #[test]
 fn every_long_computation_may_be_stopped() {
     // Where several threads compute, some may say so once more.
-    let computations: [(Computation, bool); 5] = [
+    let computations: [(Computation, bool); 6] = [
         (jumps, true),
+        (days, true),
         (fit, true),
         (search, false),
         (comparison, false),
@@ -115,4 +139,12 @@ fn the_progress_of_jumps_never_falls() {
     assert_eq!(done, Ok(()));
     assert!(shares.is_sorted() && shares[0] < 0.05);
     assert!(shares.last().is_some_and(|last| (0.5..=1.0).contains(last)));
+}
+
+#[test]
+fn the_progress_of_days_never_falls_and_ends_with_their_error() {
+    let (shares, done) = reported(days, usize::MAX);
+    assert_eq!(done, Ok(()));
+    assert!(shares.is_sorted());
+    assert_eq!(shares.last(), Some(&1.0));
 }

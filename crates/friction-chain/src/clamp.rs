@@ -5,6 +5,8 @@
 
 /// A holding force is exceeded from this share beyond it on: rounding is not.
 const ROUNDING: f64 = 1e-9;
+/// Rounding of a displacement that was solved for, as a share of it. The spring multiplies it: it may be all that a weak clamp holds.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// A clamp on one node.
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +83,8 @@ impl Clamp {
         let before = self.slides;
         if self.is_stuck() {
             let force = self.force(u);
-            if force.abs() > (1.0 + ROUNDING) * self.holds {
+            let rounded = ROUNDED * self.stiffness * u.abs();
+            if force.abs() > (1.0 + ROUNDING) * self.holds + rounded {
                 self.slides = force.signum();
             }
         } else if (self.slipped(u) - self.slip) * self.slides < 0.0 {
@@ -103,5 +106,25 @@ impl Clamp {
         let (before, after) = (self.slip, self.slipped(u));
         self.slip = after;
         self.holds * (after - before).abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clamp_that_bears_all_it_holds_is_not_released_by_the_rounding_of_a_displacement() {
+        // It has slipped by 12 mm; rounding of the last digits times its stiffness is some 1e-7 of what it holds.
+        let (stiffness, holds, slip) = (3e7_f64, 1e-3, 12e-3);
+        let mut clamp = Clamp {
+            slip,
+            ..Clamp::new(5, stiffness, holds)
+        };
+        let borne = slip + holds / stiffness;
+        let rounded = borne * (1.0 + 3.0 * f64::EPSILON);
+        assert!(clamp.force(rounded) > (1.0 + ROUNDING) * holds);
+        assert!(!clamp.correct(rounded) && clamp.is_stuck());
+        assert!(clamp.correct(slip + 1.001 * holds / stiffness) && !clamp.is_stuck());
     }
 }

@@ -59,6 +59,12 @@ impl<'a> Progress<'a> {
         now
     }
 
+    /// The progress of work that is no part of the whole: it may be stopped, and the share done stays.
+    #[must_use]
+    pub(crate) fn still(self) -> Self {
+        self.part(0.0, 0.0)
+    }
+
     /// Reports the share done.
     ///
     /// # Errors

@@ -55,7 +55,8 @@ pub fn solve(
         known_error: None,
     };
     let mut solved = meshes.refine(first, options.progress.part(FINDING, 1.0), error)?;
-    solved.error.days = error.days + error_of_days(&days, solved.level, &solved.passes)?;
+    let progress = options.progress.part(1.0, 1.0);
+    solved.error.days = error.days + error_of_days(&days, solved.level, &solved.passes, progress)?;
     solved.statistics = *work.borrow();
     let broken = days.broken_sequence();
     solved.warnings.extend(broken.map(|(_, warning)| warning));
@@ -76,9 +77,9 @@ fn first_level(plan: &Plan<'_>) -> usize {
 }
 
 /// The days on a level that is coarse relative to `level`, if there is one, and that level.
-fn coarse(days: &DaySimulator<'_>, level: usize) -> Result<(usize, Passes), Error> {
+fn coarse(days: &DaySimulator<'_>, level: usize, progress: Progress<'_>) -> Result<(usize, Passes), Error> {
     on_coarse_level(&days.plan.levels, level, COARSER, |level| {
-        days.simulate(days.plan.scene, level, None, Progress::default(), false)
+        days.simulate(days.plan.scene, level, None, progress, false)
     })
 }
 
@@ -119,7 +120,7 @@ fn few_periods(
     if days.day()?.is_simulated() {
         return Ok(Shares::default());
     }
-    let (level, mut fewer) = coarse(days, level)?;
+    let (level, mut fewer) = coarse(days, level, progress.next(0.5))?;
     let mut before = f64::INFINITY;
     loop {
         days.periods_a_day *= 2;
@@ -140,7 +141,12 @@ fn few_periods(
 /// What jumps over days leave wrong in those of `finest`, another beginning of the sequence, and a
 /// period that stands in for the traffic: what they change in days on a mesh that is coarse
 /// relative to `level`.
-fn error_of_days(days: &DaySimulator<'_>, level: usize, finest: &Passes) -> Result<Shares, Error> {
+fn error_of_days(
+    days: &DaySimulator<'_>,
+    level: usize,
+    finest: &Passes,
+    progress: Progress<'_>,
+) -> Result<Shares, Error> {
     let others = days.plan.period.others.iter().filter(|_| !days.every_pass);
     let others = others.map(|(vehicles, share)| (DaySimulator { vehicles, ..*days }, *share));
     let mut others: Vec<(DaySimulator<'_>, f64)> = others.collect();
@@ -154,9 +160,9 @@ fn error_of_days(days: &DaySimulator<'_>, level: usize, finest: &Passes) -> Resu
     if !are_jumped && others.is_empty() {
         return Ok(Shares::default());
     }
-    let (level, own) = coarse(days, level)?;
+    let (level, own) = coarse(days, level, progress)?;
     let simulate = |days: &DaySimulator<'_>, like: Option<&Passes>| {
-        days.simulate(days.plan.scene, level, like, Progress::default(), false)
+        days.simulate(days.plan.scene, level, like, progress, false)
     };
     let mut error = Shares::default();
     if are_jumped {

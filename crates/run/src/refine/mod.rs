@@ -158,7 +158,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         if road::approach(plan.scene, motions)? < road::needed(plan.scene, motions)? {
             let mut far = plan.scene.clone();
             far.solver.approach = None;
-            let farther = simulation.simulate(&far, level, Some(&passes), Progress::default(), false)?;
+            let farther = simulation.simulate(&far, level, Some(&passes), progress.still(), false)?;
             error.road = simulation.difference(&passes, &farther);
         }
         let mesh = plan.levels.mesh(level)?;
