@@ -47,7 +47,7 @@ const HEATED: [&str; 6] = [
     "traffic.per_day=480",
     "traffic.years=20",
 ];
-const SAMPLES: usize = 1000;
+const SAMPLES: usize = 100;
 /// Passes timed together, after some that fill the solver's memory.
 const PASSES: usize = 10;
 

@@ -9,7 +9,7 @@ use creepage_validation::{Failure, charts, file, occurrence, stability, whole_ra
 /// A name and what draws it into a folder.
 type Entry = (&'static str, fn(&Path) -> Result<(), Failure>);
 
-const ALL: [Entry; 16] = [
+const ALL: [Entry; 17] = [
     ("ground", charts::ground::run),
     ("cable", charts::cable::run),
     ("whole", charts::whole::run),
@@ -18,6 +18,7 @@ const ALL: [Entry; 16] = [
     ("cost", charts::cost::run),
     ("aims", charts::aims::run),
     ("bends", stability::bends::run),
+    ("sections", stability::sections::run),
     ("explicit", stability::explicit::run),
     ("implicit", stability::implicit::run),
     ("fem", stability::fem::run),

@@ -14,12 +14,12 @@ use crate::map::{DEPTH, Grid, decades};
 use crate::{Failure, largest};
 
 /// Nodes a depth.
-const NODES: f64 = 6.0;
+pub const NODES: f64 = 6.0;
 /// How many times shorter the steps of the reference are.
 const SHORTER: f64 = 16.0;
 /// Upper ends of the classes, and their names.
 const ENDS: [f64; 4] = [5e-4, 2e-3, 5e-3, 2e-2];
-const CLASSES: [&str; 5] = [
+pub const CLASSES: [&str; 5] = [
     "within 0.05 %",
     "0.05 to 0.2 %",
     "0.2 to 0.5 %",
@@ -36,7 +36,7 @@ const STRAIGHT: f64 = 1e12;
 /// What a cell shows.
 #[derive(Debug, Clone, Copy)]
 pub struct Cell {
-    /// Difference of what the bend changes, as a share of the largest force.
+    /// Difference of what the bend changes, or of the forces, as a share of the largest force.
     pub error: f64,
     /// The largest force \[N\].
     pub force: f64,
@@ -44,10 +44,27 @@ pub struct Cell {
 
 /// The scene of one cell, with steps so many times shorter than half a node spacing.
 pub fn scene(radius: f64, friction: f64, stiffness: f64, step: f64) -> Result<Scene, creepage::SceneError> {
+    duct(
+        &format!("bend_radius = {radius}"),
+        friction,
+        stiffness,
+        NODES,
+        step,
+    )
+}
+
+/// A duct of 30 m with this key in its middle third, on so many nodes a depth.
+pub fn duct(
+    key: &str,
+    friction: f64,
+    stiffness: f64,
+    nodes: f64,
+    step: f64,
+) -> Result<Scene, creepage::SceneError> {
     let weight = 108.8;
     let text = format!(
         "duct = {{ length = 30, depth = {DEPTH} }}
-route = [{{ length = 10 }}, {{ length = 10, bend_radius = {radius} }}, {{ }}]
+route = [{{ length = 10 }}, {{ length = 10, {key} }}, {{ }}]
 ground = {{ layers = [{{ young_modulus = 8e8, poisson_ratio = 0.4 }}] }}
 cable = {{ weight = {weight}, axial_stiffness = {stiffness} }}
 friction = {{ dynamic_coefficient = {friction}, shape_factor = {} }}
@@ -56,14 +73,14 @@ vehicles = [{{ speed = 10, load = 196133 }}]
 traffic = {{ passes = 20 }}
 solver = {{ method = \"quasi-static\", node_spacing = {}, vehicle_step = {}, tolerance = 0.5 }}",
         2e8 / (friction * weight),
-        DEPTH / NODES,
-        0.5 * DEPTH / NODES / step,
+        DEPTH / nodes,
+        0.5 * DEPTH / nodes / step,
     );
     Scene::from_toml("cell", &text)
 }
 
 /// Forces after the passes.
-fn forces(run: &Run) -> Vec<f64> {
+pub fn forces(run: &Run) -> Vec<f64> {
     let forces = run
         .passes
         .iter()
@@ -103,6 +120,13 @@ pub fn map(radii: usize, frictions: usize, stiffness: f64) -> Result<Grid<Cell>,
     Grid::fill(radii, frictions, cell)
 }
 
+/// The class of a cell.
+pub fn class(cell: &Cell) -> usize {
+    ENDS.iter()
+        .position(|end| cell.error <= *end)
+        .unwrap_or(ENDS.len())
+}
+
 /// Draws the map.
 pub fn run(out: &Path) -> Result<(), Failure> {
     let mut figure = Panels::new("What a bend changes of the forces: steps of half a node spacing, against steps sixteen times shorter")
@@ -125,11 +149,6 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             map.x_axis("radius of the bend, m"),
             map.y_axis("friction coefficient"),
         ];
-        let class = |cell: &Cell| {
-            ENDS.iter()
-                .position(|end| cell.error <= *end)
-                .unwrap_or(ENDS.len())
-        };
         figure = figure.with(map.panel(&name, axes, CLASSES, class));
         table += &map.lines(|radius, friction, cell| {
             format!(

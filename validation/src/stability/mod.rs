@@ -8,4 +8,5 @@ pub mod fem;
 pub mod heat;
 pub mod implicit;
 pub mod long_term;
+pub mod sections;
 pub mod sigmoid;
