@@ -28,6 +28,8 @@ import openseespy.opensees as ops
 ROOT = Path(__file__).resolve().parents[2]
 SCENE = ROOT / "examples/scenes/full-scale-upper.toml"
 TABLE = ROOT / "docs/charts/opensees.csv"
+# The last commit of these names the program, as in the other tables.
+SOURCES = ["src", "crates/*/src/*", "validation/src", "Cargo.lock"]
 
 # The scene. The duct's motion is compared with the program's, the rest by the forces on the same mesh.
 LENGTH, DEPTH = 30.0, 1.2  # m
@@ -120,6 +122,11 @@ def opensees(density, steps_per_node):
     return forces, PASSES * steps, PASSES * steps * len(nodes)
 
 
+def said(*command):
+    """What a command prints."""
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+
+
 def creepage(program, command, *settings):
     """What the program answers as JSON."""
     arguments = [program, command, str(SCENE), "--json"]
@@ -174,7 +181,7 @@ def main():
 
     header = ["series", "knob", "knob_unit", "nodes_a_depth", "steps", "node_updates", "error_share_of_force", "processor_seconds"]
     with TABLE.open("w", newline="") as file:
-        file.write(f"# {subprocess.run([program, '--version'], capture_output=True, text=True, check=True).stdout}")
+        file.write(f"# {said(program, '--version')}, commit {said('git', 'log', '-1', '--format=%h', '--', *SOURCES)}\n")
         table = csv.writer(file, lineterminator="\n")
 
         def write(series, knob, unit, density, steps, nodes, error, seconds, forces):
