@@ -6,9 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use creepage::scene::key_meanings;
+
+use crate::command::{answer, command};
 
 /// Ends what is written by hand.
 const MARK: &str = "<!-- What follows is generated: see tests/generated_pages.rs. -->\n";
@@ -48,14 +49,9 @@ fn the_page_on_scenes_has_every_key_with_its_meaning() {
 
 /// What a command says of itself, in lines of 140 characters, without the exit status, which ends every help.
 fn help(arguments: &[&str]) -> String {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
-        .args(arguments)
-        .arg("--help")
-        .env("COLUMNS", "140")
-        .stdin(Stdio::null())
-        .output()
-        .expect("the command");
-    let help = String::from_utf8(output.stdout).expect("UTF-8");
+    let mut command = command("");
+    command.args(arguments).arg("--help").env("COLUMNS", "140");
+    let (_, help, _) = answer(command.output().expect("the command"));
     let (help, _) = help.split_once("\n\nExit status: ").expect("an exit status");
     let lines = help.lines().map(str::trim_end);
     lines.collect::<Vec<_>>().join("\n")

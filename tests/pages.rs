@@ -8,9 +8,7 @@ use crate::command::{SERIES, UPPER, answer, command, folder, json, list, number,
 /// Blocks of a page with their languages. Fences open and close in turn: every second part is a block, its language in the first line.
 fn blocks(page: &str) -> Vec<(&str, &str)> {
     let fences = page.split("```").skip(1).step_by(2);
-    fences
-        .map(|block| block.split_once('\n').expect("a block"))
-        .collect()
+    fences.filter_map(|block| block.split_once('\n')).collect()
 }
 
 /// The scene that the commands of the pages read.
@@ -40,14 +38,11 @@ fn the_commands_of_the_pages_with_all_passes() {
 }
 
 fn pages(test: &str, said: impl Fn(&str) -> String) {
-    let docs = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")).expect("docs/");
-    let docs = docs.map(|entry| format!("docs/{}", entry.expect("an entry").file_name().display()));
-    let mut pages: Vec<String> = docs
-        .filter(|page| Path::new(page).extension().is_some_and(|end| end == "md"))
-        .collect();
-    pages.push("README.md".to_owned());
+    let docs = fs::read_dir("docs").expect("docs/");
+    let docs = docs.map(|entry| entry.expect("an entry").path().display().to_string());
+    let docs = docs.filter(|page| page.strip_suffix(".md").is_some());
     let mut run = 0;
-    for page in pages {
+    for page in docs.chain(["README.md".to_owned()]) {
         let folder = folder(&format!("{test}/{page}"));
         fs::write(folder.join("my-duct.toml"), read(MY_DUCT)).expect("a copy");
         // Commands on files that come with the project find them where they stand.
@@ -94,14 +89,17 @@ fn short(line: &str) -> String {
         return words.to_owned();
     }
     // Years count before passes.
-    let mut days = words
-        .replace("--years 20 ", "--days 1 ")
-        .replace("--days 182 ", "--days 2 ")
-        .replace("--days 183 ", "--days 3 ");
-    for per_day in [800, 2000] {
-        days = days.replace(&format!("--trucks-per-day {per_day}"), "--trucks-per-day 20");
+    let mut few = words.to_owned();
+    for (many, less) in [
+        ("--years 20 ", "--days 1 "),
+        ("--days 182 ", "--days 2 "),
+        ("--days 183 ", "--days 3 "),
+        ("--trucks-per-day 800", "--trucks-per-day 20"),
+        ("--trucks-per-day 2000", "--trucks-per-day 20"),
+    ] {
+        few = few.replace(many, less);
     }
-    format!("{days} --set traffic.passes=12")
+    few + " --set traffic.passes=12"
 }
 
 /// Lines of a block of `sh` that call the program, without its name.
@@ -146,11 +144,8 @@ fn alike(shown: &str, printed: &str) -> bool {
     let [shown, printed] = [shown, printed].map(|line| line.split_whitespace().collect::<Vec<_>>());
     let same = |index: usize| {
         let (a, b) = (shown[index], printed[index]);
-        let share = if shown.get(index + 1) == Some(&"ms") {
-            0.5
-        } else {
-            2e-3
-        };
+        let is_measured = shown.get(index + 1) == Some(&"ms");
+        let share = if is_measured { 0.5 } else { 2e-3 };
         match (a.parse::<f64>(), b.parse::<f64>()) {
             (Ok(x), Ok(y)) => (x - y).abs() <= (share * y.abs()).max(1.01 * last_decimal(a)),
             _ => a == b,

@@ -5,11 +5,11 @@ use std::fs;
 use super::xml::{Element, parse};
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::TrafficVehicle;
-use creepage::{Limits, PassRecord, Place, Readings, Scene};
+use creepage::{PassRecord, Place, Readings, Scene};
 use serde_json::Value;
 
 use crate::command::{UPPER, answer, assert_says, command, folder, json, list, number as value, output};
-use crate::scenes::{run as run_of, upper};
+use crate::scenes::{largest, run as run_of, upper};
 
 const FIGURES: [&str; 8] = [
     "Cross-section of the road",
@@ -26,6 +26,9 @@ const LAYERED: [&str; 2] = [
     r#"ground.layers=[{thickness="50 mm", young_modulus="4000 MPa", poisson_ratio=0.35}, {young_modulus="800 MPa", poisson_ratio=0.4}]"#,
 ];
 
+const CLAMPS: &str =
+    r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="50 kN/m"}]"#;
+
 /// A scene of six passes.
 fn scene(overrides: &[&str]) -> Scene {
     upper(&[&["traffic.passes=6"], overrides].concat())
@@ -35,9 +38,13 @@ fn report(scene: &Scene, options: &ReportOptions<'_>) -> Report {
     Report::new(scene, options).expect("a report")
 }
 
+fn html(scene: &Scene) -> String {
+    report(scene, &ReportOptions::default()).to_html()
+}
+
 /// The page for a scene of six passes.
 fn page(overrides: &[&str]) -> String {
-    report(&scene(overrides), &ReportOptions::default()).to_html()
+    html(&scene(overrides))
 }
 
 /// The elements of a page, which has to be well-formed.
@@ -101,17 +108,14 @@ fn the_numbers_are_those_of_the_run() {
     let run = json("run UPPER");
     let close = |shown: &str, found: &Value, factor: f64, half_digit: f64| {
         let (shown, found) = (number(shown), factor * value(found));
-        assert!(
-            (shown - found).abs() <= half_digit * 1.001,
-            "{shown} where the run says {found}"
-        );
+        let is_close = (shown - found).abs() <= half_digit * 1.001;
+        assert!(is_close, "{shown} where the run says {found}");
     };
     let elements = elements(&page);
     let shown = elements.iter().filter(|element| element.get("class") == "value");
     let shown: Vec<&str> = shown.map(|element| element.text.as_str()).collect();
     let passes = list(&run["passes"]);
-    let peaks = passes.iter().map(|pass| value(&pass["downstream_peak_n"]));
-    let largest = peaks.fold(0.0, f64::max);
+    let largest = largest(passes.iter().map(|pass| value(&pass["downstream_peak_n"])));
     let cards = [
         (run["saturation"]["force_n"].clone(), 1.0, 0.05),
         (run["saturation"]["passes_to_95_percent"].clone(), 1.0, 0.0),
@@ -138,16 +142,8 @@ fn the_numbers_are_those_of_the_run() {
     let parts = table(&page, "part | error");
     close(&parts[0][1], &run["error_estimate"]["parts"]["mesh"], 100.0, 5e-3);
     // Table 1 of the paper.
-    let numbers = [
-        "30 m",
-        "1.2 m",
-        "108.8 N/m",
-        "8.01 MN",
-        "0.25",
-        "27.2 N/m",
-        "200 passes",
-    ];
-    assert_says(&points.join("\n"), &numbers);
+    let numbers = "30 m; 1.2 m; 108.8 N/m; 8.01 MN; 0.25; 27.2 N/m; 200 passes";
+    assert_says(&points.join("\n"), &numbers.split("; ").collect::<Vec<_>>());
     let ground = table(&page, "ground at depth | Young’s modulus | Poisson’s ratio");
     assert_eq!(ground, [["everywhere", "800 MPa", "0.4"]]);
 }
@@ -177,9 +173,8 @@ fn every_candidate_is_shown_with_its_fate() {
 fn all_figures_are_there_with_dark_colours_and_a_page_loads_nothing() {
     let page = page(&[]);
     let all = elements(&page);
-    let titles = all
-        .windows(2)
-        .filter(|pair| pair[0].name == "svg" && pair[1].name == "title");
+    let is_title = |pair: &&[Element]| pair[0].name == "svg" && pair[1].name == "title";
+    let titles = all.windows(2).filter(is_title);
     assert!(titles.map(|pair| pair[1].text.as_str()).eq(FIGURES));
     assert!(!page.contains("could not be drawn"));
     for element in &all {
@@ -191,9 +186,8 @@ fn all_figures_are_there_with_dark_colours_and_a_page_loads_nothing() {
         }
     }
     // The name of a dialect, not an address.
-    let page = page
-        .to_lowercase()
-        .replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    let dialect = "xmlns=\"http://www.w3.org/2000/svg\"";
+    let page = page.to_lowercase().replace(dialect, "");
     assert!(page.contains("default-src 'none'; style-src 'unsafe-inline'"));
     for loads in "<script <link <img <iframe <object src= href= url( @import http:// https://".split(' ') {
         assert!(!page.contains(loads), "{loads}");
@@ -202,36 +196,23 @@ fn all_figures_are_there_with_dark_colours_and_a_page_loads_nothing() {
 
 #[test]
 fn figures_and_tables_are_over_time_where_the_vehicles_a_day_are_known() {
+    let heads = "after pass | time | force downstream, N | moved upstream, mm";
     for (years, per_day, label) in [
-        ("20", "800", "1 month"),
-        ("100", "3", "100 years"),
-        ("0.01", "10000", "1 h"),
-        ("2", "0.7", "days"),
-        ("0.001", "1000", "hours"),
+        (20.0, 800.0, "1 month"),
+        (100.0, 3.0, "100 years"),
+        (0.01, 10000.0, "1 h"),
+        (2.0, 0.7, "days"),
+        (0.001, 1000.0, "hours"),
     ] {
-        let traffic = [
-            format!("traffic.years={years}"),
-            format!("traffic.per_day={per_day}"),
-        ];
-        let set = [
-            "traffic.passes=",
-            &traffic[0],
-            &traffic[1],
-            "duct.length=8 m",
-            "solver.tolerance=0.1",
-        ];
-        let page = report(&upper(&set), &ReportOptions::default()).to_html();
+        let traffic = format!("traffic={{ years = {years}, per_day = {per_day} }}");
+        let page = html(&upper(&[&traffic, "duct.length=8 m", "solver.tolerance=0.1"]));
         let all = elements(&page);
         let labels = texts(&all, "text");
-        let case = format!("{years} years, {per_day} a day");
         for text in ["Force against time", label] {
-            assert!(labels.contains(&text), "{case}: {labels:?}");
+            assert!(labels.contains(&text), "{traffic}: {labels:?}");
         }
-        assert!(!page.contains("could not be drawn"), "{case}");
-        table(
-            &page,
-            "after pass | time | force downstream, N | moved upstream, mm",
-        );
+        assert!(!page.contains("could not be drawn"), "{traffic}");
+        table(&page, heads);
     }
 }
 
@@ -257,10 +238,8 @@ fn texts_of_the_user_stay_texts() {
 /// A load cell's table of six passes, each reading made from its record, and further lines.
 fn cell(reading: impl Fn(&PassRecord) -> f64, more: &str) -> Readings {
     let run = run_of(&scene(&[]));
-    let rows = run
-        .passes
-        .iter()
-        .map(|record| format!("{},{},5\n", record.pass, reading(record)));
+    let row = |record: &PassRecord| format!("{},{},5\n", record.pass, reading(record));
+    let rows = run.passes.iter().map(row);
     let csv = format!("pass,force_n,sigma_n\n{}{more}", rows.collect::<String>());
     Readings::from_csv("cell.csv", csv.as_bytes()).expect("readings")
 }
@@ -268,22 +247,18 @@ fn cell(reading: impl Fn(&PassRecord) -> f64, more: &str) -> Readings {
 #[test]
 fn readings_are_drawn_and_compared() {
     // Ten newtons above what is computed, one reading beyond the passes, and an overload.
-    let readings = cell(
-        |record| record.downstream_force_n + 10.0,
-        "9,500,5\n10,9.9e37,5\n",
-    );
+    let higher = |record: &PassRecord| record.downstream_force_n + 10.0;
+    let readings = cell(higher, "9,500,5\n10,9.9e37,5\n");
     let options = ReportOptions {
         readings: Some(&readings),
         ..ReportOptions::default()
     };
     let with = report(&scene(&[]), &options).to_html();
-    let said = [
-        "7 readings",
-        "of 6 of them: mean 10.0 N",
-        "10.0 N, largest reading 500.0 N",
-    ];
-    assert_says(&with, &said);
-    assert_says(&with, &["left out: pass 10 (line 9)"]);
+    let sizes = ["of 6 of them: mean 10.0 N", "10.0 N, largest reading 500.0 N"];
+    assert_says(
+        &with,
+        &[&sizes[..], &["7 readings", "left out: pass 10 (line 9)"]].concat(),
+    );
     let circles = |page: &str| {
         let all = elements(page);
         let drawn = figure(&all, "Force against passes").iter();
@@ -307,18 +282,12 @@ fn readings_are_drawn_and_compared() {
 
 #[test]
 fn every_clamp_has_its_force_and_rows_their_vehicle() {
-    let clamps =
-        r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="5 MN/m"}]"#;
-    let mut scene = scene(&[clamps, "ends.downstream.spring=1 MN/m"]);
+    let mut scene = scene(&[CLAMPS, "ends.downstream.spring=1 MN/m"]);
     let mut other = TrafficVehicle::point("back", 1e5, 10.0);
     (scene.vehicles[0].share, other.share) = (0.75, 0.25);
     scene.vehicles.push(other);
-    let mut limits = Limits::default();
-    limits.downstream.movement_m = Some(1.0);
-    let options = ReportOptions {
-        limits,
-        ..ReportOptions::default()
-    };
+    let mut options = ReportOptions::default();
+    options.limits.downstream.movement_m = Some(1.0);
     let report = report(&scene, &options);
     let (page, run) = (report.to_html(), report.run());
     let largest = |place: f64| run.largest(Place::Clamp(place), creepage::Limited::Force);
@@ -340,27 +309,22 @@ fn every_clamp_has_its_force_and_rows_their_vehicle() {
 /// No force at all; both ends free; a lane beside the duct; cables in trefoil; more passes than can be computed one by one.
 #[test]
 fn other_scenes_have_their_pages() {
-    let trefoil = ["duct.inner_diameter=200 mm", "cable.diameter=67 mm"];
+    let trefoil = "duct.inner_diameter=200 mm; cable.diameter=67 mm; cable.arrangement=trefoil";
     for (overrides, said) in [
-        (&["friction.dynamic_coefficient=0"][..], "no friction"),
-        (&["ends.downstream=free"], "largest compression in the cable"),
-        (&["duct.lateral_offset=2 m"], "2 m right of the duct"),
-        (&["cable.arrangement=trefoil-lower"], "1.736 times its weight"),
-        (&["cable.arrangement=trefoil-upper"], "compute the others too"),
+        ("friction.dynamic_coefficient=0", "no friction"),
+        ("ends.downstream=free", "largest compression in the cable"),
+        ("duct.lateral_offset=2 m", "2 m right of the duct"),
+        (&format!("{trefoil}-lower"), "1.736 times its weight"),
+        (&format!("{trefoil}-upper"), "compute the others too"),
         (
-            &["traffic.passes=2000000", "solver.tolerance=0.05"],
+            "traffic.passes=2000000; solver.tolerance=0.05",
             "2\u{a0}000\u{a0}000 passes",
         ),
     ] {
-        let bundle = if overrides[0].contains("trefoil") {
-            &trefoil[..]
-        } else {
-            &[]
-        };
-        let page = page(&[bundle, overrides].concat());
+        let page = page(&overrides.split("; ").collect::<Vec<_>>());
         elements(&page);
         assert_says(&page, &[said]);
-        assert!(!page.contains("could not be drawn"), "{overrides:?}");
+        assert!(!page.contains("could not be drawn"), "{overrides}");
     }
 }
 
@@ -409,7 +373,7 @@ fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
     (other.direction, other.lateral_offset) = (ground_field::Direction::Reverse, -3.0);
     (scene.vehicles[0].share, other.share) = (0.75, 0.25);
     scene.vehicles.push(other);
-    let all = elements(&report(&scene, &ReportOptions::default()).to_html());
+    let all = elements(&html(&scene));
     let drawing = figure(&all, "Cross-section of the road");
     let words = texts(drawing, "text");
     assert!(words.contains(&"duct, 3 m deep"), "{words:?}");
@@ -439,9 +403,7 @@ fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
 
 #[test]
 fn the_side_view_has_clamps_at_their_places_and_ends_where_the_duct_does() {
-    let clamps =
-        r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="50 kN/m"}]"#;
-    let page = report(&scene(&[clamps, "duct.slope=-0.02"]), &ReportOptions::default()).to_html();
+    let page = page(&[CLAMPS, "duct.slope=-0.02"]);
     let all = elements(&page);
     let drawing = figure(&all, "Along the duct");
     let (words, points) = (texts(drawing, "text"), texts(&all, "li"));

@@ -11,41 +11,22 @@
 mod devtools;
 
 use std::fs;
-use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::{Dimension, TrafficVehicle, Unit};
-use creepage::{Readings, Scene, Units};
-use serde_json::{Value, json};
+use creepage::{Readings, Scene, SceneFile, Units};
+use ground_field::Direction;
+use serde_json::Value;
 
-use devtools::Browser;
+use devtools::{Browser, CONTRAST_OF, DESK, LEAST_CONTRAST, PHONE};
 
-const PHONE: u32 = 390;
-const DESK: u32 = 1200;
 /// A4 without its margins of 15 mm, at 96 px an inch.
 const SHEET: u32 = 680;
 /// Smallest text of a figure that is read on a phone \[px\].
 const SMALLEST_TEXT: f64 = 10.0;
-/// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
-const LEAST_CONTRAST: f64 = 4.5;
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// What the page measures of itself.
-const MEASURE: &str = r#"(() => {
-  const channels = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((c) => {
-    const share = c / 255;
-    return share <= 0.03928 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
-  });
-  const luminance = (colour) => {
-    const [red, green, blue] = channels(colour);
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-  };
-  const contrast = (one, other) => {
-    const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
-    return (high + 0.05) / (low + 0.05);
-  };
+const MEASURE: &str = r#"
   const touch = (a, b) =>
     a.left + 1 < b.right - 1 && b.left + 1 < a.right - 1 && a.top + 1 < b.bottom - 1 && b.top + 1 < a.bottom - 1;
   const ground = getComputedStyle(document.body).backgroundColor;
@@ -74,8 +55,7 @@ const MEASURE: &str = r#"(() => {
     width: innerWidth, scroll: root.scrollWidth, room: root.clientWidth,
     dark: matchMedia("(prefers-color-scheme: dark)").matches, figures, folded: folded.length, unfolded,
     contrast: Math.min(...words.map((word) => contrast(getComputedStyle(word).color, ground))),
-  };
-})()"#;
+  };"#;
 
 /// What the browser saw of a page.
 struct Seen {
@@ -85,30 +65,18 @@ struct Seen {
 
 /// Shows `page` on a screen of `width` px.
 fn show(page: &str, width: u32, dark: bool) -> Seen {
-    static COUNT: AtomicUsize = AtomicUsize::new(0);
-    let number = COUNT.fetch_add(1, Ordering::Relaxed);
-    let name = format!("report_in_browser/{}-{number}", std::process::id());
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(&folder).expect("a folder");
+    let (mut browser, folder) = Browser::open("report_in_browser", width, dark);
     let file = folder.join("page.html");
     fs::write(&file, page).expect("the page");
-    let mut browser = Browser::start(&folder);
-    browser.size(width, 844);
-    browser.media("prefers-color-scheme", if dark { "dark" } else { "light" });
-    let address = format!("file://{}", file.display());
-    browser.call("Page.navigate", &json!({ "url": address }));
-    let begun = Instant::now();
     let is_there = "document.readyState === 'complete' && location.protocol === 'file:'";
-    while browser.value(is_there) != json!(true) {
-        assert!(begun.elapsed() < PATIENCE, "the page does not come");
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    let result = browser.value(MEASURE);
-    let console = browser
-        .complaints()
+    browser.go(&format!("file://{}", file.display()), is_there);
+    let result = browser.value(&format!("(() => {{{CONTRAST_OF}{MEASURE}}})()"));
+    let complaints = browser.complaints();
+    let console = complaints
         .iter()
         .map(|event| format!("CONSOLE {event}"))
         .collect();
+    drop(browser);
     let _ = fs::remove_dir_all(&folder);
     Seen { result, console }
 }
@@ -117,63 +85,43 @@ fn show(page: &str, width: u32, dark: bool) -> Seen {
 fn faults(page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
     let Seen { result, console } = show(page, width, dark);
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-    let mut faults = console;
-    let mut check = |holds: bool, fault: String| {
-        if !holds {
-            faults.push(fault);
-        }
-    };
-    check(
-        number(&result["width"]) == f64::from(width),
-        format!("the page is {} px wide", result["width"]),
-    );
-    check(
-        result["dark"] == dark,
-        format!("dark is {}, asked {dark}", result["dark"]),
-    );
-    check(
-        number(&result["scroll"]) <= number(&result["room"]),
-        format!(
-            "{} px of content in {} px scroll sideways",
-            result["scroll"], result["room"]
-        ),
-    );
-    check(
-        number(&result["contrast"]) >= LEAST_CONTRAST,
-        format!("contrast of words {}", result["contrast"]),
-    );
+    let of = |name: &str| number(&result[name]);
     let seen = result["figures"].as_array().expect("a list");
-    check(seen.len() == figures, format!("{} figures", seen.len()));
+    let wide = f64::from(width);
+    #[rustfmt::skip]
+    let mut checks = vec![
+        (of("width") == wide, format!("the page is {} px wide", result["width"])),
+        (result["dark"] == dark, format!("dark is {}, asked {dark}", result["dark"])),
+        (of("scroll") <= of("room"), format!("{} px scroll sideways", result["scroll"])),
+        (of("contrast") >= LEAST_CONTRAST, format!("contrast of words {}", result["contrast"])),
+        (seen.len() == figures, format!("{} figures", seen.len())),
+    ];
     for (k, figure) in seen.iter().enumerate() {
-        check(
-            number(&figure["width"]) > 200.0 && number(&figure["height"]) > 100.0,
-            format!("figure {k} is not seen: {figure}"),
-        );
-        check(
-            number(&figure["right"]) <= f64::from(width),
-            format!("figure {k} is cut off: {figure}"),
-        );
-        check(
-            number(&figure["text"]) >= SMALLEST_TEXT,
-            format!("figure {k}: text of {} px", figure["text"]),
-        );
-        check(
-            number(&figure["contrast"]) >= LEAST_CONTRAST,
-            format!("figure {k}: contrast {}", figure["contrast"]),
-        );
-        for list in ["outside", "overlapping"] {
-            let texts = figure[list].as_array().expect("a list");
-            check(texts.is_empty(), format!("figure {k}: {list} {}", figure[list]));
-        }
+        let of = |name: &str| number(&figure[name]);
+        let is_empty = |name: &str| figure[name].as_array().is_some_and(Vec::is_empty);
+        #[rustfmt::skip]
+        let of_figure = [
+            (of("width") > 200.0 && of("height") > 100.0, format!("figure {k} is not seen: {figure}")),
+            (of("right") <= wide, format!("figure {k} is cut off: {figure}")),
+            (of("text") >= SMALLEST_TEXT, format!("figure {k}: text of {} px", figure["text"])),
+            (of("contrast") >= LEAST_CONTRAST, format!("figure {k}: contrast {}", figure["contrast"])),
+            (is_empty("outside"), format!("figure {k}: outside {}", figure["outside"])),
+            (is_empty("overlapping"), format!("figure {k}: overlapping {}", figure["overlapping"])),
+        ];
+        checks.extend(of_figure);
     }
-    faults
+    let wrong = checks.into_iter().filter(|check| !check.0);
+    console.into_iter().chain(wrong.map(|check| check.1)).collect()
 }
 
 fn upper(overrides: &[&str]) -> Scene {
-    let overrides: Vec<String> = overrides.iter().map(|set| (*set).to_owned()).collect();
-    creepage::SceneFile::read("examples/scenes/full-scale-upper.toml")
-        .and_then(|file| file.with(&overrides)?.scene())
+    let file = SceneFile::read("examples/scenes/full-scale-upper.toml");
+    file.and_then(|file| file.with(overrides)?.scene())
         .expect("a scene")
+}
+
+fn page(scene: &Scene, options: &ReportOptions<'_>) -> String {
+    Report::new(scene, options).expect("a report").to_html()
 }
 
 /// A page with everything on it: readings, layers, two kinds of vehicles, springs, a clamp, long names, warnings, a failed way.
@@ -190,24 +138,22 @@ fn full() -> String {
     ]);
     scene.title = format!("<b>{long}</b>");
     let mut other = TrafficVehicle::point(&long, 5e4, 15.0);
-    other.direction = ground_field::Direction::Reverse;
+    other.direction = Direction::Reverse;
     (scene.vehicles[0].share, other.share) = (0.6, 0.4);
     scene.vehicles.push(other);
-    let readings = Readings::from_csv("cell.csv", b"pass,force_n,sigma_n\n1,50,9\n20,200,9\n40,260,9\n")
-        .expect("readings");
+    let readings = b"pass,force_n,sigma_n\n1,50,9\n20,200,9\n40,260,9\n";
+    let readings = Readings::from_csv("cell.csv", readings).expect("readings");
     let warnings = [format!("a warning about {long}")];
     let options = ReportOptions {
         readings: Some(&readings),
         warnings: &warnings,
         ..ReportOptions::default()
     };
-    Report::new(&scene, &options).expect("a report").to_html()
+    page(&scene, &options)
 }
 
 fn plain() -> String {
-    Report::new(&upper(&[]), &ReportOptions::default())
-        .expect("a report")
-        .to_html()
+    page(&upper(&[]), &ReportOptions::default())
 }
 
 /// Other units have longer names, and more digits in a table.
@@ -225,7 +171,7 @@ fn imperial() -> String {
         units,
         ..ReportOptions::default()
     };
-    Report::new(&upper(&[]), &options).expect("a report").to_html()
+    page(&upper(&[]), &options)
 }
 
 #[test]
@@ -248,10 +194,7 @@ fn millions_of_passes_and_no_friction_are_well_on_a_phone() {
     let none = upper(&["friction.dynamic_coefficient=0", "traffic.passes=3"]);
     // Without friction nothing moves, which no chart shows.
     for (scene, figures) in [(many, 8), (none, 7)] {
-        let page = Report::new(&scene, &ReportOptions::default())
-            .expect("a report")
-            .to_html();
-        let faults = faults(&page, PHONE, false, figures);
+        let faults = faults(&page(&scene, &ReportOptions::default()), PHONE, false, figures);
         assert!(faults.is_empty(), "{faults:#?}");
     }
 }
@@ -300,30 +243,15 @@ fn crowded() -> String {
         r#"heat={expansion="17e-6 1/K", daily_swing="15 K"}"#,
         "solver.tolerance=0.1",
     ]);
-    let lanes = [
-        (0.0, true),
-        (0.2, true),
-        (-0.4, false),
-        (3.5, true),
-        (7.0, false),
-        (-3.5, true),
-        (10.5, true),
-    ];
-    scene.vehicles = lanes
-        .into_iter()
-        .enumerate()
-        .map(|(k, (lateral_offset, forward))| {
-            let mut lane = TrafficVehicle::point(&format!("vehicle in lane {k}"), 5e4, 15.0);
-            if !forward {
-                lane.direction = ground_field::Direction::Reverse;
-            }
-            lane.lateral_offset = lateral_offset;
-            lane
-        })
-        .collect();
-    Report::new(&scene, &ReportOptions::default())
-        .expect("a report")
-        .to_html()
+    let lane = |(k, (lateral_offset, direction)): (usize, (f64, Direction))| TrafficVehicle {
+        lateral_offset,
+        direction,
+        ..TrafficVehicle::point(&format!("vehicle in lane {k}"), 5e4, 15.0)
+    };
+    let there = [0.0, 0.2, 3.5, -3.5, 10.5].map(|offset| (offset, Direction::Forward));
+    let back = [-0.4, 7.0].map(|offset| (offset, Direction::Reverse));
+    scene.vehicles = there.into_iter().chain(back).enumerate().map(lane).collect();
+    page(&scene, &ReportOptions::default())
 }
 
 #[test]
@@ -347,40 +275,21 @@ fn heat_and_crowded_drawings_are_well_on_every_screen_and_on_paper() {
 #[test]
 #[ignore = "needs Chromium"]
 fn a_fault_is_seen() {
-    let page = Report::new(&upper(&["traffic.passes=2"]), &ReportOptions::default())
-        .expect("a report")
-        .to_html();
-    let with = |old: &str, new: &str| {
-        assert!(page.contains(old), "{old}");
-        page.replacen(old, new, 1)
-    };
-    let body = "<main>";
-    let cases = [
-        (
-            with(body, "<main><div style=\"width:600px\">wide</div>"),
-            "scroll sideways",
-        ),
-        (
-            with("<figure>", "<figure style=\"display:none\">"),
-            "figure 0 is not seen",
-        ),
-        (
-            with(body, "<main><img src=\"http://localhost:9/x.png\" alt=\"\"/>"),
-            "CONSOLE",
-        ),
-        (with(body, "<main><script>broken(</script>"), "CONSOLE"),
-        (
-            with("svg [fill=\"#262626\"]", "svg [fill=\"#000001\"]"),
-            "contrast",
-        ),
-        (with("columns: 2 22rem", "columns: 2"), "text of"),
+    let page = page(&upper(&["traffic.passes=2"]), &ReportOptions::default());
+    #[rustfmt::skip]
+    let faulty = [
+        ("<main>", "<main><div style=\"width:600px\">wide</div>", "scroll sideways"),
+        ("<figure>", "<figure style=\"display:none\">", "figure 0 is not seen"),
+        ("<main>", "<main><img src=\"http://localhost:9/x.png\" alt=\"\"/>", "CONSOLE"),
+        ("<main>", "<main><script>broken(</script>", "CONSOLE"),
+        ("svg [fill=\"#262626\"]", "svg [fill=\"#000001\"]", "contrast"),
+        ("columns: 2 22rem", "columns: 2", "text of"),
     ];
-    for (page, fault) in &cases {
-        let faults = faults(page, PHONE, true, 8);
-        assert!(
-            faults.iter().any(|found| found.contains(fault)),
-            "{fault}: {faults:#?}"
-        );
+    for (old, new, fault) in faulty {
+        assert!(page.contains(old), "{old}");
+        let faults = faults(&page.replacen(old, new, 1), PHONE, true, 8);
+        let is_seen = faults.iter().any(|found| found.contains(fault));
+        assert!(is_seen, "{fault}: {faults:#?}");
     }
     assert_eq!(faults(&page, PHONE, true, 8), Vec::<String>::new());
 }

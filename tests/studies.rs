@@ -80,17 +80,14 @@ fn design_answers_in_words_and_as_json() {
 fn design_takes_pairs_several_places_and_limits_of_clamps() {
     const SHORT: &str = "UPPER --set traffic.passes=4 --set 'duct.length=15 m'";
     let design = format!("design {SHORT} --set 'solver.node_spacing=0.3 m'");
-    let (status, said, failed) = output(&format!(
-        "{design} --at 'upstream + downstream' --limit-force 10N --limit-movement 0.01mm"
-    ));
+    let pair = "--at 'upstream + downstream' --limit-force 10N --limit-movement 0.01mm";
+    let (status, said, failed) = output(&format!("{design} {pair}"));
     assert_eq!(status, 1);
-    assert_says(
-        &said,
-        &[
-            "kN/m at the upstream end and a spring of ",
-            "force on the downstream end",
-        ],
-    );
+    let both = [
+        "kN/m at the upstream end and a spring of ",
+        "force on the downstream end",
+    ];
+    assert_says(&said, &both);
     assert_says(&failed, &["the nearest is on standard output"]);
     let clamps = format!(
         "{design} --at 5m --at 13m --limit-force 0.1kN --limit-force clamp=0.15kN --limit-movement 13m=1mm"
@@ -132,10 +129,7 @@ fn measures_are_compared_in_words_and_as_json() {
     let [largest, in_middle] = [worst, nominal].map(|outcome| number(&outcome["value"]));
     assert_eq!(worst["quantity"], worst["verdicts"][0]["quantity"]);
     assert_eq!(worst["value"], worst["verdicts"][0]["largest"]);
-    assert!(
-        in_middle <= largest && largest < number(&worst["limit"]),
-        "{fixed}"
-    );
+    assert!(in_middle <= largest && largest < number(&worst["limit"]));
     assert_eq!(worst["at"].as_object().expect("keys").len(), 2, "{worst}");
     // Nothing holds: what comes nearest, and status 1.
     let (status, said, failed) = output(&format!("{MEASURES} --limit-force '1 N'"));

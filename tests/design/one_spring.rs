@@ -1,35 +1,21 @@
 //! One spring or clamp.
 
 use creepage::design::{Design, DesignOptions, Limits, Place, design};
-use creepage::scene::End;
-use creepage::{Limited, Run, Scene};
+use creepage::{Limited, Run};
 
-use super::grid::{self, largest_of_ends};
+use super::grid::{BOTH, Given, check_none, check_range, designed, held, reached, scene, sprung};
+use crate::scenes::{forces, largest, last, run, upper};
 
-fn scene() -> Scene {
-    grid::scene(&["traffic.passes=12", "solver.node_spacing=0.25 m"])
-}
+const END: [Place; 1] = [Place::Downstream];
 
-fn designed(scene: &Scene, place: Place, force_n: f64, movement_m: Option<f64>) -> Design {
-    let limits = Limits::both(Some(force_n), movement_m);
-    design(scene, &DesignOptions::new(place, limits)).unwrap()
-}
-
-fn largest_force(run: &Run) -> f64 {
-    largest_of_ends(run, Limited::Force)
-}
-
-fn largest_movement(run: &Run) -> f64 {
-    largest_of_ends(run, Limited::Movement)
-}
-
-fn held(scene: &Scene, stiffness: f64) -> Run {
-    grid::held(scene, &[(Place::Downstream, stiffness)])
+/// A limit of force at both ends.
+fn force(limit: f64) -> [Given; 2] {
+    BOTH.map(|place| (place, Limited::Force, limit))
 }
 
 #[test]
 fn a_softer_spring_trades_force_for_movement() {
-    let design = designed(&scene(), Place::Downstream, 150.0, None);
+    let design = designed(&scene(&[]), &END, &force(150.0));
     let curve = &design.curve;
     assert!(curve.len() >= 11);
     assert_eq!((curve[0].stiffness_n_per_m, curve[0].force_n), (Some(0.0), 0.0));
@@ -42,53 +28,31 @@ fn a_softer_spring_trades_force_for_movement() {
 }
 
 #[test]
-fn the_answer_keeps_the_limit_and_a_stiffer_spring_does_not() {
-    let scene = scene();
-    for limit in [100.0, 200.0] {
-        let design = designed(&scene, Place::Downstream, limit, None);
-        let answer = design.answer.unwrap();
-        let stiffness = answer.stiffness_n_per_m.unwrap();
-        let run = held(&scene, stiffness);
-        assert_eq!(largest_force(&run), answer.force_n);
-        assert_eq!(largest_movement(&run), answer.movement_m);
-        assert!(answer.force_n <= limit && answer.within_limits);
-        assert!(largest_force(&held(&scene, 1.02 * stiffness)) > limit);
-        assert_eq!(design.range_n_per_m, Some((0.0, Some(stiffness))));
-        // A spring carries what it was compressed by.
-        let last = run.passes.last().unwrap();
-        assert!((last.downstream_force_n / (stiffness * last.downstream_displacement_m) - 1.0).abs() < 1e-6);
+fn the_answer_keeps_the_limits_and_a_spring_beside_its_range_does_not() {
+    let scene = scene(&[]);
+    for limit in [80.0, 140.0] {
+        let design = check_range(&scene, &END, &force(limit));
+        assert!(design.range_n_per_m.is_some_and(|(from, _)| from == 0.0));
     }
-}
-
-#[test]
-fn both_limits_leave_a_range_or_none() {
-    let scene = scene();
-    let free = designed(&scene, Place::Downstream, 1.0, None);
-    // Movement with a spring that just keeps 200 N, a little loosened.
-    let tight = designed(&scene, Place::Downstream, 200.0, None).answer.unwrap();
-    let limit = 1.1 * tight.movement_m;
-    let design = designed(&scene, Place::Downstream, 200.0, Some(limit));
-    let (from, to) = design.range_n_per_m.unwrap();
-    let to = to.unwrap();
-    let answer = design.answer.unwrap();
-    let stiffness = answer.stiffness_n_per_m.unwrap();
-    assert!(from < stiffness && stiffness < to);
-    assert!(answer.force_n <= 200.0 && answer.movement_m <= limit);
-    assert!(largest_movement(&held(&scene, 0.98 * from)) > limit);
-    assert!(largest_force(&held(&scene, 1.02 * to)) > 200.0);
-
-    let none = designed(&scene, Place::Downstream, 200.0, Some(0.8 * tight.movement_m));
-    assert_eq!((none.range_n_per_m, none.answer), (None, None));
+    // Movement with a spring that just keeps 140 N, a little loosened and tightened.
+    let tight = designed(&scene, &END, &force(140.0)).answer.unwrap().movement_m;
+    let limits = |share: f64| {
+        [
+            &force(140.0)[..],
+            &BOTH.map(|place| (place, Limited::Movement, share * tight)),
+        ]
+        .concat()
+    };
+    check_range(&scene, &END, &limits(1.1));
+    let none = check_none(&scene, &END, &limits(0.8));
+    assert_eq!(none.range_n_per_m, None);
     assert!(none.curve.iter().all(|point| !point.within_limits));
-    assert!(free.curve[0].within_limits);
 }
 
 /// Ten million passes drive a cable that nothing holds out of its duct: a limit of force alone is no leave to do so.
 #[test]
 fn no_answer_lets_the_cable_leave_the_duct() {
-    let mut scene = scene();
-    scene.traffic.passes = 10_000_000;
-    let design = designed(&scene, Place::Downstream, 10.0, None);
+    let design = designed(&scene(&["traffic.passes=10000000"]), &END, &force(10.0));
     assert!(design.curve[0].leaves_duct, "{:?}", design.curve[0]);
     assert!(design.answer.is_none(), "{:?}", design.answer);
     let nearest = design.nearest.expect("a spring");
@@ -98,36 +62,25 @@ fn no_answer_lets_the_cable_leave_the_duct() {
 
 #[test]
 fn a_clamp_is_as_soft_as_the_limit_allows() {
-    let scene = scene();
-    let fixed = largest_force(&creepage::run(&scene).unwrap());
-    let limit = 0.5 * fixed;
-    let place = Place::Clamp(14.0);
-    let design = designed(&scene, place, limit, None);
+    let (scene, clamp) = (scene(&[]), [Place::Clamp(14.0)]);
+    let fixed = reached(&held(&scene, &[]), Place::Downstream, Limited::Force);
+    let design = check_range(&scene, &clamp, &force(0.5 * fixed));
     let answer = design.answer.unwrap();
-    let stiffness = answer.stiffness_n_per_m.unwrap();
-    assert!(answer.force_n <= limit && answer.clamp_force_n.unwrap() > 0.0);
-    assert_eq!(design.range_n_per_m, Some((stiffness, None)));
-    let clamped = |stiffness: f64| {
-        let mut scene = scene.clone();
-        scene
-            .restraints
-            .push(creepage::scene::Restraint::new(14.0, stiffness));
-        largest_force(&creepage::run(&scene).unwrap())
-    };
-    assert_eq!(clamped(stiffness), answer.force_n);
-    assert!(clamped(0.98 * stiffness) > limit);
+    assert!(answer.clamp_force_n.is_some_and(|force| force > 0.0));
+    let range = answer.stiffness_n_per_m.map(|from| (from, None));
+    assert_eq!(design.range_n_per_m, range);
     // None is needed where the ends keep the limit without one.
-    let none = designed(&scene, place, 2.0 * fixed, None);
+    let none = designed(&scene, &clamp, &force(2.0 * fixed));
     assert_eq!(none.answer.unwrap().stiffness_n_per_m, Some(0.0));
 }
 
 #[test]
 fn answers_are_read_as_they_were_written() {
     let limits = Limits::both(Some(150.0), None);
-    let design = design(&scene(), &DesignOptions::new(Place::Clamp(7.5), limits)).unwrap();
+    let design = design(&scene(&[]), &DesignOptions::new(Place::Clamp(7.5), limits)).unwrap();
     let text = serde_json::to_string(&design).unwrap();
     assert_eq!(serde_json::from_str::<Design>(&text).unwrap(), design);
-    let mut run = creepage::run(&scene()).unwrap();
+    let mut run = run(&scene(&[]));
     // It has a file of its own.
     (run.state, run.shown) = (None, None);
     let text = serde_json::to_string(&run).unwrap();
@@ -137,56 +90,28 @@ fn answers_are_read_as_they_were_written() {
 #[test]
 fn a_spring_moves_with_the_force_on_it_during_a_pass() {
     let stiffness = 1e6;
-    let mut held = scene();
-    held.ends.downstream = End::Spring(stiffness);
-    held.traffic.passes = 2;
-    let run = creepage::run(&held).unwrap();
-    let peak = run
-        .passes
-        .iter()
-        .map(|pass| pass.downstream_peak_n)
-        .fold(0.0, f64::max);
-    let after = run
-        .passes
-        .iter()
-        .map(|pass| pass.downstream_force_n)
-        .fold(0.0, f64::max);
+    let run = sprung(&scene(&["traffic.passes=2"]), &END, stiffness);
+    // It carries what it was compressed by.
+    let carried = last(&run).downstream_force_n / (stiffness * last(&run).downstream_displacement_m);
+    assert!((carried - 1.0).abs() < 1e-6);
+    let peak = largest(run.passes.iter().map(|pass| pass.downstream_peak_n));
+    let after = largest(forces(&run));
     assert!(peak > 1.005 * after, "{peak} {after}");
     let limit = 0.5 * (peak + after) / stiffness;
-    let verdicts = Limits::both(None, Some(limit)).verdicts(&run);
-    let spring = verdicts
-        .iter()
-        .find(|verdict| verdict.end == Place::Downstream)
-        .unwrap();
-    assert!(
-        (spring.largest / (peak / stiffness) - 1.0).abs() < 1e-9,
-        "{spring:?}"
-    );
-    assert!(
-        spring.during_a_pass && spring.reached_after.is_some(),
-        "{spring:?}"
-    );
+    let spring = Limits::both(None, Some(limit)).verdicts(&run)[1];
+    assert_eq!(spring.end, Place::Downstream);
+    assert!((spring.largest / (peak / stiffness) - 1.0).abs() < 1e-9);
+    assert!(spring.during_a_pass && spring.reached_after.is_some());
 }
 
 #[test]
 fn a_limit_that_more_passes_exceed_is_told() {
-    let overrides = ["traffic.passes=52", "solver.method=pass-law"];
-    let scene = creepage::SceneFile::read("examples/scenes/full-scale-upper.toml")
-        .and_then(|file| file.with(&overrides)?.scene())
-        .unwrap();
-    let run = creepage::run(&scene).unwrap();
+    let run = run(&upper(&["traffic.passes=52", "solver.method=pass-law"]));
     let level = run.saturation.as_ref().unwrap().downstream_force_n;
-    let told = |limit: f64| {
-        let verdicts = Limits::both(Some(limit), None).verdicts(&run);
-        let end = verdicts
-            .into_iter()
-            .find(|verdict| verdict.end == Place::Downstream)
-            .unwrap();
-        (end.reached_after.is_some(), end.levels_off_above, end.to_string())
-    };
-    let (exceeded, above, words) = told(level - 1.0);
-    assert!(!exceeded && above == Some(level), "{words}");
-    assert!(words.contains("with more passes it levels off at"), "{words}");
-    assert_eq!(told(level + 1.0).1, None);
-    assert_eq!(told(400.0).1, None, "these passes exceed it");
+    let told = |limit: f64| Limits::both(Some(limit), None).verdicts(&run)[1];
+    let above = told(level - 1.0);
+    assert!(above.reached_after.is_none() && above.levels_off_above == Some(level));
+    assert!(above.to_string().contains("with more passes it levels off at"));
+    assert_eq!(told(level + 1.0).levels_off_above, None);
+    assert_eq!(told(400.0).levels_off_above, None, "these passes exceed it");
 }

@@ -1,14 +1,31 @@
 //! Chromium over its DevTools protocol: messages of JSON in frames of a WebSocket (RFC 6455).
 
+use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 const PATIENCE: Duration = Duration::from_secs(60);
+pub const PHONE: u32 = 390;
+pub const DESK: u32 = 1200;
+/// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
+pub const LEAST_CONTRAST: f64 = 4.5;
+/// The contrast of two colours, in JavaScript.
+pub const CONTRAST_OF: &str = r"
+  const channels = (colour) => colour.match(/[\d.]+/g).map(Number);
+  const luminance = (colour) => channels(colour).slice(0, 3).map((c) => c / 255)
+    .map((c) => c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, c, k) => sum + [0.2126, 0.7152, 0.0722][k] * c, 0);
+  const contrast = (one, other) => {
+    const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
+    return (high + 0.05) / (low + 0.05);
+  };";
 /// A key for the handshake; any 16 bytes will do.
 const KEY: &str = "AAAAAAAAAAAAAAAAAAAAAA==";
 
@@ -22,17 +39,25 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// A browser with one empty page, whose profile lies in `folder`.
-    pub fn start(folder: &Path) -> Self {
+    /// A browser with one empty page of this width, by day or night, and a folder of its own in which its profile lies.
+    pub fn open(name: &str, width: u32, dark: bool) -> (Self, PathBuf) {
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("{name}/{}-{number}", std::process::id());
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        fs::create_dir_all(&folder).expect("a folder");
+        let mut browser = Self::start(&folder);
+        let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+        browser.call("Emulation.setDeviceMetricsOverride", &size);
+        browser.media("prefers-color-scheme", if dark { "dark" } else { "light" });
+        (browser, folder)
+    }
+
+    fn start(folder: &Path) -> Self {
         let program = std::env::var("CHROMIUM").unwrap_or_else(|_| "chromium".into());
+        let options = "--headless=new --no-sandbox --disable-gpu --no-first-run --remote-debugging-port=0";
         let mut child = Command::new(&program)
-            .args([
-                "--headless=new",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--no-first-run",
-                "--remote-debugging-port=0",
-            ])
+            .args(options.split(' '))
             .arg(format!("--user-data-dir={}", folder.join("profile").display()))
             .arg("about:blank")
             .stdin(Stdio::null())
@@ -115,14 +140,17 @@ impl Browser {
         let mut text = Vec::new();
         loop {
             let head = bytes(&mut self.stream, 2);
-            let length = match head[1] & 127 {
-                126 => u64::from(u16::from_be_bytes(
-                    bytes(&mut self.stream, 2).try_into().expect("two bytes"),
-                )),
-                127 => u64::from_be_bytes(bytes(&mut self.stream, 8).try_into().expect("eight bytes")),
-                short => u64::from(short),
+            let short = head[1] & 127;
+            let long = bytes(&mut self.stream, [0, 2, 8][short.saturating_sub(125) as usize]);
+            let length = long
+                .iter()
+                .fold(0, |length, byte| length << 8 | usize::from(*byte));
+            let length = if long.is_empty() {
+                usize::from(short)
+            } else {
+                length
             };
-            text.extend_from_slice(&bytes(&mut self.stream, length as usize));
+            text.extend_from_slice(&bytes(&mut self.stream, length));
             if head[0] & 0x80 != 0 {
                 return serde_json::from_slice(&text).expect("JSON");
             }
@@ -133,11 +161,7 @@ impl Browser {
     pub fn value(&mut self, expression: &str) -> Value {
         let parameters = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
         let found = self.call("Runtime.evaluate", &parameters);
-        assert!(
-            found["exceptionDetails"].is_null(),
-            "{expression}: {}",
-            found["exceptionDetails"]
-        );
+        assert!(found["exceptionDetails"].is_null(), "{expression}: {found}");
         found["result"]["value"].clone()
     }
 
@@ -157,9 +181,23 @@ impl Browser {
         }
     }
 
-    pub fn size(&mut self, width: u32, height: u32) {
-        let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
-        self.call("Emulation.setDeviceMetricsOverride", &size);
+    /// Goes to an address, and waits until this holds there.
+    pub fn go(&mut self, address: &str, is_there: &str) {
+        self.call("Page.navigate", &json!({ "url": address }));
+        self.wait(is_there);
+    }
+
+    pub fn wait(&mut self, expression: &str) {
+        let begun = Instant::now();
+        while self.value(&format!("Boolean({expression})")) != json!(true) {
+            let is_late = begun.elapsed() > PATIENCE;
+            assert!(
+                !is_late,
+                "never: {expression}; {}",
+                self.value("document.body.innerText")
+            );
+            thread::sleep(Duration::from_millis(30));
+        }
     }
 
     /// What a reader prefers.
@@ -170,12 +208,8 @@ impl Browser {
 
     /// Errors that were thrown, and what stands on the console.
     pub fn complaints(&self) -> Vec<Value> {
-        let kinds = [
-            "Runtime.exceptionThrown",
-            "Runtime.consoleAPICalled",
-            "Log.entryAdded",
-        ];
-        let is_complaint = |event: &&Value| kinds.iter().any(|kind| event["method"] == *kind);
+        let kinds = "Runtime.exceptionThrown Runtime.consoleAPICalled Log.entryAdded";
+        let is_complaint = |event: &&Value| kinds.split(' ').any(|kind| event["method"] == kind);
         // That a question is refused is what a page is told.
         let is_refusal = |event: &&Value| event.to_string().contains("422");
         let complaints = self.events.iter().filter(is_complaint);

@@ -6,17 +6,16 @@ mod server;
 
 use std::fs;
 use std::io::{Read, Write};
-use std::net::{Shutdown, TcpStream};
-use std::path::Path;
+use std::net::{Shutdown, TcpListener, TcpStream};
 use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::command::{list, number, numbers};
+use crate::command::{UPPER, answer, folder, list, number, numbers, read};
 use crate::scenes::assert_near;
-use server::{Explored, PATIENCE, UPPER, creepage, output};
+use server::{Explored, PATIENCE, creepage};
 
 impl Explored {
     fn connect(&self) -> TcpStream {
@@ -115,19 +114,12 @@ fn what_is_refused_has_the_words_of_the_command_line_and_its_key() {
     ] {
         let (status, body) = explored.post("/answer", &json!({ "set": { key: value } }));
         let refusal: Value = serde_json::from_str(&body).expect("JSON");
-        let run = output(&["run", UPPER, &format!("--set={key}={value}")]);
-        assert_eq!(
-            (status, run.status.code()),
-            (422, Some(2)),
-            "{key}={value}: {body}"
-        );
-        let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+        let run = creepage(&["run", UPPER, &format!("--set={key}={value}")]).output();
+        let run = answer(run.expect("the command starts"));
+        assert_eq!((status, run.0), (422, 2), "{key}={value}: {body}");
         let message = refusal["message"].as_str().expect("a message");
         let message = message.replace(['\u{1b}', '\r'], "\u{fffd}");
-        assert!(
-            printed.trim_end().ends_with(message.trim_end()),
-            "{message}\n{printed}"
-        );
+        assert!(run.2.trim_end().ends_with(message.trim_end()), "{message}");
         let found = refusal["key"].as_str().expect("a key");
         assert!(found.starts_with(key) || key == "heat", "{key}: {found}");
     }
@@ -156,20 +148,19 @@ fn only_this_page_with_its_token_is_answered() {
     for host in ["example.org", &longer, "127.0.0.1:1", ""] {
         assert_eq!(asks(&path, &[&format!("Host: {host}")]), 403, "{host}");
     }
-    assert_eq!(asks(&path, &["X-Host: none"]), 403);
-    assert_eq!(asks(&path, &[&own, &own]), 403);
+    for headers in [&["X-Host: none"][..], &[&own, &own]] {
+        assert_eq!(asks(&path, headers), 403);
+    }
     let secure = format!("https://127.0.0.1:{port}");
     for of in ["https://example.org", "null", "http://127.0.0.1", &secure] {
         assert_eq!(origin(of), 403, "{of}");
     }
-    let wrong = "0123456789abcdef0123456789abcdef";
-    for query in [
-        "",
-        "?token=",
-        &format!("?token={wrong}"),
-        &format!("?token={token}0"),
-        &format!("?token={token}&token={token}"),
-    ] {
+    let wrong = "?token=0123456789abcdef0123456789abcdef".to_owned();
+    let [longer, twice] = [
+        format!("?token={token}0"),
+        format!("?token={token}&token={token}"),
+    ];
+    for query in [String::new(), "?token=".to_owned(), wrong, longer, twice] {
         assert_eq!(asks(&format!("/answer{query}"), &[&own]), 403, "{query}");
         let page = explored.request("GET", &format!("/{query}"), &[], "");
         assert_eq!(page.0, 403, "{query}");
@@ -182,14 +173,9 @@ fn hostile_requests_are_refused_and_leave_it_answering() {
     let explored = Explored::new(&[]);
     let (port, token) = (explored.port, &explored.token);
     let path = format!("/answer?token={token}");
-    for (method, path) in [
-        ("GET", "/../../etc/passwd"),
-        ("GET", "/%2e%2e/%2e%2e/etc/passwd"),
-        ("GET", "//etc/passwd"),
-        ("GET", "/answer"),
-        ("POST", "/"),
-        ("DELETE", "/"),
-    ] {
+    let files = "/../../etc/passwd /%2e%2e/%2e%2e/etc/passwd //etc/passwd /answer".split(' ');
+    let others = [("POST", "/"), ("DELETE", "/")].into_iter();
+    for (method, path) in files.map(|path| ("GET", path)).chain(others) {
         let (status, head, body) = explored.request(method, &format!("{path}?token={token}"), &[], "");
         assert!(
             status == 404 && !body.contains("root:"),
@@ -198,23 +184,25 @@ fn hostile_requests_are_refused_and_leave_it_answering() {
         assert!(head.to_lowercase().contains("x-frame-options: deny"), "{head}");
     }
     let nested = "[".repeat(100_000);
-    for (body, expected) in [
-        ("", 400),
-        ("{", 400),
-        (r#"{"set": {"duct.depth": NaN}}"#, 400),
-        (r#"{"tolerance": 1e999}"#, 400),
-        (r#"{"files": []}"#, 400),
-        (r#"{"set": [1]}"#, 400),
-        ("\u{0}", 400),
-        (&nested, 400),
-        (r#"{"set": {"duct": [1, {"a": 2}]}}"#, 422),
-        (r#"{"set": {"": 1}}"#, 422),
-        (r#"{"tolerance": -1}"#, 422),
-        (r#"{"limits": {"force": ["2 m"]}}"#, 422),
-        (r#"{"limits": {"force": ["20 m=2 kN"]}}"#, 422),
+    for body in [
+        "",
+        "{",
+        r#"{"set": {"duct.depth": NaN}}"#,
+        r#"{"tolerance": 1e999}"#,
+        r#"{"files": []}"#,
+        "\u{0}",
+        &nested,
     ] {
-        let status = explored.request("POST", &path, &[], body).0;
-        assert_eq!(status, expected, "{body:.80}");
+        assert_eq!(explored.request("POST", &path, &[], body).0, 400, "{body:.80}");
+    }
+    for body in [
+        r#"{"set": {"duct": [1, {"a": 2}]}}"#,
+        r#"{"set": {"": 1}}"#,
+        r#"{"tolerance": -1}"#,
+        r#"{"limits": {"force": ["2 m"]}}"#,
+        r#"{"limits": {"force": ["20 m=2 kN"]}}"#,
+    ] {
+        assert_eq!(explored.request("POST", &path, &[], body).0, 422, "{body}");
     }
     // No HTTP, headers without end, a body of 10 MB with and without its length.
     let headers = format!("GET / HTTP/1.1\r\n{}", "X: y\r\n".repeat(10_000));
@@ -288,13 +276,12 @@ fn a_newer_question_stops_the_one_under_way() {
 #[test]
 fn a_saved_scene_is_the_one_that_was_asked_about() {
     let explored = Explored::new(&["--set", "traffic.passes=30"]);
-    let set = [
+    let overrides = [
+        "traffic.passes=30",
         "duct.depth=0.9 m",
         "ends.downstream.spring=3 MN/m",
-        "friction.dynamic_coefficient=0.31",
+        "restraints=[{ position = \"12 m\", stiffness = \"1 MN/m\", holds = \"2 kN\" }]",
     ];
-    let clamps = "restraints=[{ position = \"12 m\", stiffness = \"1 MN/m\", holds = \"2 kN\" }]";
-    let overrides = [&["traffic.passes=30"], &set[..], &[clamps]].concat();
     let expected = crate::scenes::upper(&overrides);
     let keys = overrides[1..].iter().filter_map(|set| set.split_once('='));
     let asked: serde_json::Map<_, _> = keys.map(|(key, value)| (key.to_owned(), value.into())).collect();
@@ -332,9 +319,8 @@ fn the_pass_that_is_shown_is_the_one_that_is_computed() {
     for film in [&first, &later] {
         let pictures = film["pictures"].as_array().expect("pictures");
         assert!(pictures.len() > 100);
-        let mut shares = pictures
-            .iter()
-            .flat_map(|picture| numbers(&picture["friction_percent"]));
+        let shares = |picture: &Value| numbers(&picture["friction_percent"]);
+        let mut shares = pictures.iter().flat_map(shares);
         assert!(shares.all(|share| share.abs() <= 100.0));
         let places = pictures.iter().map(|picture| number(&picture["vehicle_m"]));
         assert!(places.is_sorted_by(|a, b| a < b));
@@ -349,33 +335,25 @@ fn the_pass_that_is_shown_is_the_one_that_is_computed() {
 
 #[test]
 fn it_ends_by_its_button_or_by_ctrl_c_and_leaves_no_file() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explore");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER);
-    fs::copy(scene, folder.join("scene.toml")).expect("a scene");
     let mut explored = Explored::new(&[]);
     explored.still_answers("its beginning");
     assert_eq!(explored.post("/end", &json!({})).0, 205);
     assert_eq!(explored.ended().code(), Some(0));
 
     let mut explored = Explored::new(&[]);
-    let sent = Command::new("kill")
-        .args(["-INT", &explored.child.id().to_string()])
-        .status();
+    let id = explored.child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status();
     assert!(sent.expect("kill").success());
     assert_eq!(explored.ended().code(), Some(130));
 
     // A port that is taken.
-    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let folder = folder("explore");
+    fs::write(folder.join("scene.toml"), read(UPPER)).expect("a scene");
+    let taken = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = format!("--port={}", taken.local_addr().expect("its address").port());
     let mut refused = creepage(&["explore", "scene.toml", "--no-browser", &port]);
-    let refused = refused.current_dir(&folder).output().expect("the command starts");
-    let words = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(
-        refused.status.code() == Some(2) && words.contains("--port: found"),
-        "{words}"
-    );
+    let (status, _, words) = answer(refused.current_dir(&folder).output().expect("an answer"));
+    assert!(status == 2 && words.contains("--port: found"), "{words}");
     let left: Vec<_> = fs::read_dir(&folder).expect("the folder").collect();
     assert_eq!(left.len(), 1, "{left:?}");
 }

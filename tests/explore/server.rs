@@ -1,11 +1,11 @@
 //! A process of `creepage explore`, and requests to it.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Child, Command, ExitStatus, Output, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-pub const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 /// A draft of it takes a tenth of a second.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -18,10 +18,6 @@ pub fn creepage(arguments: &[&str]) -> Command {
     command
 }
 
-pub fn output(arguments: &[&str]) -> Output {
-    creepage(arguments).output().expect("the command starts")
-}
-
 /// A process of `creepage explore`, which is ended with its test.
 pub struct Explored {
     pub child: Child,
@@ -32,23 +28,17 @@ pub struct Explored {
 impl Explored {
     pub fn new(more: &[&str]) -> Self {
         let arguments = [&["explore", UPPER, "--no-browser"], more].concat();
-        let mut child = creepage(&arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the command starts");
+        let mut command = creepage(&arguments);
+        command.stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut child = command.spawn().expect("the command starts");
         let mut line = String::new();
         let out = child.stdout.take().expect("its output");
         BufReader::new(out).read_line(&mut line).expect("an address");
-        let address = line
-            .trim()
-            .strip_prefix("http://127.0.0.1:")
-            .expect("an address of this machine");
+        let address = line.trim().strip_prefix("http://127.0.0.1:");
+        let address = address.expect("an address of this machine");
         let (port, token) = address.split_once("/?token=").expect("a token");
-        assert!(
-            token.len() == 32 && token.bytes().all(|byte| byte.is_ascii_hexdigit()),
-            "{token}"
-        );
+        let is_hexadecimal = token.bytes().all(|byte| byte.is_ascii_hexdigit());
+        assert!(token.len() == 32 && is_hexadecimal, "{token}");
         let (port, token) = (port.parse().expect("a port"), token.to_owned());
         Self { child, port, token }
     }

@@ -29,20 +29,15 @@ pub const PRECIOUS: &str = "notes of a whole year\n";
 pub const SWEEP: &str = "sweep scene.toml --vary duct.depth=1,2";
 pub const MAP: &str = "sweep scene.toml --vary duct.depth=1,2 --vary duct.length=20m,30m";
 /// What reads a scene and writes: each command without its output, and the output's ending. OUT is the table of a sweep with a map.
+#[rustfmt::skip]
 pub const WRITERS: [(&str, &str); 8] = [
     ("run scene.toml --xlsx", "xlsx"),
     ("sweep scene.toml --vary duct.depth=1,2 --out", "xlsx"),
     ("run scene.toml --csv", "csv"),
     ("profile scene.toml --positions 0,1 --csv", "csv"),
-    (
-        "calibrate scene.toml --data data.csv --fit dynamic_coefficient --csv",
-        "csv",
-    ),
+    ("calibrate scene.toml --data data.csv --fit dynamic_coefficient --csv", "csv"),
     ("sweep scene.toml --vary duct.depth=1,2 --out", "csv"),
-    (
-        "sweep scene.toml --vary duct.depth=1,2 --vary duct.length=20m,30m --out OUT --map",
-        "svg",
-    ),
+    ("sweep scene.toml --vary duct.depth=1,2 --vary duct.length=20m,30m --out OUT --map", "svg"),
     ("report scene.toml --data data.csv -o", "html"),
 ];
 

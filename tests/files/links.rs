@@ -22,10 +22,7 @@ fn devices_are_written_as_they_are() {
     let status = command.stdout(both.expect("a file")).status();
     assert!(status.expect("the command").success());
     let both = String::from_utf8(folder.read("both")).expect("UTF-8");
-    assert!(
-        both.starts_with("pass,") && both.contains("\nSmall\n") && both.contains("estimated error"),
-        "{both}"
-    );
+    assert!(both.starts_with("pass,") && both.contains("\nSmall\n") && both.contains("estimated error"));
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use crate::command::assert_says;
+
 use super::common::{Folder, SCENE, SWEEP, creepage, said};
 
 /// Orders for a terminal: a colour, a title, a bell, DEL, one of C1, and a turn of the direction of writing.
@@ -93,7 +95,7 @@ fn no_error_gives_orders_to_a_terminal() {
 #[test]
 fn messages_are_bounded_whatever_they_are_about() {
     let folder = Folder::new("long");
-    let long = "n".repeat(2_000_000);
+    let long = "n".repeat(200_000);
     let unknown = SCENE.replace("passes = 5", &format!("passes = 5, sequence = [\"{long}\"]"));
     folder.write("sequence.toml", &unknown);
     folder.write("vehicle.toml", unknown.replace("truck", &format!("{long}m")));
@@ -118,10 +120,7 @@ fn messages_are_bounded_whatever_they_are_about() {
         assert!(length < 2100, "{length} characters: {said:.300}");
         // What is allowed and the line at fault are still told.
         if line.ends_with("sequence.toml") {
-            assert!(
-                said.contains("allowed: \"truck\"") && said.contains("^^^"),
-                "{said}"
-            );
+            assert_says(&said, &["allowed: \"truck\"", "^^^"]);
         }
     }
 }
@@ -132,39 +131,19 @@ fn readings_without_an_end_are_refused_with_little_memory() {
     let begin = Instant::now();
     let output = folder.creepage_after("ulimit -v 1000000", "calibrate scene.toml --data /dev/zero");
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
-    assert!(
-        said(&output).contains("at most 67108864 bytes"),
-        "{}",
-        said(&output)
-    );
+    assert_says(&said(&output), &["at most 67108864 bytes"]);
     assert!(begin.elapsed() < Duration::from_secs(10));
-}
-
-#[test]
-fn a_cell_is_no_formula() {
-    let folder = Folder::new("formula");
-    let formula = "vehicles.0.name==cmd|/C_calc!A0,@SUM(A1),+1+1,-a,-1,plain";
-    folder.succeeds(&format!("sweep scene.toml --vary {formula} --out out.csv"));
-    let (_, rows) = crate::command::table(&folder.path("out.csv"));
-    let cells: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
-    assert_eq!(
-        cells,
-        ["'=cmd|/C_calc!A0", "'@SUM(A1)", "'+1+1", "'-a", "-1", "plain"]
-    );
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn what_cannot_be_printed_is_an_error() {
     let folder = Folder::new("printed");
-    for line in [
-        "--help",
-        "run --help",
-        "--version",
-        "check scene.toml",
-        "profile scene.toml",
-        "profile scene.toml --json",
-    ] {
+    let profiles = ["profile scene.toml", "profile scene.toml --json"];
+    for line in ["--help", "run --help", "--version", "check scene.toml"]
+        .into_iter()
+        .chain(profiles)
+    {
         let output = folder.creepage_after("exec >/dev/full", line);
         assert_eq!(output.status.code(), Some(1), "{line}");
         let said = said(&output);

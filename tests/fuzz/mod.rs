@@ -5,14 +5,12 @@ mod mutate;
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::time::{Duration, Instant};
 
-use creepage::Readings;
-use creepage::SceneFile;
 use creepage::presets::{self, PresetKind};
 use creepage::scene::{Dimension, SceneError};
 use creepage::sweep::{Axis, Distribution};
+use creepage::{Readings, Scene, SceneFile};
 use fastrand::Rng;
 
 use mutate::mutated;
@@ -21,14 +19,9 @@ use mutate::mutated;
 const FEW: u64 = 20_000;
 const MANY: u64 = 2_500_000;
 
-/// A kind of input: how many of it for every hundred that are asked for, good ones, and what must hold for any.
-struct Kind {
-    name: &'static str,
-    share: u64,
-    good: Vec<String>,
-    /// Whether it is accepted.
-    check: fn(&str) -> bool,
-}
+/// A kind of input: how many of it for every hundred that are asked for, good ones, and whether one is accepted, which checks
+/// what must hold for any.
+type Kind = (&'static str, u64, Vec<String>, fn(&str) -> bool);
 
 fn kinds() -> [Kind; 5] {
     let scenes = scenes();
@@ -37,31 +30,25 @@ fn kinds() -> [Kind; 5] {
     let mut fitting: Vec<String> = settings.into_iter().filter(|text| overrides(text)).collect();
     let pairs: Vec<String> = fitting.windows(2).map(|pair| pair.join("\n")).collect();
     fitting.extend(pairs.into_iter().filter(|pair| overrides(pair)));
-    let kind = |name, share, good, check| Kind {
-        name,
-        share,
-        good,
-        check,
-    };
     [
-        kind("scenes", 40, scenes, scene),
-        kind("overrides", 20, fitting, overrides),
-        kind("readings", 40, tables(), readings),
-        kind("quantities", 15, quantities(), quantity),
-        kind("axes", 10, axes(), axis),
+        ("scenes", 40, scenes, scene),
+        ("overrides", 20, fitting, overrides),
+        ("readings", 40, tables(), readings),
+        ("quantities", 15, quantities(), quantity),
+        ("axes", 10, AXES.lines().map(str::to_owned).collect(), axis),
     ]
 }
 
 fn files(folder: &str, ending: &str) -> Vec<String> {
-    let mut paths: Vec<_> = fs::read_dir(folder)
-        .expect("a folder of good inputs")
-        .map(|entry| entry.expect("a file").path())
+    let entries = fs::read_dir(folder).expect("a folder of good inputs");
+    let paths = entries.map(|entry| entry.expect("a file").path());
+    let mut paths: Vec<_> = paths
         .filter(|path| path.extension().is_some_and(|found| found == ending))
         .collect();
     // The same inputs on every machine.
     paths.sort();
-    let read = |path: &Path| fs::read_to_string(path).expect("a good input");
-    paths.iter().map(|path| read(path)).collect()
+    let read = |path| fs::read_to_string(path).expect("a good input");
+    paths.iter().map(read).collect()
 }
 
 /// The examples, difficult grounds, a scene that uses every key, and new scenes with every preset.
@@ -80,11 +67,8 @@ fn scenes() -> Vec<String> {
         };
         // What a preset gives may stand in the file too; the template has a speed of its own.
         let text = creepage::template("fuzz.toml", &[(key, &preset.name)]).expect("a template");
-        let values: Vec<&str> = preset
-            .toml
-            .lines()
-            .filter(|line| !line.starts_with("speed"))
-            .collect();
+        let values = preset.toml.lines().filter(|line| !line.starts_with("speed"));
+        let values: Vec<&str> = values.collect();
         let named = format!("preset = \"{}\"", preset.name);
         scenes.push(text.replace(&named, &format!("{}\n", values.join("\n"))));
         scenes.push(text);
@@ -123,22 +107,17 @@ fn quantities() -> Vec<String> {
         .collect()
 }
 
-fn axes() -> Vec<String> {
-    [
-        "duct.depth=0.6m:2m:0.2m",
-        "friction.dynamic_coefficient=0.2,0.3,0.4",
-        "ends.downstream={ spring = \"3 MN/m\" },fixed,free",
-        "friction.dynamic_coefficient=normal(0.25, 0.03)",
-        "ground.layers.2.young_modulus=lognormal(60 MPa, 0.4)",
-        "vehicles.0.load=uniform(10 tf, 20 tf)",
-        "cable.weight=normal(11 kg/m, 2 kg/m, min=5 kg/m, max=20 kg/m)",
-        "cable.conductor_area=triangular(600 mm2, 800 mm2, 1000 mm2)",
-        "vehicles.0.preset=t-25,t-20",
-        "traffic.passes=10:100:10",
-    ]
-    .map(str::to_owned)
-    .into()
-}
+const AXES: &str = "\
+duct.depth=0.6m:2m:0.2m
+friction.dynamic_coefficient=0.2,0.3,0.4
+ends.downstream={ spring = \"3 MN/m\" },fixed,free
+friction.dynamic_coefficient=normal(0.25, 0.03)
+ground.layers.2.young_modulus=lognormal(60 MPa, 0.4)
+vehicles.0.load=uniform(10 tf, 20 tf)
+cable.weight=normal(11 kg/m, 2 kg/m, min=5 kg/m, max=20 kg/m)
+cable.conductor_area=triangular(600 mm2, 800 mm2, 1000 mm2)
+vehicles.0.preset=t-25,t-20
+traffic.passes=10:100:10";
 
 // What must hold.
 
@@ -148,10 +127,18 @@ fn scene(text: &str) -> bool {
         file.scene()
     });
     match &read {
-        Ok(scene) => scene.validate().expect("what was read is valid"),
+        Ok(scene) => valid(scene),
         Err(error) => located(error, text),
     }
     read.is_ok()
+}
+
+/// What was read is valid, and the same when it is written and read again.
+fn valid(scene: &Scene) {
+    scene.validate().expect("what was read is valid");
+    let text = scene.to_toml();
+    let again = Scene::from_toml("written.toml", &text).expect(&text);
+    assert_eq!(again, *scene, "{text}");
 }
 
 /// The error names a line of the file, and says what the line is.
@@ -160,10 +147,8 @@ fn located(error: &SceneError, text: &str) {
     let line = location.line().expect("a line");
     assert!(line >= 1 && line <= 1 + text.matches('\n').count(), "{error}");
     let message = error.to_string();
-    assert!(
-        message.starts_with(&format!("fuzz.toml, line {line}: ")),
-        "{message}"
-    );
+    let begin = format!("fuzz.toml, line {line}: ");
+    assert!(message.starts_with(&begin), "{message}");
     location.excerpt();
 }
 
@@ -175,15 +160,14 @@ fn overrides(text: &str) -> bool {
     let list: Vec<&str> = text.split('\n').collect();
     let read = FILE.with(|file| file.with(&list)).and_then(|file| file.scene());
     match &read {
-        Ok(scene) => scene.validate().expect("what was read is valid"),
+        Ok(scene) => valid(scene),
         Err(error) => {
             let location = error.location().expect("a place");
-            assert!(
-                location.line().is_some()
-                    || location.file().starts_with("--set ")
-                    || location.file().starts_with("preset ")
-            );
-            assert!(!error.to_string().is_empty());
+            let is_named = |begin: &&str| location.file().starts_with(begin);
+            assert!(location.line().is_some() || ["--set ", "preset "].iter().any(is_named));
+            let message = error.to_string();
+            let is_told = message.contains("found ") || message.contains("is missing");
+            assert!(is_told && message.contains("; allowed: "), "{message}");
         }
     }
     read.is_ok()
@@ -195,10 +179,8 @@ fn readings(text: &str) -> bool {
         Ok(readings) => {
             for reading in &readings.list {
                 assert!(reading.value.is_finite(), "{reading:?}");
-                assert!(
-                    reading.sigma.is_none_or(|sigma| sigma.is_finite() && sigma > 0.0),
-                    "{reading:?}"
-                );
+                let is_positive = |sigma: f64| sigma.is_finite() && sigma > 0.0;
+                assert!(reading.sigma.is_none_or(is_positive), "{reading:?}");
             }
             assert!(readings.last_pass() >= 1);
         }
@@ -256,25 +238,25 @@ fn axis(text: &str) -> bool {
 
 /// Checks so many inputs, and shows the one that fails.
 fn fuzz(count: u64, seed: u64, longest: Duration) {
-    for kind in kinds() {
-        for good in &kind.good {
-            assert!((kind.check)(good), "{}: {good}", kind.name);
+    for (name, share, all, check) in kinds() {
+        for good in &all {
+            assert!(check(good), "{name}: {good}");
         }
         let mut random = Rng::with_seed(seed);
-        let (count, mut accepted) = (count * kind.share / 100, 0);
+        let (count, mut accepted) = (count * share / 100, 0);
         for number in 0..count {
-            let good = random.choice(&kind.good).expect("a good input");
-            let input = mutated(&mut random, good, &kind.good);
+            let good = random.choice(&all).expect("a good input");
+            let input = mutated(&mut random, good, &all);
             let begin = Instant::now();
-            let fine = catch_unwind(AssertUnwindSafe(|| (kind.check)(&input)))
-                .unwrap_or_else(|_| panic!("{} {number} of seed {seed}:\n{input}\n{input:?}", kind.name));
-            assert!(begin.elapsed() < longest, "{} {number} of seed {seed}", kind.name);
+            let fine = catch_unwind(AssertUnwindSafe(|| check(&input)))
+                .unwrap_or_else(|_| panic!("{name} {number} of seed {seed}:\n{input}\n{input:?}"));
+            assert!(begin.elapsed() < longest, "{name} {number} of seed {seed}");
             accepted += u64::from(fine);
         }
         // Where nearly all or nearly none are accepted the other half was not looked at.
         let share = accepted as f64 / count as f64;
-        println!("{}: {count} inputs, {:.0} % accepted", kind.name, 100.0 * share);
-        assert!((0.02..0.98).contains(&share), "{}: {share}", kind.name);
+        println!("{name}: {count} inputs, {:.0} % accepted", 100.0 * share);
+        assert!((0.02..0.98).contains(&share), "{name}: {share}");
     }
 }
 

@@ -9,10 +9,9 @@ const NUMBERS: &str = "0 -0 -1 1 0.5 nan inf -inf 1e400 -1e400 1e-400 1e308 0x1f
 const WORDS: &str = "\"|'|\"\"\"|'''|[|]|[[|]]|{|}|=|,|.|#|\n|\r\n|\t| |\\|\\u0000|\u{feff}|\u{1b}[2J|“|”|名|µ|²|%|:|(|)|true|1979-05-27|\
     preset = \"t-25\"\n|[duct]\n|[[vehicles]]\n|spring|normal(1, 2)|fixed|m";
 
-fn word(random: &mut Rng) -> &'static str {
-    random
-        .choice(WORDS.split('|').collect::<Vec<_>>())
-        .unwrap_or_default()
+fn one_of<'t>(random: &mut Rng, list: &'t str, separator: char) -> &'t str {
+    let all: Vec<&str> = list.split(separator).collect();
+    random.choice(all).unwrap_or_default()
 }
 
 /// One to four changes of `text`; `others` lend their lines.
@@ -25,6 +24,7 @@ pub fn mutated(random: &mut Rng, text: &str, others: &[String]) -> String {
 }
 
 fn changed(random: &mut Rng, text: &str, others: &[String]) -> String {
+    let word = one_of(random, WORDS, '|');
     match random.u8(0..9) {
         0 => {
             let letter = random.char(..).to_string();
@@ -34,57 +34,57 @@ fn changed(random: &mut Rng, text: &str, others: &[String]) -> String {
             let length = random.usize(1..8);
             spliced(random, text, length, "")
         }
-        2 => {
-            let word = word(random);
-            spliced(random, text, 0, word)
-        }
+        2 => spliced(random, text, 0, word),
         3 => {
-            let (length, word) = (random.usize(1..6), word(random));
+            let length = random.usize(1..6);
             spliced(random, text, length, word)
         }
-        4 | 5 => other_number(random, text),
-        6 => other_value(random, text),
+        4 | 5 => {
+            let by = one_of(random, NUMBERS, ' ');
+            let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-');
+            exchanged(random, text, is_number, |_, _| by)
+        }
+        // One word for another of the same text.
+        6 => {
+            let is_word = |c: char| !c.is_whitespace() && !matches!(c, '=' | ',' | '{' | '}' | '[' | ']');
+            exchanged(random, text, is_word, |random, words| {
+                random.choice(words).copied().unwrap_or_default()
+            })
+        }
         7 => other_line(random, text, others),
         _ => {
-            let many = word(random).repeat(random.usize(1..200));
+            let many = word.repeat(random.usize(1..200));
             spliced(random, text, 0, &many)
         }
     }
 }
 
-/// Replaces about `length` bytes somewhere.
+/// Replaces so many letters somewhere.
 fn spliced(random: &mut Rng, text: &str, length: usize, by: &str) -> String {
-    let mut start = random.usize(0..=text.len());
-    while !text.is_char_boundary(start) {
-        start -= 1;
-    }
-    let mut end = (start + length).min(text.len());
-    while !text.is_char_boundary(end) {
-        end += 1;
-    }
+    let ends: Vec<usize> = (0..=text.len()).filter(|at| text.is_char_boundary(*at)).collect();
+    let start = random.usize(0..ends.len());
+    let end = (start + length).min(ends.len() - 1);
+    let (start, end) = (ends[start], ends[end]);
     format!("{}{by}{}", &text[..start], &text[end..])
 }
 
-fn other_number(random: &mut Rng, text: &str) -> String {
-    let numbers: Vec<(usize, usize)> = words(text, |c| c.is_ascii_digit() || matches!(c, '.' | '-'));
-    let Some(&(start, end)) = random.choice(&numbers) else {
+/// Exchanges one stretch of letters that belong to a word.
+fn exchanged<'t>(
+    random: &mut Rng,
+    text: &'t str,
+    belongs: impl Fn(char) -> bool,
+    by: impl FnOnce(&mut Rng, &[&'t str]) -> &'t str,
+) -> String {
+    let words: Vec<&str> = text
+        .split(|c| !belongs(c))
+        .filter(|word| !word.is_empty())
+        .collect();
+    let Some(word) = random.choice(&words) else {
         return text.to_owned();
     };
-    let by = random
-        .choice(NUMBERS.split(' ').collect::<Vec<_>>())
-        .unwrap_or_default();
-    format!("{}{by}{}", &text[..start], &text[end..])
-}
-
-/// Exchanges one word for another of the same text.
-fn other_value(random: &mut Rng, text: &str) -> String {
-    let all = words(text, |c| {
-        !c.is_whitespace() && !matches!(c, '=' | ',' | '{' | '}' | '[' | ']')
-    });
-    let (Some(&(start, end)), Some(&(from, to))) = (random.choice(&all), random.choice(&all)) else {
-        return text.to_owned();
-    };
-    format!("{}{}{}", &text[..start], &text[from..to], &text[end..])
+    let start = word.as_ptr() as usize - text.as_ptr() as usize;
+    let by = by(random, &words);
+    format!("{}{by}{}", &text[..start], &text[start + word.len()..])
 }
 
 /// Leaves a line out, doubles it, or puts one of another input in.
@@ -94,35 +94,11 @@ fn other_line(random: &mut Rng, text: &str, others: &[String]) -> String {
         return text.to_owned();
     }
     let at = random.usize(0..lines.len());
-    match random.u8(0..3) {
-        0 => {
-            lines.remove(at);
-        }
-        1 => lines.insert(random.usize(0..=lines.len()), lines[at]),
-        _ => {
-            let other = random.choice(others).map_or("", String::as_str);
-            if let Some(line) = random.choice(&other.lines().collect::<Vec<_>>()) {
-                lines[at] = line;
-            }
-        }
+    let other = random.choice(others).map_or("", String::as_str);
+    match (random.u8(0..3), random.choice(other.lines().collect::<Vec<_>>())) {
+        (0, _) => drop(lines.remove(at)),
+        (1, _) => lines.insert(random.usize(0..=lines.len()), lines[at]),
+        (_, line) => lines[at] = line.unwrap_or(lines[at]),
     }
     lines.join("\n") + "\n"
-}
-
-/// Stretches of letters that belong to a word.
-fn words(text: &str, belongs: impl Fn(char) -> bool) -> Vec<(usize, usize)> {
-    let mut words = Vec::new();
-    let mut start = None;
-    for (at, c) in text.char_indices() {
-        match (belongs(c), start) {
-            (true, None) => start = Some(at),
-            (false, Some(from)) => {
-                words.push((from, at));
-                start = None;
-            }
-            _ => {}
-        }
-    }
-    words.extend(start.map(|from| (from, text.len())));
-    words
 }
