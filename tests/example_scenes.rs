@@ -2,24 +2,16 @@
 
 use creepage::{PassRecord, Run, Scene, SceneFile};
 
+use crate::answers::common::assert_within;
 use crate::scenes::{assert_near, last};
-
-fn file(name: &str) -> SceneFile {
-    SceneFile::read(format!("examples/scenes/{name}.toml")).expect("a file")
-}
 
 /// The scene with other keys, and its run.
 fn run(name: &str, overrides: &[&str]) -> (Scene, Run) {
-    let scene = file(name)
-        .with(overrides)
-        .and_then(|file| file.scene())
-        .expect("a scene");
+    let file = SceneFile::read(format!("examples/scenes/{name}.toml")).and_then(|file| file.with(overrides));
+    let scene = file.and_then(|file| file.scene()).expect("a scene");
     let run = creepage::run(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
-    assert!(
-        run.error_estimate.relative <= scene.solver.tolerance,
-        "{name}: {:?}",
-        run.error_estimate
-    );
+    let stated = run.error_estimate.relative;
+    assert!(stated <= scene.solver.tolerance, "{name}: {stated}");
     (scene, run)
 }
 
@@ -41,23 +33,15 @@ fn largest(run: &Run) -> [f64; 2] {
 #[track_caller]
 fn assert_agree(one: (&Run, f64), other: (&Run, f64)) {
     let stated = one.0.error_estimate.relative + other.0.error_estimate.relative;
-    let apart = (one.1 - other.1).abs();
-    assert!(
-        apart <= stated * one.1.abs().max(other.1.abs()),
-        "{} N, {} N",
-        one.1,
-        other.1
-    );
+    assert_within(one.1, other.1, stated * one.1.abs().max(other.1.abs()), "N");
 }
 
 /// Finite elements are an independent ground.
 #[test]
 fn layers_give_the_forces_of_finite_elements() {
-    let (_, transform) = run("layers", &["traffic.passes=5"]);
-    let (_, elements) = run(
-        "layers",
-        &["traffic.passes=5", "ground.model=fem", "solver.tolerance=2 %"],
-    );
+    let few = "traffic.passes=5";
+    let (_, transform) = run("layers", &[few]);
+    let (_, elements) = run("layers", &[few, "ground.model=fem", "solver.tolerance=2 %"]);
     assert!(transform.plan.ground.starts_with("burmister"));
     assert_agree((&transform, ends(&transform)[1]), (&elements, ends(&elements)[1]));
 }
@@ -79,10 +63,7 @@ fn a_slope_adds_at_most_its_part_of_the_weight() {
     let (_, level) = run("slope", &["duct.slope=0"]);
     let [down, level] = [down, level].map(|run| ends(&run)[1]);
     let weight = scene.body_force().abs() * scene.duct.length;
-    assert!(
-        weight > 100.0 && down > level && down <= level + 1.05 * weight,
-        "{down} N, {level} N, {weight} N"
-    );
+    assert!(weight > 100.0 && down > level && down <= level + 1.05 * weight);
 }
 
 /// Seen from the other side, with the other lane first, ends change places.
@@ -113,10 +94,7 @@ fn clamps_spare_the_joint() {
     assert_eq!(held.restraints.len(), scene.restraints.len());
     let largest = scene.friction_limit() * scene.duct.length;
     for clamp in &held.restraints {
-        assert!(
-            clamp.force_n.abs() > 1.0 && clamp.force_n.abs() < largest,
-            "{clamp:?}"
-        );
+        assert!((1.0..largest).contains(&clamp.force_n.abs()), "{clamp:?}");
     }
 }
 
@@ -151,6 +129,7 @@ fn a_bundle_presses_by_its_weight_correction_factor() {
 #[test]
 fn imperial_units_are_converted_exactly() {
     const KIP: f64 = 4448.2216152605;
+    let ksi = KIP / 0.0254 / 0.0254;
     let (scene, imperial) = run("imperial-units", &[]);
     let metric = [
         format!("duct.length={}", 98.0 * 0.3048),
@@ -163,11 +142,8 @@ fn imperial_units_are_converted_exactly() {
         format!("vehicles.0.load={}", 44.0 * KIP),
         format!("vehicles.0.speed={}", 25.0 * 0.44704),
         format!("ground.layers.0.thickness={}", 4.0 * 0.0254),
-        format!(
-            "ground.layers.0.young_modulus={}",
-            300e3 * KIP / 1e3 / 0.0254 / 0.0254
-        ),
-        format!("ground.layers.1.young_modulus={}", 116.0 * KIP / 0.0254 / 0.0254),
+        format!("ground.layers.0.young_modulus={}", 300.0 * ksi),
+        format!("ground.layers.1.young_modulus={}", 116.0 * ksi),
     ];
     let metric: Vec<&str> = metric.iter().map(String::as_str).collect();
     let (other, run) = run("imperial-units", &metric);

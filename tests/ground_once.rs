@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use creepage::design::{DesignOptions, Limits, Place, design};
 use creepage::report::{Report, ReportOptions};
-use creepage::{CalibrateOptions, Reading, Readings, Scene};
+use creepage::{CalibrateOptions, PassRecord, Reading, Readings, Scene};
 
 /// Finite elements, whose ground takes a hundred times as long as a pass on this mesh.
 fn scene() -> Scene {
@@ -31,11 +31,9 @@ fn what_takes_many_runs_takes_little_longer_than_the_ground() {
     let options = DesignOptions::new(Place::Downstream, limits);
     let mut measured = scene.clone();
     measured.traffic.passes = 6;
-    let forces = creepage::run(&measured).expect("a run").passes;
-    let forces = forces
-        .iter()
-        .map(|record| Reading::force(record.pass, record.downstream_force_n));
-    let readings: Readings = forces.collect();
+    let passes = creepage::run(&measured).expect("a run").passes;
+    let reading = |record: &PassRecord| Reading::force(record.pass, record.downstream_force_n);
+    let readings: Readings = passes.iter().map(reading).collect();
     let works: [(&str, &mut dyn FnMut()); 3] = [
         // Some thirty model runs.
         ("calibration", &mut || {

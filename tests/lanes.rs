@@ -2,42 +2,23 @@
 
 use creepage::Scene;
 
-use crate::scenes::{self, run, scene_of};
+use crate::scenes::{self, run, upper};
 
-const ROAD: &str = r#"
-[duct]
-length = "20 m"
-depth = "1.2 m"
-[ground]
-[[ground.layers]]
-thickness = "30 cm"
-young_modulus = "500 MPa"
-poisson_ratio = 0.35
-[[ground.layers]]
-young_modulus = "100 MPa"
-poisson_ratio = 0.4
-[cable]
-preset = "xlpe-800-single-core"
-[friction]
-law = "coulomb"
-dynamic_coefficient = 0.3
-[ends]
-upstream = "free"
-downstream = "fixed"
-[[vehicles]]
-preset = "t-25"
-[traffic]
-passes = 4
-[solver]
-tolerance = 0.1
-node_spacing = "0.2 m"
-vehicle_step = "0.1 m"
-"#;
+const ROAD: [&str; 8] = [
+    "duct.length=20 m",
+    r#"ground={layers=[{thickness="30 cm", young_modulus="500 MPa", poisson_ratio=0.35}, {young_modulus="100 MPa", poisson_ratio=0.4}]}"#,
+    r#"friction={law="coulomb", dynamic_coefficient=0.3}"#,
+    r#"vehicles=[{preset="t-25"}]"#,
+    "traffic.passes=4",
+    "solver.tolerance=0.1",
+    "solver.node_spacing=0.2 m",
+    "solver.vehicle_step=0.1 m",
+];
 /// Of single numbers, where both ways of saying a place round differently.
 const ROUNDING: f64 = 1e-6;
 
 fn road(overrides: &[&str]) -> Scene {
-    scene_of(ROAD, overrides)
+    upper(&[&ROAD, overrides].concat())
 }
 
 fn forces(scene: &Scene) -> Vec<f64> {
@@ -56,14 +37,13 @@ fn assert_same(one: &Scene, other: &Scene) {
 #[test]
 fn a_lane_is_a_shift_of_all_wheels() {
     let wheels = |shift: f64| {
-        let wheel = |x: f64, y: f64, load: f64| {
-            format!(
-                "{{ x = {x}, y = {}, load = {load}, contact_radius = 0.1784 }}",
-                y + shift
-            )
+        let wheel = |(x, y, load): (f64, f64, f64)| {
+            let y = y + shift;
+            format!("{{ x = {x}, y = {y}, load = {load}, contact_radius = 0.1784 }}")
         };
-        let all = [(4.0, 25e3), (0.0, 100e3)]
-            .map(|(x, load)| [wheel(x, 0.875, load), wheel(x, -0.875, load)].join(","));
+        let axle = |x: f64, load: f64| [(x, 0.875, load), (x, -0.875, load)];
+        let all = [axle(4.0, 25e3), axle(0.0, 100e3)].concat();
+        let all: Vec<String> = all.into_iter().map(wheel).collect();
         format!("vehicles.0.wheels=[{}]", all.join(","))
     };
     for (direction, lane) in [("forward", 3.5), ("reverse", -1.3)] {
@@ -71,15 +51,10 @@ fn a_lane_is_a_shift_of_all_wheels() {
         let in_lane = road(&[&direction, &format!("vehicles.0.lateral_offset={lane}")]);
         assert_same(&in_lane, &road(&[&direction, &wheels(lane)]));
         // And of the duct to the other side.
-        assert_same(
-            &in_lane,
-            &road(&[&direction, &format!("duct.lateral_offset={}", -lane)]),
-        );
+        let beside = format!("duct.lateral_offset={}", -lane);
+        assert_same(&in_lane, &road(&[&direction, &beside]));
     }
-}
-
-#[test]
-fn a_lane_above_the_duct_is_none() {
+    // A lane above the duct is none.
     let both = ["vehicles.0.lateral_offset=3.5", "duct.lateral_offset=3.5"];
     assert_same(&road(&both), &road(&[]));
 }
@@ -87,14 +62,9 @@ fn a_lane_above_the_duct_is_none() {
 #[test]
 fn lanes_as_far_on_either_side_are_alike_and_farther_ones_move_the_cable_less() {
     let two = |first: f64, second: f64| {
-        let truck = |name: &str, lane: f64| {
-            format!("{{ preset = \"t-25\", name = \"{name}\", lateral_offset = {lane} }}")
-        };
-        road(&[&format!(
-            "vehicles=[{}, {}]",
-            truck("a", first),
-            truck("b", second)
-        )])
+        let one = format!("{{ preset = \"t-25\", name = \"a\", lateral_offset = {first} }}");
+        let other = format!("{{ preset = \"t-25\", name = \"b\", lateral_offset = {second} }}");
+        road(&[&format!("vehicles=[{one}, {other}]")])
     };
     assert_same(&two(0.0, 3.5), &two(0.0, -3.5));
     let last = |scene: &Scene| *forces(scene).last().expect("a pass");

@@ -4,7 +4,9 @@
 use creepage::calibration::{Quantity, Unknown};
 use creepage::readings::{Measured, Place};
 use creepage::scene::{End, Law};
-use creepage::{CableEnd, CalibrateOptions, Calibrated, Reading, Readings, RunOptions, Scene, calibrate};
+use creepage::{CableEnd, CalibrateOptions, Calibrated, Reading, Readings, Scene, calibrate};
+
+use crate::answers::common::{assert_within, staged};
 
 const PASSES: u64 = 24;
 const FRICTION: f64 = 0.3;
@@ -28,11 +30,7 @@ fn measured(instruments: &[(Measured, f64)], stiffness: f64) -> Readings {
     truth.friction.dynamic_coefficient = FRICTION;
     (truth.friction.law, truth.friction.shape_factor) = (Law::ElasticPlastic, Some(SHAPE_FACTOR));
     let stages: Vec<u64> = (1..=PASSES).collect();
-    let options = RunOptions {
-        stages: &stages,
-        ..RunOptions::default()
-    };
-    let run = creepage::run_with(&truth, &options).unwrap();
+    let run = staged(&truth, &stages);
     let deflection = creepage::profile_at(&truth, &[0.0]).unwrap().vertical_m[0];
     let mut random = fastrand::Rng::with_seed(7);
     let mut readings = Vec::new();
@@ -60,12 +58,9 @@ fn measured(instruments: &[(Measured, f64)], stiffness: f64) -> Readings {
 
 fn fit(readings: &Readings, more: &[Quantity]) -> Calibrated {
     let quantities = [Quantity::DynamicCoefficient, Quantity::ShapeFactor];
+    let unknowns = [&quantities, more].concat().into_iter().map(Unknown::shared);
     let options = CalibrateOptions {
-        unknowns: [&quantities, more]
-            .concat()
-            .into_iter()
-            .map(Unknown::shared)
-            .collect(),
+        unknowns: unknowns.collect(),
         ..CalibrateOptions::default()
     };
     calibrate(&scene(1.0), readings, &options).unwrap()
@@ -78,10 +73,7 @@ fn recovers(answer: &Calibrated, truths: &[f64], share: f64) {
     for (parameter, truth) in answer.parameters.iter().zip(truths) {
         let error = parameter.standard_error.unwrap();
         assert!(parameter.identifiable && error < share * truth, "{parameter:?}");
-        assert!(
-            (parameter.value - truth).abs() < 3.0 * error,
-            "{parameter:?} {truth}"
-        );
+        assert_within(parameter.value, *truth, 3.0 * error, parameter);
     }
 }
 

@@ -1,13 +1,15 @@
 //! Many passes of an axle histogram: stand-ins beside every axle at random.
 
-use creepage::{CableEnd, Limited, Scene};
+use creepage::{CableEnd, Limited, PassRecord, Scene};
 
+use super::common::assert_within;
 use crate::scene::histogram::read;
+use crate::scenes::{self, assert_near, last};
 
 /// What differs from the scene of the tests of histograms.
 const OWN: [&str; 5] = [
     "ends.downstream={ spring = 3e6 }",
-    "traffic.passes=2000",
+    "traffic.passes=1400",
     "solver.tolerance=0.05",
     "solver.node_spacing=0.15",
     "solver.vehicle_step=0.075",
@@ -34,11 +36,9 @@ fn the_mean_levels_off_after_as_many_axles_in_one_year_as_in_ten() {
         let run = creepage::run(&scene("levels", &[&format!("traffic.passes={passes}")])).expect("an answer");
         let after = run.saturation.expect("a saturation").passes_to_95_percent;
         // By the rows themselves: the first within 5 % of the last.
-        let last = run.passes.last().expect("a pass").downstream_force_n;
-        let near = run
-            .passes
-            .iter()
-            .find(|pass| pass.downstream_force_n >= 0.95 * last);
+        let last = last(&run).downstream_force_n;
+        let is_near = |pass: &&PassRecord| pass.downstream_force_n >= 0.95 * last;
+        let near = run.passes.iter().find(is_near);
         assert_eq!(after, near.expect("the last at least").pass);
         after
     });
@@ -51,64 +51,35 @@ fn stand_ins_keep_the_mean_force_and_the_spread_of_all_axles() {
     let jumps = creepage::run(&scene("axles", &["solver.method=pass-law"])).expect("an answer");
     let one_by_one = ["solver.method=quasi-static", "traffic.seed=5"];
     let every = creepage::run(&scene("axles", &one_by_one)).expect("an answer");
-    assert!(
-        jumps.cost.simulated_passes < 400,
-        "{}",
-        jumps.cost.simulated_passes
-    );
-    let mut forces: Vec<f64> = every.passes[SETTLED..]
-        .iter()
-        .map(|pass| pass.downstream_force_n)
-        .collect();
+    assert!(jumps.cost.simulated_passes < 400, "{:?}", jumps.cost);
+    let mut forces = scenes::forces(&every).split_off(SETTLED);
     let mean = forces.iter().sum::<f64>() / forces.len() as f64;
-    let last = jumps.passes.last().expect("a pass").downstream_force_n;
     let error = jumps.error_estimate.relative;
-    assert!(
-        (last / mean - 1.0).abs() <= error.max(0.01),
-        "{last} {mean} {error}"
-    );
+    assert_near(last(&jumps).downstream_force_n, mean, error.max(0.01), "mean");
 
     forces.sort_by(f64::total_cmp);
     let at = |share: f64| forces[(share * (forces.len() - 1) as f64) as usize];
     let spread = jumps.random.expect("a spread").downstream;
     // Of some hundred passes each.
     let width = at(0.95) - at(0.05);
-    for (found, wanted) in [
-        (spread.q05_n, at(0.05)),
-        (spread.q50_n, at(0.5)),
-        (spread.q95_n, at(0.95)),
-    ] {
-        assert!(
-            (found - wanted).abs() < 0.25 * width,
-            "{spread:?}, {} {} {}",
-            at(0.05),
-            at(0.5),
-            at(0.95)
-        );
+    for (found, share) in [(spread.q05_n, 0.05), (spread.q50_n, 0.5), (spread.q95_n, 0.95)] {
+        assert_within(found, at(share), 0.25 * width, share);
     }
     // Limits are judged on single axles, the heaviest at the worst time among them.
     let largest = [&jumps, &every].map(|run| run.largest(CableEnd::Downstream, Limited::Force));
     assert!(largest[1] > 1.1 * mean, "{largest:?} {mean}");
-    assert!(
-        (largest[0] - largest[1]).abs() < 0.5 * width,
-        "{largest:?} {width}"
-    );
+    assert_within(largest[0], largest[1], 0.5 * width, "largest");
 }
 
 /// The rows of a cable that still creeps lie within the spread of single axles, which is not that of a later time.
 #[test]
 fn the_spread_is_that_of_the_last_passes() {
-    let run = creepage::run(&scene(
-        "creeps",
-        &["solver.method=pass-law", "traffic.passes=100", "duct.length=60 m"],
-    ))
-    .expect("an answer");
-    let last = run.passes.last().expect("a pass").downstream_force_n;
+    let long = ["solver.method=pass-law", "traffic.passes=100", "duct.length=60 m"];
+    let run = creepage::run(&scene("creeps", &long)).expect("an answer");
+    let last = last(&run).downstream_force_n;
     let spread = run.random.expect("a spread").downstream;
-    assert!(
-        run.saturation
-            .is_none_or(|saturation| saturation.force_n > 1.1 * last)
-    );
+    let saturation = run.saturation.map(|saturation| saturation.force_n);
+    assert!(saturation.is_none_or(|force| force > 1.1 * last));
     assert!(spread.q05_n < last && last < spread.q95_n, "{spread:?} {last}");
 }
 
@@ -119,13 +90,8 @@ fn few_axles_are_simulated_one_by_one() {
         let scene = scene("few", overrides);
         creepage::plan(&scene).expect("a plan").report().cable
     };
-    assert_eq!(method(&["solver.tolerance=0.01"]), "quasi-static");
-    assert_eq!(
-        method(&["solver.tolerance=0.05", "traffic.passes=20000"]),
-        "pass-law"
-    );
-    assert_eq!(
-        method(&["solver.tolerance=0.01", "traffic.passes=1000000"]),
-        "pass-law"
-    );
+    let (loose, tight) = ("solver.tolerance=0.05", "solver.tolerance=0.01");
+    assert_eq!(method(&[tight]), "quasi-static");
+    assert_eq!(method(&[loose, "traffic.passes=20000"]), "pass-law");
+    assert_eq!(method(&[tight, "traffic.passes=1000000"]), "pass-law");
 }

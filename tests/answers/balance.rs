@@ -4,6 +4,7 @@ use creepage::Scene;
 use creepage::scene::{Law, SolverMethod};
 
 use super::common::{UPPER, answer, by, limit, scene, upper};
+use crate::scenes::{assert_near, forces, largest, last};
 
 /// A million passes by the automatic choice and by the law, six hundred also by the law.
 fn many(scene: &Scene) {
@@ -16,13 +17,6 @@ fn many(scene: &Scene) {
         scene.traffic.passes = passes;
         answer(&scene);
     }
-}
-
-#[test]
-fn a_soft_sheath_is_never_dragged_beyond_friction() {
-    many(&upper(&[
-        "friction = { dynamic_coefficient = 0.25, shape_factor = 1e5 }",
-    ]));
 }
 
 /// A heavy cable under a light vehicle follows its duct; what six hundred passes leave is the first ones' 18.8 N.
@@ -41,19 +35,19 @@ fn a_cable_that_follows_its_duct_is_dragged_by_nothing() {
     let mut many = scene;
     many.traffic.passes = 1_000_000;
     if let Some(run) = answer(&many) {
-        let last = run.passes.last().expect("passes").downstream_force_n;
-        assert!((last / simulated - 1.0).abs() < 0.15, "{last} {simulated}");
+        assert_near(last(&run).downstream_force_n, simulated, 0.15, "N");
     }
 }
 
 #[test]
-fn traffic_in_two_directions_clamps_and_springs_are_carried_by_friction() {
+fn a_soft_sheath_traffic_in_two_directions_clamps_and_springs_are_carried_by_friction() {
+    let soft = "friction = { dynamic_coefficient = 0.25, shape_factor = 1e5 }";
+    let springs = "ends = { upstream = { spring = 1e4 }, downstream = { spring = 1e4 } }";
     let both_ways = "vehicles = [{ name = \"a\", speed = \"40 km/h\", load = \"20 tf\" }, \
                      { name = \"b\", speed = \"40 km/h\", load = \"12 tf\", direction = \"reverse\" }]";
-    many(&upper(&[both_ways]));
-    many(&upper(&[
-        "ends = { upstream = { spring = 1e4 }, downstream = { spring = 1e4 } }",
-    ]));
+    for line in [soft, springs, both_ways] {
+        many(&upper(&[line]));
+    }
     let mut clamped = upper(&[
         "ends = { upstream = \"free\", downstream = \"free\" }",
         "restraints = [{ position = 59, stiffness = 1e7 }]",
@@ -113,11 +107,7 @@ fn hardly_any_friction_carries_hardly_any_force() {
             scene.traffic.passes = passes;
             if let Some(run) = answer(&scene) {
                 let most = 1.01 * limit(&scene) * scene.duct.length;
-                assert!(
-                    run.passes
-                        .iter()
-                        .all(|record| record.downstream_force_n.abs() <= most)
-                );
+                assert!(largest(forces(&run)) <= most);
             }
         }
     }

@@ -1,8 +1,11 @@
 //! Scenes as text, and what no answer may break.
 
-use crate::scenes::largest;
+use std::fmt::Debug;
+
 use creepage::scene::{End, SolverMethod};
 use creepage::{Error, PassRecord, Run, RunOptions, Scene};
+
+use crate::scenes::{self, largest};
 
 /// The full-scale experiment's upper cable in a duct of 60 m: half-space of 800 MPa, free upstream, fixed downstream, 20 tf.
 pub const UPPER: [&str; 8] = [
@@ -41,6 +44,27 @@ pub fn upper(lines: &[&str]) -> Scene {
     scene(&[&UPPER, lines])
 }
 
+/// Asserts that `found` is the expected number within `allowed`.
+#[track_caller]
+pub fn assert_within(found: f64, expected: f64, allowed: f64, what: impl Debug) {
+    let off = (found - expected).abs();
+    assert!(off <= allowed, "{what:?}: {found}, not {expected}");
+}
+
+/// The run of a scene with a look at the cable after the passes `stages`.
+pub fn staged(scene: &Scene, stages: &[u64]) -> Run {
+    let options = RunOptions {
+        stages,
+        ..RunOptions::default()
+    };
+    creepage::run_with(scene, &options).expect("an answer")
+}
+
+/// Whether a warning of the run says so.
+pub fn is_told(run: &Run, words: &str) -> bool {
+    run.warnings.iter().any(|warning| warning.contains(words))
+}
+
 /// The most that friction carries per metre \[N/m\].
 pub fn limit(scene: &Scene) -> f64 {
     scene.friction.dynamic_coefficient * scene.normal_load()
@@ -65,15 +89,10 @@ pub fn looked_at(scene: &Scene, stages: &[u64]) -> Option<Run> {
             Some(run)
         }
         Err(error) => {
+            let is_unfit = matches!(error, Error::TooManyNodes { .. } | Error::Unfit { .. });
+            let is_unsure = matches!(error, Error::Inaccurate { .. } | Error::NoAnswer { .. });
             assert!(
-                matches!(
-                    error,
-                    Error::Inaccurate { .. }
-                        | Error::NoAnswer { .. }
-                        | Error::Jumps(_)
-                        | Error::TooManyNodes { .. }
-                        | Error::Unfit { .. }
-                ),
+                is_unfit || is_unsure || matches!(error, Error::Jumps(_)),
                 "{error:?}"
             );
             let text = error.to_string();
@@ -95,32 +114,20 @@ pub fn assert_possible(scene: &Scene, run: &Run) {
     // Any error is allowed of forces that are small relative to friction on a length as the duct is deep.
     let largest = run.passes.iter().map(largest_force).fold(0.0, f64::max);
     let small = 0.1 * scene.duct.depth * scene.friction_limit() / largest;
-    assert!(
-        (0.0..=allowed.max(small)).contains(&stated.relative),
-        "{stated:?}"
-    );
-    let is_small = |warning: &String| warning.contains("so small");
-    assert_eq!(stated.relative > allowed, run.warnings.iter().any(is_small));
+    let possible = 0.0..=allowed.max(small);
+    assert!(possible.contains(&stated.relative), "{stated:?}");
+    assert_eq!(stated.relative > allowed, is_told(run, "so small"));
     // A movement that is not known so well, as of an end that hardly moves, is told.
-    let told = run
-        .warnings
-        .iter()
-        .any(|warning| warning.contains("of the movement"));
-    assert!(
-        stated.parts.movement <= scene.solver.tolerance || told,
-        "{stated:?}"
-    );
+    let within = stated.parts.movement <= scene.solver.tolerance;
+    assert!(within || is_told(run, "of the movement"), "{stated:?}");
 
-    let first = run.passes.first().expect("passes").pass;
-    let last = run.passes.last().expect("passes").pass;
+    let (first, last) = (run.passes[0].pass, scenes::last(run).pass);
     assert_eq!((first, last), (1, scene.traffic.passes));
     assert_ends(scene, &run.passes);
     assert_balance(scene, run);
     if let Some(saturation) = run.saturation {
-        assert!(
-            saturation.force_n.abs() >= reached(scene, &run.passes),
-            "{saturation:?}"
-        );
+        let reached = reached(scene, &run.passes);
+        assert!(saturation.force_n.abs() >= reached, "{saturation:?}");
     }
 }
 
@@ -131,10 +138,10 @@ fn assert_finite(value: &serde_json::Value, place: &str) {
     match value {
         Value::Array(values) => values.iter().for_each(|value| assert_finite(value, place)),
         Value::Object(fields) => fields.iter().for_each(|(name, value)| assert_finite(value, name)),
-        Value::Null => assert!(
-            ["saturation", "slip_lengths", "dissipated_energy_j", "friction"].contains(&place),
-            "{place} is no number"
-        ),
+        Value::Null => {
+            let missing = ["saturation", "slip_lengths", "dissipated_energy_j", "friction"];
+            assert!(missing.contains(&place), "{place} is no number");
+        }
         _ => {}
     }
 }
@@ -146,35 +153,24 @@ fn assert_ends(scene: &Scene, passes: &[PassRecord]) {
     let friction = limit(scene) * scene.duct.length;
     let largest = passes.iter().map(largest_force).fold(1e-9, f64::max);
     for record in passes {
-        let ends = [
-            (
-                scene.ends.upstream,
-                record.upstream_force_n,
-                -record.upstream_displacement_m,
-            ),
-            (
-                scene.ends.downstream,
-                record.downstream_force_n,
-                record.downstream_displacement_m,
-            ),
-        ];
-        for (end, force, inward) in ends {
+        let (upstream, downstream) = (record.upstream_force_n, record.downstream_force_n);
+        let (back, ahead) = (-record.upstream_displacement_m, record.downstream_displacement_m);
+        let ends = &scene.ends;
+        for (end, force, inward) in [
+            (ends.upstream, upstream, back),
+            (ends.downstream, downstream, ahead),
+        ] {
             // The law of many passes rounds its ends to a hundredth.
             match end {
                 End::Free => assert!(force.abs() <= 0.01 * largest, "{record:?}"),
                 End::Fixed => assert!(inward.abs() <= 1e-9, "{record:?}"),
-                End::Spring(stiffness) => assert!(
-                    (force - stiffness * inward).abs() <= 0.01 * largest,
-                    "{stiffness} N/m: {record:?}"
-                ),
+                End::Spring(stiffness) => {
+                    assert_within(force, stiffness * inward, 0.01 * largest, record);
+                }
             }
         }
         if scene.restraints.is_empty() {
-            let carried = (record.downstream_force_n - record.upstream_force_n).abs();
-            assert!(
-                carried <= 1.01 * friction,
-                "{carried} N, friction {friction} N: {record:?}"
-            );
+            assert_within(downstream, upstream, 1.01 * friction, record);
         }
     }
 }
@@ -189,31 +185,29 @@ fn assert_balance(scene: &Scene, run: &Run) {
         let friction = 1.01 * limit(scene) * (x[1] - x[0]);
         // A clamp is shared by the two nodes beside it, so by the elements before and after them.
         let near = 1.5 * (x[1] - x[0]);
-        let clamps: f64 = run
+        let near = x[0] - near..=x[1] + near;
+        let clamps = run
             .restraints
             .iter()
-            .filter(|clamp| (x[0] - near..=x[1] + near).contains(&clamp.position_m))
-            .map(|clamp| clamp.force_n.abs())
-            .sum();
-        let change = (force[1] - force[0]).abs();
-        assert!(
-            change <= friction + 1.001 * clamps + 1e-9 * largest,
-            "{change} N at {} m, friction {friction} N, clamps {clamps} N",
-            x[0]
-        );
+            .filter(|clamp| near.contains(&clamp.position_m));
+        let clamps: f64 = clamps.map(|clamp| clamp.force_n.abs()).sum();
+        let allowed = friction + 1.001 * clamps + 1e-9 * largest;
+        assert_within(force[1], force[0], allowed, x);
     }
 }
 
-fn largest_force(record: &PassRecord) -> f64 {
+pub fn largest_force(record: &PassRecord) -> f64 {
+    let peaks = [record.upstream_peak_n, record.downstream_peak_n];
+    largest(forces_after(record).into_iter().chain(peaks))
+}
+
+/// Forces on the ends and the compression in the cable after a pass \[N\].
+pub fn forces_after(record: &PassRecord) -> [f64; 3] {
     [
         record.upstream_force_n,
         record.downstream_force_n,
         record.max_compression_n,
-        record.upstream_peak_n,
-        record.downstream_peak_n,
     ]
-    .into_iter()
-    .fold(0.0, |most: f64, force| most.max(force.abs()))
 }
 
 /// The largest force in size that a held end shows after any pass; inside the cable where both ends are free.

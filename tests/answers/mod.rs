@@ -2,7 +2,7 @@
 
 mod axles;
 mod balance;
-mod common;
+pub mod common;
 pub mod long_term;
 mod meshes;
 mod mixes;

@@ -8,6 +8,7 @@ use ground_field::{Base, GroundField, SoilProfile};
 use layered_fem::LayeredFem;
 
 use super::common::{FEM_ACCURACY, load, profile, soil};
+use crate::answers::common::assert_within;
 
 const MILLIMETRE: f64 = 1e-3;
 const INCH: f64 = 0.0254;
@@ -43,16 +44,9 @@ fn superposed(field: &dyn GroundField, centres: &[(f64, f64)], place: [f64; 3]) 
         let (x, y) = (place[0] - centre.0, place[1] - centre.1);
         let radius = x.hypot(y);
         let u = field.displacement(wheel, radius, place[2]).expect("displacement");
-        let [east, north] = if radius > 0.0 {
-            [x / radius, y / radius]
-        } else {
-            [0.0, 0.0]
-        };
-        [
-            sum[0] + u.radial * east,
-            sum[1] + u.radial * north,
-            sum[2] + u.vertical,
-        ]
+        // On the axis nothing moves sideways.
+        let share = if radius > 0.0 { u.radial / radius } else { 0.0 };
+        [sum[0] + share * x, sum[1] + share * y, sum[2] + u.vertical]
     })
 }
 
@@ -78,16 +72,13 @@ fn ellea1_three_layers_and_half_space() {
         };
         let found = superposed(field, centres, place);
         for axis in 0..3 {
-            let gap = (found[axis] - printed[axis]).abs();
-            assert!(gap <= ELLEA_DIGITS, "{row:?}: {found:?} m");
+            assert_within(found[axis], printed[axis], ELLEA_DIGITS, &row);
         }
         // Finite elements where a duct may lie; to their own accuracy of the peak at that depth.
         if row["system"] == "ellea3_dual" && place[2] >= 0.5 {
             let found = superposed(&elements, &dual, place)[2];
-            assert!(
-                (found - printed[2]).abs() <= FEM_ACCURACY * printed[2] + ELLEA_DIGITS,
-                "{row:?}: {found} m"
-            );
+            let allowed = FEM_ACCURACY * printed[2] + ELLEA_DIGITS;
+            assert_within(found, printed[2], allowed, &row);
         }
         seen += 1;
     }
@@ -96,13 +87,9 @@ fn ellea1_three_layers_and_half_space() {
 
 #[test]
 fn kenpave_three_layers() {
-    let ground = profile(
-        &[
-            (6.0 * INCH, soil(500e3 * PSI, 0.35)),
-            (10.0 * INCH, soil(40e3 * PSI, 0.40)),
-        ],
-        Base::HalfSpace(soil(10e3 * PSI, 0.45)),
-    );
+    let (upper, lower) = (soil(500e3 * PSI, 0.35), soil(40e3 * PSI, 0.40));
+    let base = Base::HalfSpace(soil(10e3 * PSI, 0.45));
+    let ground = profile(&[(6.0 * INCH, upper), (10.0 * INCH, lower)], base);
     let layered = LayeredHalfSpace::new(&ground).expect("layers");
     let elements = LayeredFem::new(&ground, FEM_ACCURACY).expect("elements");
     let radius = 5.99 * INCH;
@@ -113,18 +100,10 @@ fn kenpave_three_layers() {
         let printed = number(&row, "uz_in") * INCH;
         let found = layered.displacement(wheel, 0.0, depth).expect("value").vertical;
         // Five decimals of an inch, rounded; the last one may stray by one.
-        assert!(
-            (found - printed).abs() <= 1.5e-5 * INCH,
-            "{row:?}: {} in",
-            found / INCH
-        );
+        assert_within(found, printed, 1.5e-5 * INCH, &row);
         if depth >= 0.5 {
             let found = elements.displacement(wheel, 0.0, depth).expect("value").vertical;
-            assert!(
-                (found - printed).abs() <= FEM_ACCURACY * printed + 1.5e-5 * INCH,
-                "{row:?}: {} in",
-                found / INCH
-            );
+            assert_within(found, printed, FEM_ACCURACY * printed + 1.5e-5 * INCH, &row);
         }
         seen += 1;
     }

@@ -7,6 +7,7 @@ use creepage::scene::{Order, SolverMethod};
 use rayon::prelude::*;
 
 use super::scenes::{Difference, by, difference, random};
+use crate::scenes::by_threads;
 
 /// Share of the mixes in which every force and movement is within the stated error, which holds that of a coarse mesh too, and nine in
 /// ten within the tolerance; and how far beyond the stated error none is.
@@ -66,16 +67,11 @@ fn judge(seed: u64, most: u64) -> Vec<Judged> {
             method: name,
             off: force.max(extreme).max(movement),
             beyond: (force.max(extreme) / stated).max(movement / moved),
-            line: format!(
-                "{seed} {name}: {} of {} passes; force {:.2} %, largest {:.2} %, stated {:.2} %; movement {:.2} %, stated {:.2} %",
-                found.cost.simulated_passes,
-                scene.traffic.passes,
-                100.0 * force,
-                100.0 * extreme,
-                100.0 * stated,
-                100.0 * movement,
-                100.0 * moved
-            ),
+            line: {
+                let (simulated, passes) = (found.cost.simulated_passes, scene.traffic.passes);
+                let percent = [force, extreme, movement].map(|share| 100.0 * share);
+                format!("{seed} {name}: {simulated} of {passes}; force, largest, movement: {percent:.2?} %")
+            },
         })
     };
     methods.iter().filter_map(of_method).collect()
@@ -89,21 +85,15 @@ fn assert_right(seeds: std::ops::Range<u64>, most: u64) {
     for one in &judged {
         println!("{}", one.line);
     }
-    assert!(
-        2 * judged.len() as u64 > count,
-        "{} of {count} mixes have jumps",
-        judged.len()
-    );
+    let jumped = judged.len() as u64;
+    assert!(2 * jumped > count, "{jumped} of {count} mixes have jumps");
     let worse = |is_bad: &dyn Fn(&Judged) -> bool| -> Vec<(u64, &str)> {
         let bad = judged.iter().filter(|one| is_bad(one));
         bad.map(|one| (one.seed, one.method)).collect()
     };
     let beyond = worse(&|one| one.beyond > 1.0);
     let off = worse(&|one| one.off > TOLERANCE);
-    println!(
-        "{} judged; beyond what is stated: {beyond:?}, beyond 1 %: {off:?}",
-        judged.len()
-    );
+    println!("{jumped} judged; beyond what is stated: {beyond:?}, beyond 1 %: {off:?}");
     for (seed, _) in &beyond {
         println!("{}", random(*seed, None).to_toml());
     }
@@ -137,26 +127,20 @@ fn chosen(name: &str, usual: u64) -> u64 {
 #[test]
 #[ignore = "150 random mixes with a million passes: half an hour; FIRST and MIXES choose them; on a quiet machine"]
 fn a_million_passes_of_a_mix_take_seconds() {
-    let one_core = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("a thread");
     let (first, count) = (chosen("FIRST", 0), chosen("MIXES", 150));
     let (mut slow, mut refused) = (Vec::new(), Vec::new());
     for seed in first..first + count {
         let scene = random(seed, Some(1_000_000));
         let begun = Instant::now();
-        let run = one_core.install(|| creepage::run(&scene));
+        let run = by_threads(1, || creepage::run(&scene));
         let took = begun.elapsed();
         match run {
-            Ok(run) => println!(
-                "{seed}: {:.1} s, {} passes simulated, stated {:.2} %",
-                took.as_secs_f64(),
-                run.cost.simulated_passes,
-                100.0 * run.error_estimate.relative
-            ),
+            Ok(run) => {
+                let (simulated, stated) = (run.cost.simulated_passes, run.error_estimate.relative);
+                println!("{seed}: {took:.1?}, {simulated} passes simulated, stated {stated:.4}");
+            }
             Err(error @ (Error::Inaccurate { .. } | Error::Jumps(_))) => {
-                println!("{seed}: {:.1} s, {error}", took.as_secs_f64());
+                println!("{seed}: {took:.1?}, {error}");
                 refused.push(seed);
                 continue;
             }
@@ -167,8 +151,6 @@ fn a_million_passes_of_a_mix_take_seconds() {
         }
     }
     let not_quick = (slow.len() + refused.len()) as f64;
-    assert!(
-        not_quick <= (1.0 - QUICK) * count as f64,
-        "slow: {slow:?}, refused: {refused:?}"
-    );
+    let most = (1.0 - QUICK) * count as f64;
+    assert!(not_quick <= most, "slow: {slow:?}, refused: {refused:?}");
 }

@@ -5,6 +5,8 @@ use creepage::{CableEnd, PassRecord, Run, Scene};
 use rayon::prelude::*;
 
 use super::scenes::by;
+use crate::answers::common::assert_within;
+use crate::scenes;
 
 /// Random runs of which every pass is simulated, the passes before which they still remember that nothing had passed, and after which the
 /// forces on both ends hardly depend on which pass it is.
@@ -39,12 +41,8 @@ fn force(record: &PassRecord) -> [f64; 2] {
 
 /// Mean force on both ends over the late passes of a run.
 fn late_mean(run: &Run) -> [f64; 2] {
-    let late: Vec<[f64; 2]> = run
-        .passes
-        .iter()
-        .filter(|pass| pass.pass > FORGOTTEN)
-        .map(force)
-        .collect();
+    let late = run.passes.iter().filter(|pass| pass.pass > FORGOTTEN);
+    let late: Vec<[f64; 2]> = late.map(force).collect();
     [0, 1].map(|end| late.iter().map(|force| force[end]).sum::<f64>() / late.len() as f64)
 }
 
@@ -65,19 +63,14 @@ fn assert_mean(reverse: bool, shares: (f64, f64), loads: (f64, f64)) {
     };
     let runs: Vec<[f64; 2]> = (0..RUNS).into_par_iter().map(every).collect();
     let found = by(&scene(reverse, shares, loads, 1_000_000), SolverMethod::Auto).expect("an answer");
-    let last = force(found.passes.last().expect("a pass"));
-    let largest = last.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
-    let stated = found.error_estimate.relative;
+    let last = force(scenes::last(&found));
+    let stated = found.error_estimate.relative * scenes::largest(last);
     for end in [0, 1] {
         let mean = runs.iter().map(|run| run[end]).sum::<f64>() / RUNS as f64;
         let square = runs.iter().map(|run| (run[end] - mean).powi(2)).sum::<f64>();
         // Three standard errors of the mean of the runs.
         let scatter = 3.0 * (square / (RUNS * (RUNS - 1)) as f64).sqrt();
-        assert!(
-            (last[end] - mean).abs() <= scatter + stated * largest,
-            "{} N, the mean over random runs is {mean} ± {scatter} N, stated {stated}",
-            last[end]
-        );
+        assert_within(last[end], mean, scatter + stated, (end, scatter));
     }
     let random = found.random.expect("a spread");
     for end in CableEnd::ALL {
@@ -91,11 +84,10 @@ fn assert_mean(reverse: bool, shares: (f64, f64), loads: (f64, f64)) {
 fn a_random_order_of_few_passes_is_compared_too() {
     let scene = scene(true, (0.517, 0.483), (80.0, 80.0), 150);
     match by(&scene, SolverMethod::PassLaw) {
-        Ok(run) if run.plan.cable == "pass-law" => assert!(
-            run.error_estimate.parts.passes > 0.005,
-            "{:?}",
-            run.error_estimate
-        ),
+        Ok(run) if run.plan.cable == "pass-law" => {
+            let stated = run.error_estimate.parts.passes;
+            assert!(stated > 0.005, "{stated}");
+        }
         Ok(run) => assert_eq!(run.cost.simulated_passes, 150),
         Err(error) => assert!(matches!(error, creepage::Error::Inaccurate { .. }), "{error}"),
     }

@@ -4,12 +4,31 @@ use creepage::scene::SolverMethod;
 use creepage::{Error, PassRecord, Run, Scene};
 use fastrand::Rng;
 
+use crate::answers::common::forces_after;
+use crate::scenes;
+
 /// Nodes a depth.
 const NODES: f64 = 6.0;
 /// Forces of a pass below this share of the largest of the run count as nothing, as in the estimate.
 const SMALL: f64 = 0.1;
 /// And so does the friction on a centimetre of cable \[m\].
 const SHORT: f64 = 0.01;
+
+/// These vehicles over a duct of 20 m whose downstream end is fixed.
+pub fn under(vehicles: &str, traffic: &str) -> Scene {
+    let text = format!(
+        r#"
+        duct = {{ length = 20, depth = 1.2 }}
+        ground = {{ layers = [{{ young_modulus = "300 MPa", poisson_ratio = 0.4 }}] }}
+        cable = {{ weight = 108.8, axial_stiffness = 8.01e6 }}
+        friction = {{ dynamic_coefficient = 0.3, shape_factor = 6e6 }}
+        ends = {{ upstream = "free", downstream = "fixed" }}
+        vehicles = [{vehicles}]
+        traffic = {{ {traffic} }}
+        "#
+    );
+    Scene::from_toml("scene", &text).expect("a valid scene")
+}
 
 /// Two to six vehicles with shares from 1 : 1 to 1 : 1000 and loads from 1 : 10, some against the common direction; evenly mixed, in a
 /// sequence of 13 to 500 or at random; springs and clamps.
@@ -25,15 +44,11 @@ pub fn random(seed: u64, passes: Option<u64>) -> Scene {
     };
     let ends = format!("ends = {{ upstream = {}, downstream = {} }}", end(), end());
     let clamps = between(0.0, 1.0).round() * between(0.0, 2.99);
-    let clamps: Vec<String> = (0..clamps as u8)
-        .map(|_| {
-            let stiffness = 10_f64.powf(between(4.5, 7.0));
-            format!(
-                "{{ position = {}, stiffness = {stiffness} }}",
-                length * between(0.1, 0.9)
-            )
-        })
-        .collect();
+    let mut clamp = |_| {
+        let (stiffness, position) = (10_f64.powf(between(4.5, 7.0)), length * between(0.1, 0.9));
+        format!("{{ position = {position}, stiffness = {stiffness} }}")
+    };
+    let clamps: Vec<String> = (0..clamps as u8).map(&mut clamp).collect();
     let kinds = between(2.0, 6.99) as usize;
     let (load, whole) = (between(3e4, 8e4), between(0.0, 1.0) < 0.5);
     let vehicles: Vec<String> = (0..kinds)
@@ -52,11 +67,8 @@ pub fn random(seed: u64, passes: Option<u64>) -> Scene {
     let order = between(0.0, 1.0);
     let order = if order < 0.3 {
         let vehicles = (0..between(13.0, 500.0) as usize).map(|_| {
-            let seldom = between(0.0, 1.0) < 0.15;
-            format!(
-                "\"v{}\"",
-                usize::from(seldom) * between(0.0, kinds as f64) as usize
-            )
+            let seldom = usize::from(between(0.0, 1.0) < 0.15);
+            format!("\"v{}\"", seldom * between(0.0, kinds as f64) as usize)
         });
         format!(", sequence = [{}]", vehicles.collect::<Vec<_>>().join(", "))
     } else if order < 0.4 {
@@ -64,23 +76,14 @@ pub fn random(seed: u64, passes: Option<u64>) -> Scene {
     } else {
         String::new()
     };
+    let (modulus, poisson) = (10_f64.powf(between(7.7, 8.9)), between(0.2, 0.45));
+    let (weight, stiffness) = (between(50.0, 200.0), 10_f64.powf(between(6.5, 7.8)));
+    let (friction, sheath) = (between(0.1, 0.6), 10_f64.powf(between(6.0, 7.5)));
     let lines = [
         format!("duct = {{ length = {length}, depth = {depth} }}"),
-        format!(
-            "ground = {{ layers = [{{ young_modulus = {}, poisson_ratio = {} }}] }}",
-            10_f64.powf(between(7.7, 8.9)),
-            between(0.2, 0.45)
-        ),
-        format!(
-            "cable = {{ weight = {}, axial_stiffness = {} }}",
-            between(50.0, 200.0),
-            10_f64.powf(between(6.5, 7.8))
-        ),
-        format!(
-            "friction = {{ dynamic_coefficient = {}, shape_factor = {} }}",
-            between(0.1, 0.6),
-            10_f64.powf(between(6.0, 7.5))
-        ),
+        format!("ground = {{ layers = [{{ young_modulus = {modulus}, poisson_ratio = {poisson} }}] }}"),
+        format!("cable = {{ weight = {weight}, axial_stiffness = {stiffness} }}"),
+        format!("friction = {{ dynamic_coefficient = {friction}, shape_factor = {sheath} }}"),
         ends,
         format!("restraints = [{}]", clamps.join(", ")),
         format!("vehicles = [{}]", vehicles.join(", ")),
@@ -112,76 +115,45 @@ pub struct Difference {
 /// By how much `found` differs from `every` pass simulated.
 pub fn difference(scene: &Scene, every: &Run, found: &Run) -> Difference {
     let friction = SHORT * scene.friction.dynamic_coefficient * scene.normal_load();
-    let largest = every
-        .passes
-        .iter()
-        .flat_map(forces_during)
-        .fold(friction, |most, f| most.max(f.abs()));
+    let most = scenes::largest(every.passes.iter().flat_map(forces_during)).max(friction);
     // Where other vehicles stand in for the traffic, a pass after the first ones is shown by the mean over a period around it, or over
     // the last one.
     let period = creepage::plan(scene).expect("a plan").period;
     let (length, count) = (period.len(), every.passes.len());
     let of_pass = |record: &PassRecord| {
-        let place = every
-            .passes
-            .binary_search_by_key(&record.pass, |other| other.pass)
-            .ok()?;
-        let shown = if period.is_own() || !record.interpolated || place < period.first.len() {
-            place..place + 1
-        } else {
-            let begin = place
-                .saturating_sub((length - 1) / 2)
-                .min(count.saturating_sub(length));
-            begin..(begin + length).min(count)
-        };
+        let place = every.passes.iter().position(|other| other.pass == record.pass)?;
+        let begin = place.saturating_sub((length - 1) / 2);
+        let begin = begin.min(count.saturating_sub(length));
+        let is_itself = period.is_own() || !record.interpolated || place < period.first.len();
+        let (begin, length) = if is_itself { (place, 1) } else { (begin, length) };
+        let shown = begin..(begin + length).min(count);
         let mean = |of: usize| {
-            let forces = every.passes[shown.clone()]
-                .iter()
-                .map(|pass| forces_after(pass)[of]);
-            forces.sum::<f64>() / shown.len() as f64
+            let passes = &every.passes[shown.clone()];
+            passes.iter().map(|pass| forces_after(pass)[of]).sum::<f64>() / shown.len() as f64
         };
         let right = [0, 1, 2].map(mean);
-        let scale = right
-            .iter()
-            .fold(SMALL * largest, |most, force| most.max(force.abs()));
         let pairs = right.into_iter().zip(forces_after(record));
-        Some(pairs.fold(0.0_f64, |most, (right, found)| {
-            most.max((right - found).abs() / scale)
-        }))
+        let scale = scenes::largest(right).max(SMALL * most);
+        Some(scenes::largest(pairs.map(|(right, found)| right - found)) / scale)
     };
     let apart = |values: fn(&PassRecord) -> Vec<f64>, scale: f64| {
         let (right, found) = (extremes(every, values), extremes(found, values));
-        let pairs = right.iter().zip(&found);
-        pairs.fold(0.0_f64, |most, (right, found)| {
-            most.max((right - found).abs() / scale)
-        })
+        scenes::largest(right.iter().zip(&found).map(|(right, found)| right - found)) / scale
     };
     let moved = extremes(every, movements).into_iter().fold(1e-7, f64::max);
     Difference {
         force: found.passes.iter().filter_map(of_pass).fold(0.0, f64::max),
-        extreme: apart(|record| forces_during(record).into(), largest),
+        extreme: apart(|record| forces_during(record).into(), most),
         movement: apart(movements, moved),
     }
 }
 
 /// The largest of each of these values in all passes that a run shows.
 fn extremes(run: &Run, values: fn(&PassRecord) -> Vec<f64>) -> Vec<f64> {
-    let shown = run
-        .passes
-        .iter()
-        .chain(run.extremes.iter().map(|extreme| &extreme.after));
-    shown
-        .map(values)
-        .reduce(|a, b| a.iter().zip(b).map(|(a, b)| a.max(b)).collect())
-        .unwrap_or_default()
-}
-
-fn forces_after(record: &PassRecord) -> [f64; 3] {
-    [
-        record.downstream_force_n,
-        record.upstream_force_n,
-        record.max_compression_n,
-    ]
+    let extremes = run.extremes.iter().map(|extreme| &extreme.after);
+    let larger = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(b).map(|(a, b)| a.max(b)).collect();
+    let shown = run.passes.iter().chain(extremes).map(values);
+    shown.reduce(larger).unwrap_or_default()
 }
 
 /// Each as large as it is when it is worst: the least force counts with the other sign.

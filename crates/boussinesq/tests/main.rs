@@ -2,9 +2,6 @@
 
 #[path = "half_space/main.rs"]
 mod half_space;
-#[path = "nasty_values.rs"]
 mod nasty_values;
-#[path = "properties.rs"]
 mod properties;
-#[path = "work.rs"]
 mod work;

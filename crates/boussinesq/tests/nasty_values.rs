@@ -6,10 +6,8 @@ use testkit::NASTY;
 
 /// Loads of every size that one can have.
 fn loads() -> impl Iterator<Item = SurfaceLoad> {
-    NASTY
-        .into_iter()
-        .flat_map(|a| [SurfaceLoad::new(1e5, a), SurfaceLoad::new(a, 0.15)])
-        .flatten()
+    let of = |a| [SurfaceLoad::new(1e5, a), SurfaceLoad::new(a, 0.15)];
+    NASTY.into_iter().flat_map(of).flatten()
 }
 
 fn answers_or_refuses(field: &dyn GroundField) {
@@ -21,12 +19,7 @@ fn answers_or_refuses(field: &dyn GroundField) {
                 }
             }
         }
-        assert!(
-            field
-                .displacements(load, &[], f64::NAN)
-                .is_ok_and(|values| values.is_empty())
-                || field.displacements(load, &[], 1.0).is_ok()
-        );
+        assert!(field.displacements(load, &[], 1.0).is_ok());
         assert!(field.displacements(load, &NASTY, 1.0).is_err());
     }
 }
@@ -35,10 +28,9 @@ fn answers_or_refuses(field: &dyn GroundField) {
 fn half_spaces() {
     for modulus in NASTY {
         for poisson in NASTY {
-            let Ok(soil) = Soil::new(modulus, poisson) else {
+            let Ok(ground) = Soil::new(modulus, poisson).map(HalfSpace::new) else {
                 continue;
             };
-            let ground = HalfSpace::new(soil);
             answers_or_refuses(&ground);
             for force in NASTY {
                 for place in NASTY {

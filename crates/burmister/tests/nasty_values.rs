@@ -6,14 +6,12 @@ use testkit::{NASTY, nasty_grounds};
 
 #[test]
 fn grounds_are_answered_or_refused() {
-    let loads = [
-        (1e5, 0.15),
-        (1e5, 0.0),
-        (f64::MAX, 1e-9),
-        (5e-324, 1e300),
-        (0.0, 0.0),
-    ];
-    let loads = loads.map(|(force, radius)| SurfaceLoad::new(force, radius).expect("a load"));
+    let ordinary = [(1e5, 0.15), (1e5, 0.0), (0.0, 0.0)];
+    let loads = [&ordinary[..], &[(f64::MAX, 1e-9), (5e-324, 1e300)]].concat();
+    let loads: Vec<_> = loads
+        .into_iter()
+        .map(|(force, radius)| SurfaceLoad::new(force, radius).expect("a load"))
+        .collect();
     for (k, profile) in nasty_grounds().iter().enumerate() {
         let Ok(ground) = LayeredHalfSpace::new(profile) else {
             continue;
@@ -24,10 +22,8 @@ fn grounds_are_answered_or_refused() {
         for depth in [NASTY[k % NASTY.len()], NASTY[5 * k % NASTY.len()], 0.05] {
             for radii in [&[][..], &[0.0, 1.0, 1e12], &[5e-324, 1e300, f64::MAX]] {
                 if let Ok((values, statistics)) = ground.displacements_with_statistics(load, radii, depth) {
-                    assert!(
-                        values.iter().all(|value| value.is_finite()),
-                        "{depth} {load:?} {profile:?}"
-                    );
+                    let all = values.iter().all(|value| value.is_finite());
+                    assert!(all, "{depth} {load:?} {profile:?}");
                     assert!(statistics.estimated_error <= ground.accuracy());
                 }
             }

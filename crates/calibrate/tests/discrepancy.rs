@@ -3,11 +3,11 @@
 use calibrate::{Calibration, CalibrationError, Estimate, Fit, smooth_functions};
 use proptest::prelude::*;
 
-use super::common::{answering, gaussian, linear};
+use super::common::{answering, assert_near, gaussian, linear};
 
 const COUNT: usize = 40;
 const NOISE: f64 = 0.02;
-const DRAWS: u64 = 100;
+const DRAWS: u64 = 60;
 
 fn place(k: usize) -> f64 {
     (1.0 + k as f64).ln()
@@ -60,7 +60,7 @@ fn width(fit: &Fit) -> f64 {
     interval.upper.unwrap() - interval.lower.unwrap()
 }
 
-/// Of 100 series each whose model is off by five noises: intervals of 95 % hold the truth where the size is
+/// Of 60 series each whose model is off by five noises: intervals of 95 % hold the truth where the size is
 /// the given one, known noise or not, and nearly always where the given one is twice as large; without a
 /// discrepancy they seldom do.
 #[test]
@@ -73,9 +73,9 @@ fn intervals_hold_where_the_model_is_off_by_the_given_size() {
                 .count()
         };
         let [plain, held, wide] = [None, Some(0.1), Some(0.2)].map(count);
-        assert!((90..=99).contains(&held), "{sigma:?}: {held}");
-        assert!(wide >= held && wide >= 98, "{sigma:?}: {wide}");
-        assert!(plain < 50, "{sigma:?}: {plain}");
+        assert!((54..=59).contains(&held), "{sigma:?}: {held}");
+        assert!(wide >= held && wide >= 59, "{sigma:?}: {wide}");
+        assert!(plain < 30, "{sigma:?}: {plain}");
     };
     std::thread::scope(|threads| {
         for sigma in [None, Some(NOISE)] {
@@ -92,7 +92,7 @@ fn a_size_is_taken_as_it_is_given() {
         for sigma in [None, Some(NOISE)] {
             let [none, tiny, small, large] =
                 [None, Some(1e-9), Some(0.1), Some(0.2)].map(|size| fit(measured(0.0, seed), size, sigma));
-            assert!((width(&tiny) / width(&none) - 1.0).abs() < 0.02);
+            assert_near(width(&tiny), width(&none), 0.02 * width(&none));
             assert!(width(&small) > 3.0 * width(&none));
             let ratio = width(&large) / width(&small);
             assert!((1.7..2.1).contains(&ratio), "{ratio}");
@@ -108,19 +108,17 @@ fn observations_at_one_place_are_as_exact_as_the_discrepancy() {
     let data = vec![100.0, 101.0, 99.0, 100.5, 99.5, 101.0];
     for size in [0.01, 0.1, 0.5] {
         let one = linear("level", -1e3, 1e3);
-        let sigmas = vec![0.8; 6];
         let calibration = Calibration::new(&level, vec![one], data.clone()).unwrap();
         let discrepancy = [vec![100.0 * size; 6]];
-        let known = calibration.clone().with_sigmas(sigmas).unwrap();
+        let known = calibration.clone().with_sigmas(vec![0.8; 6]).unwrap();
         assert!(!known.fit().unwrap().estimates[0].interval.contains(99.0));
         for calibration in [calibration, known] {
             let fit = calibration.with_discrepancy(&discrepancy).unwrap().fit().unwrap();
             let Estimate { value, interval, .. } = &fit.estimates[0];
-            assert!((value - 100.17).abs() < 0.02 * width(&fit), "{size}: {value}");
-            assert!(
-                (3.0..6.0).contains(&(width(&fit) / (100.0 * size))) && interval.contains(*value),
-                "{size}: {interval:?}"
-            );
+            assert_near(*value, 100.17, 0.02 * width(&fit));
+            let share = width(&fit) / (100.0 * size);
+            assert!((3.0..6.0).contains(&share), "{share}");
+            assert!(interval.contains(*value), "{interval:?}");
         }
     }
 }
@@ -130,9 +128,8 @@ fn observations_at_one_place_are_as_exact_as_the_discrepancy() {
 fn the_smooth_part_is_told_from_noise() {
     let found = fit(measured(0.1, 3), Some(0.1), None);
     assert!((0.7..1.4).contains(&(found.noise / NOISE)), "{}", found.noise);
-    let noise = found.standardised_noise();
-    let rms = (noise.iter().map(|r| r * r).sum::<f64>() / COUNT as f64).sqrt();
-    let left = (found.residuals.iter().map(|r| r * r).sum::<f64>() / COUNT as f64).sqrt();
+    let rms = |values: &[f64]| (values.iter().map(|r| r * r).sum::<f64>() / COUNT as f64).sqrt();
+    let (rms, left) = (rms(&found.standardised_noise()), rms(&found.residuals));
     assert!(rms < 1.2 * NOISE && left > 1.5 * rms, "{rms} {left}");
 }
 
@@ -150,10 +147,7 @@ fn functions_of_other_observations_are_refused() {
 /// Noise of an unknown size explains what the model misses at first, and slowly makes room for the discrepancy.
 #[test]
 fn a_discrepancy_that_slowly_takes_the_place_of_noise_is_found() {
-    let mut data = measured(0.33, 859);
-    for value in &mut data {
-        *value += 0.4;
-    }
+    let data = measured(0.33, 859).iter().map(|value| value + 0.4).collect();
     let found = fit(data, Some(0.077), None);
     assert!((0.5..2.0).contains(&(found.noise / NOISE)), "{}", found.noise);
 }
@@ -169,10 +163,7 @@ proptest! {
         constant in -0.5..0.5_f64,
         known: bool,
     ) {
-        let mut data = measured(off, seed);
-        for value in &mut data {
-            *value += constant;
-        }
+        let data: Vec<f64> = measured(off, seed).iter().map(|value| value + constant).collect();
         let sigma = known.then_some(NOISE);
         let (plain, wider) = (fit(data.clone(), None, sigma), fit(data, Some(size), sigma));
         let [plain, wider] = [plain, wider].map(|fit| fit.estimates[0].interval);

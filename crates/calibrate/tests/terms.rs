@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use calibrate::{Calibration, Estimate, Fit, ModelError, Parameter, Prior, Scale};
 
-use super::common::{answering, fitted, linear, logarithmic};
+use super::common::{answering, assert_near, fitted, linear, logarithmic, noisy};
 
 const PASSES: usize = 30;
 
@@ -13,20 +13,14 @@ fn column(value: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// A force that levels off, read by a cell that is off by 20 N and drifts by 1.5 N a pass.
-fn observations(seed: u64) -> Vec<f64> {
-    let mut random = fastrand::Rng::with_seed(seed);
-    let mut noise = || 4.0 * ((0..12).map(|_| random.f64()).sum::<f64>() - 6.0);
-    column(|pass| 550.0 * (1.0 - (-pass / 6.0).exp()) + 20.0 + 1.5 * pass)
-        .iter()
-        .map(|force| force + noise())
-        .collect()
+fn observations() -> Vec<f64> {
+    let exact = column(|pass| 550.0 * (1.0 - (-pass / 6.0).exp()) + 20.0 + 1.5 * pass);
+    noisy(&exact, 4.0, 3)
 }
 
 fn parameters() -> Vec<Parameter> {
-    vec![
-        logarithmic("force", 100.0, 2000.0),
-        logarithmic("passes", 1.0, 100.0),
-    ]
+    let force = logarithmic("force", 100.0, 2000.0);
+    vec![force, logarithmic("passes", 1.0, 100.0)]
 }
 
 /// Terms of the instrument, or as many parameters of a model that computes them.
@@ -45,7 +39,7 @@ fn instrument(of_model: bool) -> Vec<Parameter> {
     ]
 }
 
-fn assert_near(one: &Fit, other: &Fit, tolerance: f64) {
+fn assert_alike(one: &Fit, other: &Fit, tolerance: f64) {
     for (a, b) in one.estimates.iter().zip(&other.estimates) {
         let read = |estimate: &Estimate| {
             let Estimate { value, interval, .. } = estimate;
@@ -53,7 +47,7 @@ fn assert_near(one: &Fit, other: &Fit, tolerance: f64) {
         };
         let error = b.standard_error.unwrap();
         for ((one, other), share) in read(a).into_iter().zip(read(b)).zip([1.0, 2.0, 2.0]) {
-            assert!((one - other).abs() < share * tolerance * error, "{a:?} {b:?}");
+            assert_near(one, other, share * tolerance * error);
         }
     }
 }
@@ -68,15 +62,10 @@ fn terms_fit_as_a_models_parameters_do() {
         Ok(column(|pass| p[0] * (1.0 - (-pass / p[1]).exp())))
     };
     let all = answering(|p| column(|pass| p[0] * (1.0 - (-pass / p[1]).exp()) + p[2] + p[3] * pass));
-    let data = observations(3);
-    let expected = fitted(
-        &all,
-        [parameters(), instrument(true)].concat(),
-        data.clone(),
-        None,
-    );
-    let fit = fitted(&model, [parameters(), instrument(false)].concat(), data, None);
-    assert_near(&fit, &expected, 0.03);
+    let with = |of_model| [parameters(), instrument(of_model)].concat();
+    let expected = fitted(&all, with(true), observations(), None);
+    let fit = fitted(&model, with(false), observations(), None);
+    assert_alike(&fit, &expected, 0.03);
     assert!(runs.into_inner() <= 60, "{}", fit.evaluations);
 }
 
@@ -86,20 +75,17 @@ fn terms_fit_as_a_models_parameters_do() {
 fn what_the_parameters_make_good_is_told() {
     let model = answering(|p| column(|pass| p[0] + p[1] * pass));
     let of = |name| linear(name, -1e4, 1e4);
-    let fit = fitted(
-        &model,
-        vec![of("a"), of("b")],
-        column(|pass| 100.0 + pass),
-        Some(4.0),
-    );
+    let line = column(|pass| 100.0 + pass);
+    let fit = fitted(&model, vec![of("a"), of("b")], line, Some(4.0));
     let (moved, left) = fit.shift(&column(|_| 1.0));
     let moved = moved[0] * fit.estimates[0].standard_error.unwrap();
-    assert!((moved + 1.0).abs() < 1e-3 && left < 1e-3, "{moved} {left}");
+    assert_near(moved, -1.0, 1e-3);
+    assert_near(left, 0.0, 1e-3);
     // Σ of the squared values of the orthogonal polynomial of second degree, n (n² − 1)(n² − 4)/180.
     let n = PASSES as f64;
     let parabola = (n * (n * n - 1.0) * (n * n - 4.0) / 180.0).sqrt();
     let (_, left) = fit.shift(&column(|pass| pass * pass));
-    assert!((left * 4.0 / parabola - 1.0).abs() < 1e-3, "{left}");
+    assert_near(left * 4.0, parabola, 1e-3 * parabola);
 }
 
 #[test]
@@ -107,11 +93,7 @@ fn bad_columns_are_named() {
     assert!(Parameter::term("zero", -1.0, 1.0, &[1.0, f64::NAN]).is_err());
     let model = answering(|_| vec![0.0; 3]);
     let short = Parameter::term("zero", -1.0, 1.0, &[1.0, 1.0]).unwrap();
-    let error = Calibration::new(&model, vec![short], vec![1.0, 2.0, 3.0])
-        .err()
-        .unwrap();
-    assert!(
-        error.to_string().contains("entries in the column of zero"),
-        "{error}"
-    );
+    let error = Calibration::new(&model, vec![short], vec![1.0, 2.0, 3.0]).err();
+    let error = error.unwrap().to_string();
+    assert!(error.contains("entries in the column of zero"), "{error}");
 }

@@ -16,15 +16,9 @@ impl GroundField for Ground {
             radial: load.force() * (radius / distance) * (depth / distance) / distance,
             vertical: load.force() / distance,
         };
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            Err(GroundError::Singular {
-                model: "test",
-                radius,
-                depth,
-            })
-        }
+        let model = "test";
+        let error = GroundError::Singular { model, radius, depth };
+        if value.is_finite() { Ok(value) } else { Err(error) }
     }
 }
 
@@ -43,11 +37,8 @@ fn soils_loads_and_vehicles() {
                 let layers = [Modulus::Uniform(a), Modulus::Linear { top: a, bottom: b }]
                     .map(|modulus| SoilLayer::new(c, modulus, 0.3).ok());
                 for layer in layers.into_iter().flatten() {
-                    let _ = (
-                        layer.young_modulus_at(a),
-                        layer.young_modulus_at(f64::NAN),
-                        layer.soil(),
-                    );
+                    let _ = (layer.young_modulus_at(a), layer.young_modulus_at(f64::NAN));
+                    layer.soil();
                     let profile = SoilProfile::new(vec![layer; 3], Base::Rigid).expect("a profile");
                     let _ = (profile.base_depth(), profile.homogeneous());
                 }
@@ -67,11 +58,8 @@ fn profiles() {
                     continue;
                 };
                 for radius in NASTY {
-                    let value = profile.displacement(radius);
-                    assert!(
-                        value.is_finite() || !radius.is_finite(),
-                        "{depth} {reach} {radius}: {value:?}"
-                    );
+                    let is_finite = profile.displacement(radius).is_finite();
+                    assert!(is_finite || !radius.is_finite(), "{depth} {reach} {radius}");
                 }
             }
         }
@@ -105,11 +93,8 @@ fn motions() {
                 assert!(motion.peak_longitudinal().is_finite() && motion.peak_vertical().is_finite());
                 assert!(motion.reach() >= reach);
                 for xi in NASTY {
-                    let _ = (
-                        motion.longitudinal(xi),
-                        motion.vertical(xi),
-                        motion.longitudinal_velocity(xi),
-                    );
+                    let _ = (motion.longitudinal(xi), motion.vertical(xi));
+                    motion.longitudinal_velocity(xi);
                     if let Ok(scaled) = motion.clone().scaled(xi) {
                         assert!(scaled.peak_longitudinal().is_finite());
                     }

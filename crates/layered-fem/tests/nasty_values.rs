@@ -1,6 +1,6 @@
 //! Nothing that can be given to the public interface makes it panic or hang: an answer that is finite, or an error.
 
-use ground_field::{Base, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+use ground_field::{Base, GroundField, Modulus, SoilLayer, SoilProfile, SurfaceLoad};
 use layered_fem::LayeredFem;
 use testkit::NASTY;
 
@@ -17,12 +17,7 @@ fn grounds_are_answered_or_refused() {
                 case += 1;
                 let layer =
                     SoilLayer::new(thickness, Modulus::Linear { top, bottom }, poisson).expect("a layer");
-                let soil = Soil::new(1e7, 0.3).expect("a soil");
-                let base = if case % 2 == 0 {
-                    Base::Rigid
-                } else {
-                    Base::HalfSpace(soil)
-                };
+                let base = [Base::Rigid, Base::HalfSpace(testkit::soil(1e7, 0.3))][case % 2];
                 let profile = SoilProfile::new(vec![layer; 1 + case % 3], base).expect("a profile");
                 let Ok(ground) = LayeredFem::with_max_unknowns(&profile, 0.05, max_unknowns) else {
                     continue;
@@ -47,29 +42,24 @@ fn grounds_are_answered_or_refused() {
 /// A point load moves the ground, however steeply the modulus of the first millimetre falls.
 #[test]
 fn a_point_load_is_never_lost() {
-    let soil = Soil::new(1e7, 0.3).expect("a soil");
-    let steep = Modulus::Linear {
-        top: 1e10,
-        bottom: 1e-300,
-    };
-    let layer = SoilLayer::new(0.1, steep, 0.3).expect("a layer");
-    let profile = SoilProfile::new(vec![layer], Base::HalfSpace(soil)).expect("a profile");
+    let (top, bottom) = (1e10, 1e-300);
+    let layer = SoilLayer::new(0.1, Modulus::Linear { top, bottom }, 0.3).expect("a layer");
+    let base = Base::HalfSpace(testkit::soil(1e7, 0.3));
+    let profile = SoilProfile::new(vec![layer], base).expect("a profile");
     let load = SurfaceLoad::point(1e5).expect("a load");
-    if let Ok(value) = LayeredFem::new(&profile, 0.05).and_then(|ground| ground.displacement(load, 0.5, 1.0))
-    {
+    let ground = LayeredFem::new(&profile, 0.05);
+    if let Ok(value) = ground.and_then(|ground| ground.displacement(load, 0.5, 1.0)) {
         assert!(value.vertical > 0.0, "{value:?}");
     }
 }
 
 #[test]
 fn accuracies_and_limits_are_taken_or_refused() {
-    let soil = Soil::new(1e7, 0.3).expect("a soil");
+    let soil = testkit::soil(1e7, 0.3);
     let half_space = SoilProfile::half_space(soil);
     for accuracy in NASTY {
-        assert_eq!(
-            LayeredFem::new(&half_space, accuracy).is_ok(),
-            (1e-6..=0.1).contains(&accuracy)
-        );
+        let is_taken = LayeredFem::new(&half_space, accuracy).is_ok();
+        assert_eq!(is_taken, (1e-6..=0.1).contains(&accuracy));
     }
     for unknowns in [0, 1, 100, usize::MAX] {
         let ground = LayeredFem::with_max_unknowns(&half_space, 0.1, unknowns);

@@ -46,10 +46,8 @@ impl Double {
 
 impl From<f64> for Double {
     fn from(value: f64) -> Self {
-        Self {
-            high: value,
-            low: 0.0,
-        }
+        let low = 0.0;
+        Self { high: value, low }
     }
 }
 

@@ -9,8 +9,8 @@ mod double_double;
 mod oracle;
 
 use burmister::LayeredHalfSpace;
-use ground_field::{Base, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-use oracle::{FINER, Ground, Layer, USUAL};
+use ground_field::{Base, SoilProfile, SurfaceLoad};
+use oracle::{FINER, Fineness, Ground, Layer, USUAL};
 use rayon::prelude::*;
 
 /// Accuracy asked of the crate.
@@ -114,18 +114,19 @@ impl Case {
         near.into_iter().chain(far).chain(edge).collect()
     }
 
+    /// At those radii, by the oracle.
+    fn truth(&self, fineness: Fineness) -> Vec<(f64, f64)> {
+        self.ground
+            .displacements(self.contact_radius, &self.radii(), self.depth, fineness)
+    }
+
     fn profile(&self) -> SoilProfile {
-        let soil = |layer: &Layer| {
-            Soil::new(2.0 * (1.0 + layer.poisson) * layer.shear, layer.poisson).expect("soil")
-        };
-        let layers = self
-            .ground
-            .layers
+        let soil = |layer: &Layer| testkit::soil(2.0 * (1.0 + layer.poisson) * layer.shear, layer.poisson);
+        let Ground { layers, base } = &self.ground;
+        let layers = layers
             .iter()
-            .map(|layer| SoilLayer::uniform(layer.thickness, soil(layer)).expect("layer"));
-        let base = self
-            .ground
-            .base
+            .map(|layer| testkit::layer(layer.thickness, soil(layer)));
+        let base = base
             .as_ref()
             .map_or(Base::Rigid, |base| Base::HalfSpace(soil(base)));
         SoilProfile::new(layers.collect(), base).expect("profile")
@@ -139,9 +140,7 @@ impl Case {
             .and_then(|ground| ground.with_accuracy(self.accuracy))
             .and_then(|ground| ground.displacements_with_statistics(load, &radii, self.depth))
             .map_err(|error| error.to_string())?;
-        let truth = self
-            .ground
-            .displacements(self.contact_radius, &radii, self.depth, USUAL);
+        let truth = self.truth(USUAL);
         let values = values.iter().map(|value| (value.radial, value.vertical));
         let error = difference(&truth, values);
         Ok((error / statistics.estimated_error, error / self.accuracy))
@@ -166,29 +165,18 @@ fn difference(truth: &[(f64, f64)], values: impl Iterator<Item = (f64, f64)>) ->
 fn all_within_their_accuracy(seeds: std::ops::Range<u64>) {
     let mut worst = (0.0_f64, 0.0_f64);
     let mut misses = Vec::new();
-    let found: Vec<_> = seeds
-        .into_par_iter()
-        .map(|seed| {
-            let case = Case::random(seed);
-            let error = case.error();
-            (seed, case, error)
-        })
-        .collect();
-    for (seed, case, error) in found {
-        match error {
-            Ok((of_estimate, of_asked)) => {
-                worst = (worst.0.max(of_estimate), worst.1.max(of_asked));
-                if !(of_estimate <= 1.0 && of_asked <= 1.0) {
-                    misses.push(format!(
-                        "{seed}: {of_estimate:.1e} of the estimate, {of_asked:.1e} of the asked; {case:?}"
-                    ));
-                }
-            }
-            Err(error) => misses.push(format!("{seed}: {error}; {case:?}")),
+    let judge = |seed| (seed, Case::random(seed).error());
+    let found: Vec<_> = seeds.into_par_iter().map(judge).collect();
+    for (seed, error) in found {
+        if let Ok((of_estimate, of_asked)) = error {
+            worst = (worst.0.max(of_estimate), worst.1.max(of_asked));
+        }
+        if !error.as_ref().is_ok_and(|error| error.0 <= 1.0 && error.1 <= 1.0) {
+            misses.push(format!("{seed}: {error:?}; {:?}", Case::random(seed)));
         }
     }
     println!(
-        "largest error: {:.2e} of the estimate, {:.2e} of the accuracy asked",
+        "largest error: {:.2e} of the estimate, {:.2e} of what was asked",
         worst.0, worst.1
     );
     assert!(
@@ -259,15 +247,13 @@ fn oracle_reproduces_the_half_space() {
     };
     for depth in [0.01, 1.2, 350.0] {
         let radii = [0.0, 0.7, 3.0, 40.0].map(|depths| depths * depth);
-        let soil = Soil::new(2.0 * (1.0 + poisson) * shear, poisson).expect("soil");
+        let soil = testkit::soil(2.0 * (1.0 + poisson) * shear, poisson);
         let truth = radii.map(|r| {
             let exact = testkit::johnson(soil, 1.0, r, depth);
             (exact.radial, exact.vertical)
         });
-        let error = difference(
-            &truth,
-            ground.displacements(0.0, &radii, depth, USUAL).into_iter(),
-        );
+        let found = ground.displacements(0.0, &radii, depth, USUAL);
+        let error = difference(&truth, found.into_iter());
         assert!(error < 1e-13, "{depth}: {error:.1e}");
     }
 }
@@ -278,11 +264,7 @@ fn oracle_reproduces_the_half_space() {
 fn oracle_has_converged() {
     for seed in 0..8 {
         let case = Case::random(seed);
-        let radii = case.radii();
-        let [usual, finer] = [USUAL, FINER].map(|fineness| {
-            case.ground
-                .displacements(case.contact_radius, &radii, case.depth, fineness)
-        });
+        let [usual, finer] = [USUAL, FINER].map(|fineness| case.truth(fineness));
         let error = difference(&finer, usual.into_iter());
         assert!(error < 1e-11, "{seed}: {error:.1e} {case:?}");
     }

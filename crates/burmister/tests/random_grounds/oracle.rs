@@ -62,30 +62,16 @@ impl Layer {
         let mu = Double::from(self.shear);
         let kappa = Double::from(3.0) - four * nu;
         let decay = (-x).exp();
-        scaled(
-            [
-                [one, x],
-                [one, x + kappa],
-                [-two * mu, (four * nu - two - two * x) * mu],
-                [-two * mu, (four * nu - four - two * x) * mu],
-            ],
-            decay,
-        )
+        let shear = [-two * mu, (four * nu - two - two * x) * mu];
+        let normal = [-two * mu, (four * nu - four - two * x) * mu];
+        scaled([[one, x], [one, x + kappa], shear, normal], decay)
     }
 
     /// The two that decay upward, at y = −m · (distance above the layer's bottom).
     fn rising(&self, y: Double) -> States {
         // The mirror image: U and σ change their signs with z → −z beside W's and τ's.
-        let mut mirrored = self.falling(-y);
-        for (row, signs) in mirrored
-            .iter_mut()
-            .zip([[1.0, -1.0], [-1.0, 1.0], [-1.0, 1.0], [1.0, -1.0]])
-        {
-            for (value, sign) in row.iter_mut().zip(signs) {
-                *value = *value * Double::from(sign);
-            }
-        }
-        mirrored
+        let [[a, b], [c, d], [e, f], [g, h]] = self.falling(-y);
+        [[a, -b], [-c, d], [-e, f], [g, -h]]
     }
 }
 
@@ -104,28 +90,14 @@ fn combined(one: &States, a: [[Double; 2]; 2], other: &States, b: [[Double; 2]; 
 
 /// x of [left, right] x = rhs, 4 unknowns and two right-hand sides, by elimination with scaled partial pivoting.
 fn solved(left: &States, right: &States, rhs: &States) -> [[Double; 2]; 4] {
-    let mut rows: [[Double; 6]; 4] = std::array::from_fn(|i| {
-        [
-            left[i][0],
-            left[i][1],
-            right[i][0],
-            right[i][1],
-            rhs[i][0],
-            rhs[i][1],
-        ]
-    });
-    let scale: [f64; 4] = std::array::from_fn(|i| {
-        rows[i][..4]
-            .iter()
-            .fold(0.0_f64, |most, v| most.max(v.value().abs()))
-    });
-    let mut scale = scale;
+    let parts = [left, right, rhs];
+    let mut rows: [[Double; 6]; 4] = std::array::from_fn(|i| std::array::from_fn(|j| parts[j / 2][i][j % 2]));
+    let size = |value: &Double| value.value().abs();
+    let mut scale = rows.map(|row| row[..4].iter().map(size).fold(0.0, f64::max));
     for k in 0..4 {
-        let pivot = (k..4)
-            .max_by(|&a, &b| {
-                (rows[a][k].value().abs() / scale[a]).total_cmp(&(rows[b][k].value().abs() / scale[b]))
-            })
-            .expect("rows");
+        let share = |row: usize| size(&rows[row][k]) / scale[row];
+        let pivot = (k..4).max_by(|&a, &b| share(a).total_cmp(&share(b)));
+        let pivot = pivot.expect("rows");
         rows.swap(k, pivot);
         scale.swap(k, pivot);
         let eliminator = rows[k];
@@ -171,17 +143,10 @@ impl Ground {
         for layer in self.layers.iter().copied().chain(below) {
             let upper = depth - above;
             if count.is_none() && upper < layer.thickness {
-                if upper > 0.0 {
-                    layers.push(Layer {
-                        thickness: upper,
-                        ..layer
-                    });
-                }
+                let of = |thickness| Layer { thickness, ..layer };
+                layers.extend((upper > 0.0).then(|| of(upper)));
                 count = Some(layers.len());
-                layers.push(Layer {
-                    thickness: layer.thickness - upper.max(0.0),
-                    ..layer
-                });
+                layers.push(of(layer.thickness - upper.max(0.0)));
             } else {
                 layers.push(layer);
             }
@@ -190,13 +155,10 @@ impl Ground {
         if self.base.is_some() {
             layers.pop();
         }
-        let count = count.expect("the depth lies above the rock");
+        let base = self.base;
         (
-            Self {
-                layers,
-                base: self.base,
-            },
-            count,
+            Self { layers, base },
+            count.expect("the depth lies above the rock"),
         )
     }
 
@@ -214,18 +176,10 @@ impl Ground {
         for layer in self.layers.iter().rev() {
             let x = Double::from(m) * Double::from(layer.thickness);
             // below · d' − rising · u = falling(x) · d.
-            let amplitudes = solved(
-                &below,
-                &scaled(layer.rising(zero), -Double::ONE),
-                &layer.falling(x),
-            );
-            passages.push([amplitudes[0], amplitudes[1]]);
-            below = combined(
-                &layer.falling(zero),
-                identity,
-                &layer.rising(-x),
-                [amplitudes[2], amplitudes[3]],
-            );
+            let rising = scaled(layer.rising(zero), -Double::ONE);
+            let [a, b, c, d] = solved(&below, &rising, &layer.falling(x));
+            passages.push([a, b]);
+            below = combined(&layer.falling(zero), identity, &layer.rising(-x), [c, d]);
             tops.push(below);
         }
         tops.reverse();
@@ -256,10 +210,8 @@ impl Ground {
         let rule = gauss_legendre(fineness.nodes);
         let (ground, above) = self.split(depth);
         let farthest = radii.iter().fold(0.0_f64, |most, &r| most.max(r)) + contact_radius;
-        let (highest, lowest) = (
-            fineness.range.0 / depth,
-            fineness.range.1 / self.longest().max(depth + farthest),
-        );
+        let highest = fineness.range.0 / depth;
+        let lowest = fineness.range.1 / self.longest().max(depth + farthest);
         let mut sums = vec![(0.0, 0.0); radii.len()];
         let (mut from, mut to) = (0.0, lowest);
         while from < highest {
@@ -268,8 +220,9 @@ impl Ground {
                 let m = middle + half * t;
                 let (u, w) = ground.transform(above, m);
                 let x = m * contact_radius;
+                let near_zero = 1.0 - x * x / 8.0;
                 let pressure = if x < 1e-4 {
-                    1.0 - x * x / 8.0
+                    near_zero
                 } else {
                     2.0 * libm::j1(x) / x
                 };

@@ -77,15 +77,6 @@ impl Scene {
         motion.scaled(self.peak / peak).expect("a finite factor")
     }
 
-    /// Stiffness of what holds the cable: none, and with as many nodes slipping forward as backward nothing but friction leaves a range of
-    /// positions in equilibrium.
-    fn springs(&self) -> f64 {
-        let ends = [self.cable.upstream(), self.cable.downstream()];
-        let ends = ends.map(|end| end.stiffness().unwrap_or(f64::INFINITY));
-        let clamps = self.cable.restraints().iter().map(|clamp| clamp.stiffness);
-        ends.into_iter().chain(clamps).sum()
-    }
-
     /// Asserts that after vehicles that come from and leave to `depths` beyond the duct all is as the oracle has it: end and element forces as
     /// shares of q L; displacements of the largest of the duct's peak, the stretch under q L and the elastic slip of the sheath; friction,
     /// averaged over the cable, of q.
@@ -106,36 +97,27 @@ impl Scene {
             oracle.pass(&positions, |xi| motion.longitudinal(xi));
         }
         let (friction, length) = (cable.friction(), cable.length());
-        let (limit, springs) = (friction.limit(), self.springs());
+        let limit = friction.limit();
+        // With as many nodes slipping forward as backward nothing but friction leaves a range of positions in equilibrium.
+        let ends = [cable.upstream(), cable.downstream()].map(|end| end.stiffness().unwrap_or(f64::INFINITY));
+        let clamps = cable.restraints().iter().map(|clamp| clamp.stiffness);
+        let springs: f64 = ends.into_iter().chain(clamps).sum();
         let is_adrift = springs == 0.0;
 
         let force = largest_difference(&run.forces(), &oracle.forces()) / (limit * length);
-        let rubbed = run
-            .state
-            .friction()
-            .iter()
-            .zip(&oracle.friction)
-            .map(|(one, other)| (one - other).abs());
-        let rubbed = rubbed.sum::<f64>() / (limit * mesh.nodes() as f64);
+        let pairs = run.state.friction().iter().zip(&oracle.friction);
+        let rubbed: f64 = pairs.map(|(one, other)| (one - other).abs()).sum();
+        let rubbed = rubbed / (limit * mesh.nodes() as f64);
         let stretch = limit * length * length / cable.axial_stiffness();
         // Weak springs that alone hold it move before they bear a share of the friction.
-        let given = if is_adrift {
-            0.0
-        } else {
-            0.02 * limit * length / springs
-        };
-        let size = self
-            .peak
-            .max(stretch)
-            .max(2.0 / friction.law().shape_factor())
-            .max(given);
+        let given = 0.02 * limit * length / springs;
+        let given = if is_adrift { 0.0 } else { given };
+        let size = [stretch, 2.0 / friction.law().shape_factor(), given];
+        let size = size.into_iter().fold(self.peak, f64::max);
         let mean = |u: &[f64]| u.iter().sum::<f64>() / u.len() as f64;
         let found = run.state.displacement();
-        let drift = if is_adrift {
-            mean(found) - mean(&oracle.displacement)
-        } else {
-            0.0
-        };
+        let drift = mean(found) - mean(&oracle.displacement);
+        let drift = if is_adrift { drift } else { 0.0 };
         let displacement: Vec<f64> = oracle.displacement.iter().map(|u| u + drift).collect();
         let moved = largest_difference(found, &displacement) / size;
         // Where in its range of positions a cable adrift lies decides how the return to rest shears a stiff sheath.

@@ -40,17 +40,14 @@ impl FullChain {
         let last = mesh.elements();
         let h = cable.length() / last as f64;
         let mut springs = vec![0.0; last + 1];
-        let mut held = vec![false; last + 1];
-        for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
-            match end {
-                End::Free => {}
-                End::Fixed => held[node] = true,
-                End::Spring(stiffness) => springs[node] += stiffness,
-            }
-        }
-        for (node, stiffness) in clamp_springs(cable, mesh) {
+        let ends = [cable.upstream(), cable.downstream()];
+        let of_end = |end: usize| ([0, last][end], ends[end].stiffness().unwrap_or(0.0));
+        let of_clamps = clamp_springs(cable, mesh).into_iter();
+        for (node, stiffness) in of_clamps.chain([of_end(0), of_end(1)]) {
             springs[node] += stiffness;
         }
+        let mut held = vec![false; last + 1];
+        (held[0], held[last]) = (ends[0] == End::Fixed, ends[1] == End::Fixed);
         let friction = cable.friction();
         let mut tributary = vec![h; last + 1];
         (tributary[0], tributary[last]) = (0.5 * h, 0.5 * h);
@@ -60,7 +57,7 @@ impl FullChain {
             tributary,
             springs,
             held,
-            ends: [cable.upstream(), cable.downstream()],
+            ends,
             limit: friction.limit(),
             slope: 0.5 * friction.limit() * friction.law().shape_factor(),
             displacement: vec![0.0; last + 1],
@@ -74,10 +71,8 @@ impl FullChain {
         let rest = vec![0.0; self.displacement.len()];
         let mut before = rest.clone();
         let paths = positions.iter().map(|position| {
-            let place = |i: usize| i as f64 * self.spacing;
-            (0..rest.len())
-                .map(|i| duct(place(i) - position))
-                .collect::<Vec<f64>>()
+            let displacement = |i: usize| duct(i as f64 * self.spacing - position);
+            (0..rest.len()).map(displacement).collect()
         });
         let paths: Vec<Vec<f64>> = paths.chain([rest.clone()]).collect();
         for path in paths {
@@ -104,12 +99,8 @@ impl FullChain {
             // −dE/da along the direction, which falls with a as E is convex: its zero is the minimum.
             let descent = |a: f64| -> f64 {
                 let moved: Vec<f64> = u.iter().zip(&direction).map(|(u, d)| u + a * d).collect();
-                self.trial(&moved, advance)
-                    .unbalanced
-                    .iter()
-                    .zip(&direction)
-                    .map(|(r, d)| r * d)
-                    .sum()
+                let unbalanced = self.trial(&moved, advance).unbalanced;
+                unbalanced.iter().zip(&direction).map(|(r, d)| r * d).sum()
             };
             let start = descent(0.0);
             let mut share = 1.0;
@@ -178,13 +169,10 @@ impl FullChain {
             if nothing_holds && i == 0 {
                 pivot += self.stiffness;
             }
-            let (above, carried) = if i > 0 {
-                (upper[i - 1], right[i - 1])
-            } else {
-                (0.0, 0.0)
-            };
-            pivot -= self.stiffness * above;
+            let before = i.checked_sub(1);
+            pivot -= self.stiffness * before.map_or(0.0, |i| upper[i]);
             upper[i] = self.stiffness / pivot;
+            let carried = before.map_or(0.0, |i| right[i]);
             right[i] = (trial.unbalanced[i] + self.stiffness * carried) / pivot;
         }
         for i in (0..nodes - 1).rev() {
@@ -195,11 +183,8 @@ impl FullChain {
 
     /// Compression along the cable \[N\]: at its upstream end, in its elements, at its downstream end.
     pub fn forces(&self) -> Vec<f64> {
-        let ends = self.end_forces();
-        let inner = self
-            .displacement
-            .windows(2)
-            .map(|pair| self.stiffness * (pair[0] - pair[1]));
+        let (ends, u) = (self.end_forces(), &self.displacement);
+        let inner = u.windows(2).map(|pair| self.stiffness * (pair[0] - pair[1]));
         let upstream = std::iter::once(ends.upstream);
         upstream.chain(inner).chain([ends.downstream]).collect()
     }

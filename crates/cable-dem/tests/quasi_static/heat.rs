@@ -6,11 +6,11 @@ use cable_dem::{CableError, CableState, DuctedCable, End, Friction, Mesh, Passag
 use ground_field::Direction;
 use proptest::prelude::*;
 
-use super::mirrored::mirrored;
 use super::scenes::{
-    AXIAL_STIFFNESS, LIMITS, Run, cable, coulomb, largest_difference, reference_motion, sheathed,
-    unjudged_passage,
+    APPROACH, AXIAL_STIFFNESS, LIMITS, Run, assert_near, cable, coulomb, largest, largest_difference,
+    reference_motion, sheathed, unjudged_passage,
 };
+use super::shared::mirrored;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -49,41 +49,32 @@ impl Heated {
     fn to(&mut self, kelvin: f64) -> Result<(f64, f64), CableError> {
         self.resting.warm(&mut self.state, thermal_force(kelvin))?;
         let force = self.state.element_forces(&self.cable)?;
-        Ok((
-            self.state.displacement()[0],
-            force.fold(f64::NEG_INFINITY, f64::max),
-        ))
+        let largest = force.fold(f64::NEG_INFINITY, f64::max);
+        Ok((self.state.displacement()[0], largest))
     }
 }
 
-/// Each end slides over Θ/q, where friction takes up the force.
+/// Each end of a long bar slides over Θ/q, where friction takes up the force; a short one slides whole.
 #[test]
-fn a_long_free_bar_moves_at_its_ends() -> Outcome {
-    let mut bar = Heated::new(160.0, coulomb(LIMIT), (End::Free, End::Free), 0.05)?;
+fn free_bars_move_at_their_ends() -> Outcome {
+    let free = (End::Free, End::Free);
+    let mut bar = Heated::new(160.0, coulomb(LIMIT), free, 0.05)?;
     let force = thermal_force(10.0);
     let moved = force * force / (2.0 * LIMIT * AXIAL_STIFFNESS);
+    assert_near(1e3 * moved, 4.2553, 1e-3, "mm");
     let (end, inside) = bar.to(10.0)?;
-    assert!((inside - force).abs() < 1e-9 * force, "{inside} N");
-    assert!((end / -moved - 1.0).abs() < 1e-5, "{end} m instead of {moved}");
-    assert!((1e3 * moved - 4.2553).abs() < 1e-3);
+    assert_near(inside, force, 1e-9 * force, "N");
+    assert_near(end, -moved, 1e-5 * moved, "m");
     // Friction has to turn over on the way back (Masing): half of the movement stays.
-    let (end, _) = bar.to(0.0)?;
-    assert!((end / (-0.5 * moved) - 1.0).abs() < 1e-5, "{end} m");
-    Ok(())
-}
+    assert_near(bar.to(0.0)?.0, -0.5 * moved, 5e-6 * moved, "m");
 
-#[test]
-fn a_short_bar_slides_whole() -> Outcome {
     let (length, kelvin) = (60.0, 30.0);
-    let mut bar = Heated::new(length, coulomb(LIMIT), (End::Free, End::Free), 0.1)?;
-    let (end, inside) = bar.to(kelvin)?;
+    let (end, inside) = Heated::new(length, coulomb(LIMIT), free, 0.1)?.to(kelvin)?;
     let moved = 0.5 * EXPANSION * kelvin * length - LIMIT * length * length / (8.0 * AXIAL_STIFFNESS);
+    assert_near(end, -moved, 1e-5 * moved, "m");
     // The middle node has no side to slip to.
-    assert!(
-        (inside / (0.5 * LIMIT * (length - 0.1)) - 1.0).abs() < 1e-9,
-        "{inside} N"
-    );
-    assert!((end / -moved - 1.0).abs() < 1e-5, "{end} m instead of {moved}");
+    let force = 0.5 * LIMIT * (length - 0.1);
+    assert_near(inside, force, 1e-9 * force, "N");
     Ok(())
 }
 
@@ -93,17 +84,17 @@ fn nothing_moves_between_fixed_ends() -> Outcome {
     for friction in [coulomb(LIMIT), sheathed(LIMIT)] {
         let mut bar = Heated::new(60.0, friction, (End::Fixed, End::Fixed), 0.1)?;
         let (_, inside) = bar.to(20.0)?;
-        assert!((inside / 2723.4 - 1.0).abs() < 1e-6, "{inside} N");
+        assert_near(inside, 2723.4, 2.7234e-3, "N");
         assert!(bar.state.displacement().iter().all(|u| u.abs() < 1e-15));
         let mesh = Mesh::new(60.0, 0.1, 0.1)?;
-        let still = Passage::from_shape(&bar.cable, &mesh, Direction::Forward, |_| 0.0, 15.0)?;
+        let still = Passage::from_shape(&bar.cable, &mesh, Direction::Forward, |_| 0.0, APPROACH)?;
         let mut run = Run::new(bar.cable.clone(), mesh);
         run.state = bar.state;
         let mut seen = 0;
         run.watch(&still, |_, state| {
             let ends = state.end_forces(&bar.cable).expect("a cable as long as its mesh");
             for force in [ends.upstream, ends.downstream] {
-                assert!((force / inside - 1.0).abs() < 1e-9, "{force} N");
+                assert_near(force, inside, 1e-9 * inside, "N");
             }
             seen += 1;
         });
@@ -117,21 +108,21 @@ fn nothing_moves_between_fixed_ends() -> Outcome {
 fn a_free_bar_walks_down_a_slope() -> Outcome {
     let length = 40.0;
     for (body_force, kelvin) in [(3.0, 30.0), (8.0, 20.0), (-8.0, 40.0)] {
-        let free = cable(length, AXIAL_STIFFNESS, coulomb(LIMIT), End::Free, End::Free)
-            .with_body_force(body_force)?;
-        let mut bar = Heated::of(free, 0.05)?;
+        let free = cable(length, AXIAL_STIFFNESS, coulomb(LIMIT), End::Free, End::Free);
+        let mut bar = Heated::of(free.with_body_force(body_force)?, 0.05)?;
         let mut ends = Vec::new();
         for _ in 0..6 {
             bar.to(kelvin)?;
             ends.push(bar.to(0.0)?.0);
         }
-        let walked = ends[5] - ends[4];
         let p: f64 = body_force.abs();
         let step = p / LIMIT * length * (EXPANSION * kelvin - (LIMIT - p) * length / AXIAL_STIFFNESS);
-        let expected = step.max(0.0).copysign(body_force);
-        assert!(
-            (walked / expected - 1.0).abs() < 0.02,
-            "{body_force} N/m, {kelvin} K: {walked} m instead of {expected}"
+        let walked = step.max(0.0).copysign(body_force);
+        assert_near(
+            ends[5] - ends[4],
+            walked,
+            0.02 * walked.abs(),
+            (body_force, kelvin),
         );
     }
     Ok(())
@@ -160,7 +151,7 @@ proptest! {
                 many.to(before + (kelvin - before) * f64::from(step) / 7.0)?;
             }
             before = kelvin;
-            let moved = one.state.displacement().iter().fold(1e-6, |most: f64, u| most.max(u.abs()));
+            let moved = largest(one.state.displacement().iter().copied()).max(1e-6);
             let apart = largest_difference(one.state.displacement(), many.state.displacement());
             prop_assert!(apart < 1e-7 * moved, "{apart} of {moved}");
         }
@@ -180,7 +171,7 @@ proptest! {
         let motion = reference_motion();
         let shape = |xi: f64| motion.longitudinal(xi);
         let after = |cable: &DuctedCable, direction| -> Result<CableState, CableError> {
-            let passage = Passage::from_shape(cable, &mesh, direction, shape, 15.0)?;
+            let passage = Passage::from_shape(cable, &mesh, direction, shape, APPROACH)?;
             let mut run = Run::new(cable.clone(), mesh);
             let mut resting = RestingCable::new(cable, &mesh)?;
             for part in [0.3, 1.0, 0.5] {
@@ -193,7 +184,7 @@ proptest! {
         let (one, other) = (after(&held, Direction::Forward)?, after(&mirrored, Direction::Reverse)?);
         let ends = (one.end_forces(&held)?, other.end_forces(&mirrored)?);
         let apart = one.displacement().iter().rev().zip(other.displacement()).map(|(a, b)| (a + b).abs());
-        let moved = one.displacement().iter().fold(1e-6, |most: f64, u| most.max(u.abs()));
+        let moved = largest(one.displacement().iter().copied()).max(1e-6);
         // Each of some hundred steps is exact to 1e-9 of the friction limit.
         prop_assert!(apart.fold(0.0, f64::max) < 1e-7 * moved);
         prop_assert!((ends.0.upstream - ends.1.downstream).abs() < 1e-7 * LIMIT * length);
@@ -227,15 +218,11 @@ fn days_of_traffic_are_those_of_an_independent_program() -> Outcome {
             let force = expected[0].abs().max(expected[1].abs()).max(1.0);
             let range = expected[2] - expected[3];
             for (k, (seen, expected)) in seen[day - 1].into_iter().zip(expected).enumerate() {
-                let apart = (seen - expected).abs() / if k < 2 { force } else { range };
-                println!(
-                    "{length} m, {kelvin} K, day {day}: {seen:.3} {expected} ({:.2} %)",
-                    100.0 * apart
-                );
-                assert!(
-                    apart < 0.005,
-                    "{length} m, {kelvin} K, day {day}: {seen} {expected}"
-                );
+                let scale = if k < 2 { force } else { range };
+                let name = format!("{length} m, {kelvin} K, day {day}");
+                let apart = 100.0 * (seen - expected).abs() / scale;
+                println!("{name}: {seen:.3} {expected} ({apart:.2} %)");
+                assert_near(seen, expected, 0.005 * scale, name);
             }
         }
     }
@@ -257,21 +244,17 @@ pub fn extremes_of_days(
     let mut resting = RestingCable::new(bar, &mesh)?;
     let mut all = Vec::new();
     for _ in 0..days {
-        let mut seen = [
-            f64::NEG_INFINITY,
-            f64::INFINITY,
-            f64::NEG_INFINITY,
-            f64::INFINITY,
-            0.0,
-        ];
+        let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut seen = [high, low, high, low, 0.0];
         let mut see = |state: &CableState| -> Result<(), CableError> {
             let force = state.end_forces(bar)?.downstream;
             let end = 1e3 * state.displacement()[0];
+            let [most, least, farthest, nearest, _] = seen;
             seen = [
-                seen[0].max(force),
-                seen[1].min(force),
-                seen[2].max(end),
-                seen[3].min(end),
+                most.max(force),
+                least.min(force),
+                farthest.max(end),
+                nearest.min(end),
                 end,
             ];
             Ok(())
@@ -282,10 +265,8 @@ pub fn extremes_of_days(
                 see(&run.state)?;
             }
             let time = (pass as f64 + 0.5) / passes as f64;
-            resting.warm(
-                &mut run.state,
-                thermal_force(0.5 * kelvin * (1.0 - (2.0 * PI * time).cos())),
-            )?;
+            let warmed = 0.5 * kelvin * (1.0 - (2.0 * PI * time).cos());
+            resting.warm(&mut run.state, thermal_force(warmed))?;
             see(&run.state)?;
             run.pass(&passage);
             see(&run.state)?;

@@ -10,12 +10,12 @@ mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
 mod heat;
-#[path = "../shared/mirrored.rs"]
-mod mirrored;
 mod reference;
 mod refusals;
 mod robustness;
 mod route;
 mod scenes;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod slow_turn;
 mod windows;

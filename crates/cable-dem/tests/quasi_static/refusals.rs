@@ -15,18 +15,11 @@ fn a_motion_that_is_not_a_number_is_refused() {
         let cable = reference_cable(6.0, friction);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             // At a single point only, with little motion elsewhere.
-            let shape = |xi: f64| {
-                if (xi - 1.0).abs() < 0.05 {
-                    bad
-                } else {
-                    1e-12 * (-xi * xi).exp()
-                }
-            };
+            let little = |xi: f64| 1e-12 * (-xi * xi).exp();
+            let shape = |xi: f64| if (xi - 1.0).abs() < 0.05 { bad } else { little(xi) };
             let refused = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, APPROACH);
-            assert!(
-                matches!(refused, Err(CableError::InvalidParameter { .. })),
-                "{bad}"
-            );
+            let refused = refused.err();
+            assert!(matches!(refused, Some(CableError::InvalidParameter { .. })));
         }
     }
 }
@@ -44,22 +37,14 @@ fn inertia_and_heat_do_not_go_together() {
 
 #[test]
 fn a_failed_pass_leaves_the_state_and_the_solver_as_they_were() {
-    let motion = reference_motion();
     let cable = reference_cable(12.0, coulomb(LIMITS[0]));
-    let mesh = Mesh::new(12.0, 0.2, 0.1).expect("a valid mesh");
-    let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
-    let far = Passage::from_shape(
-        &cable,
-        &mesh,
-        Direction::Forward,
-        |xi| 1e6 * (-xi * xi).exp(),
-        APPROACH,
-    )
-    .expect("a valid passage");
-    let mut run = Run::new(cable, mesh);
+    let (mut run, passage) = Run::under_truck(&cable, 0.2);
+    let far = |xi: f64| 1e6 * (-xi * xi).exp();
+    let far = Passage::from_shape(&cable, run.solver.mesh(), Direction::Forward, far, APPROACH);
     run.passes(2, &passage);
     let mut undisturbed = run.clone();
     let before = run.state.clone();
+    let far = far.expect("a valid passage");
     let error = run.try_pass(&far).expect_err("rounding swamps friction");
     assert!(matches!(error, CableError::Precision { .. }), "{error}");
     assert_eq!(run.state, before);
@@ -69,11 +54,9 @@ fn a_failed_pass_leaves_the_state_and_the_solver_as_they_were() {
 
 #[test]
 fn what_belongs_to_another_mesh_or_cable_is_refused() {
-    let motion = reference_motion();
     let cable = reference_cable(12.0, coulomb(LIMITS[0]));
-    let mesh = Mesh::new(12.0, 0.2, 0.1).expect("a valid mesh");
-    let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
-    let mut run = Run::new(cable.clone(), mesh);
+    let (mut run, passage) = Run::under_truck(&cable, 0.2);
+    let (mesh, motion) = (*run.solver.mesh(), reference_motion());
 
     let coarse = Mesh::new(12.0, 0.4, 0.1).expect("a valid mesh");
     let mut other = CableState::at_rest(&coarse);
@@ -87,12 +70,8 @@ fn what_belongs_to_another_mesh_or_cable_is_refused() {
     assert!(QuasiStatic::new(cable.clone(), longer).is_err());
     let long_cable = reference_cable(24.0, coulomb(LIMITS[0]));
     let stiffer = reference_cable(12.0, elastic_plastic(1e5, LIMITS[0]));
-    for (cable, mesh) in [
-        (&cable, coarse),
-        (&cable, finer),
-        (&long_cable, long),
-        (&stiffer, mesh),
-    ] {
+    let others = [(&cable, coarse), (&cable, finer), (&long_cable, long)];
+    for (cable, mesh) in others.into_iter().chain([(&stiffer, mesh)]) {
         let wrong = Passage::new(cable, &mesh, &motion, APPROACH).expect("a valid passage");
         let before = run.state.clone();
         assert!(run.try_pass(&wrong).is_err());

@@ -1,12 +1,11 @@
 //! Hostile parameters: a right answer or a typed error, never a panic and never a doubtful number.
 
 use boussinesq::HalfSpace;
-use cable_dem::{CableError, DuctedCable, End, Mesh, Passage, Restraint};
+use cable_dem::{CableError, DuctedCable, End, Mesh, Passage};
 use ground_field::{Direction, DuctLine, DuctMotion, Vehicle};
 
-use super::full_newton::{FullChain, even_positions};
 use super::scenes::{
-    APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, coulomb, elastic_plastic, largest_difference,
+    APPROACH, AXIAL_STIFFNESS, LIMITS, Run, assert_near, cable, coulomb, elastic_plastic, largest_difference,
     reference_cable, reference_motion,
 };
 
@@ -29,15 +28,9 @@ fn passes(run: &mut Run, passage: &Passage, passes: usize) -> bool {
         let before = run.state.clone();
         match run.try_pass(passage) {
             Ok(outcome) => {
-                let allowed = ACCURACY + rounding(run);
                 assert!(run.utilisation() <= 1.0 + ACCURACY, "{}", run.utilisation());
-                assert!(
-                    run.imbalance() <= 2.0 * allowed,
-                    "{} of {allowed} in {:?} on {:?}",
-                    run.imbalance(),
-                    run.solver.cable(),
-                    run.solver.mesh()
-                );
+                let allowed = 2.0 * (ACCURACY + rounding(run));
+                assert_near(run.imbalance(), 0.0, allowed, &run.solver);
                 assert!(outcome.force.upstream.is_finite() && outcome.force.downstream.is_finite());
                 assert!(outcome.peak.downstream >= outcome.force.downstream);
                 assert!(outcome.lowest.downstream <= outcome.force.downstream);
@@ -47,7 +40,7 @@ fn passes(run: &mut Run, passage: &Passage, passes: usize) -> bool {
                 assert_eq!(run.state, before);
                 return false;
             }
-            Err(error) => panic!("{error} in {:?} on {:?}", run.solver.cable(), run.solver.mesh()),
+            Err(error) => panic!("{error} in {:?}", run.solver),
         }
     }
     true
@@ -70,70 +63,16 @@ fn survivor(
 
 const MESH: (f64, f64) = (0.2, 0.1);
 
-#[test]
-fn every_shape_factor_gives_the_oracles_answer() {
-    let motion = reference_motion();
-    let shape = |xi: f64| motion.longitudinal(xi);
-    let length = 15.0;
-    for (limit, (upstream, downstream)) in LIMITS
-        .into_iter()
-        .flat_map(|limit| [(End::Free, End::Fixed), (End::Spring(1e6), End::Free)].map(|ends| (limit, ends)))
-    {
-        let of = |friction| cable(length, AXIAL_STIFFNESS, friction, upstream, downstream);
-        // b → ∞ is Coulomb's law: the sheath's slip of 2/b is nothing beside the duct's 15 µm.
-        let rigid = survivor(&of(coulomb(limit)), MESH, shape, 3).expect("an equilibrium");
-        for exponent in 3..=14 {
-            let cable = of(elastic_plastic(10.0_f64.powi(exponent), limit));
-            let run = survivor(&cable, MESH, shape, 3).expect("an equilibrium");
-            // Beyond, Newton's method is lost.
-            if exponent <= 10 {
-                let mesh = run.solver.mesh();
-                let mut oracle = FullChain::new(&cable, mesh);
-                for _ in 0..3 {
-                    oracle.pass(&even_positions(mesh, Direction::Forward, APPROACH), shape);
-                }
-                let apart = largest_difference(&run.forces(), &oracle.forces());
-                assert!(apart < 2e-4 * limit * length, "b = 1e{exponent}: {apart} N");
-            }
-            // But for the friction on the last half elements, which Coulomb's law leaves open.
-            let inner = 1..run.solver.mesh().nodes();
-            let apart = largest_difference(&rigid.forces()[inner.clone()], &run.forces()[inner]);
-            assert!(
-                exponent < 11 || apart < 1e-3 * limit * length,
-                "b = 1e{exponent}: {apart} N"
-            );
-        }
-    }
-}
-
-#[test]
-fn every_axial_stiffness_is_solved_or_refused() {
-    let motion = reference_motion();
-    for friction in [
-        coulomb(LIMITS[0]),
-        elastic_plastic(7e6, LIMITS[0]),
-        elastic_plastic(1e11, LIMITS[0]),
-    ] {
-        let solved = (3..=20).filter(|&exponent| {
-            let cable = cable(12.0, 10.0_f64.powi(exponent), friction, End::Free, End::Fixed);
-            survivor(&cable, MESH, |xi| motion.longitudinal(xi), 3).is_some()
-        });
-        let solved = solved.count();
-        // 1e3 to 1e12 N without loss of precision; far above it rounding is refused.
-        assert!((10..18).contains(&solved), "{solved}");
-    }
-}
-
 /// Elements and vehicle steps of any length, also beside the other; three nodes; ducts just below the road and far below it.
 #[test]
 fn every_mesh_and_depth_is_solved() {
     let ground = HalfSpace::new(testkit::soil(800e6, 0.4));
     let truck = Vehicle::point("truck", testkit::TRUCK, 11.1).expect("a valid vehicle");
     let ends = [End::Free, End::Fixed, End::Spring(1e6)];
-    let three_nodes = ends
+    let pairs = ends
         .iter()
         .flat_map(|&upstream| ends.map(|downstream| (upstream, downstream)));
-    let three_nodes = three_nodes.map(|ends| (1.2, 2.0, (1.0, 0.05), ends, 20));
+    let three_nodes = pairs.map(|ends| (1.2, 2.0, (1.0, 0.05), ends, 20));
     let others = [
         (1.2, 0.25, (1e-3, 1e-3)),
         (1.2, 0.25, (1e-3, 0.05)),
@@ -149,53 +88,15 @@ fn every_mesh_and_depth_is_solved() {
         (50.0, 12.0, MESH),
     ];
     let others = others.map(|(depth, length, mesh)| (depth, length, mesh, (End::Free, End::Fixed), 5));
+    let sheathed = |shape_factor| elastic_plastic(shape_factor, LIMITS[0]);
     for (depth, length, mesh, ends, number) in three_nodes.chain(others) {
         let line = DuctLine::new(depth, 0.0).expect("a valid line");
         let motion = DuctMotion::new(&ground, &truck, line, 60.0, 1e-6).expect("a smooth field");
-        for friction in [
-            coulomb(LIMITS[0]),
-            elastic_plastic(7e6, LIMITS[0]),
-            elastic_plastic(1e3, LIMITS[0]),
-        ] {
+        for friction in [coulomb(LIMITS[0]), sheathed(7e6), sheathed(1e3)] {
             let cable = cable(length, AXIAL_STIFFNESS, friction, ends.0, ends.1);
             let run = survivor(&cable, mesh, |xi| motion.longitudinal(xi), number);
             assert!(run.is_some(), "{depth} m, {length} m, {mesh:?}, {friction:?}");
         }
-    }
-}
-
-#[test]
-fn every_spring_and_clamp_is_solved() {
-    let motion = reference_motion();
-    for friction in [coulomb(LIMITS[1]), elastic_plastic(4.5e6, LIMITS[1])] {
-        let run_with = |upstream: End, downstream: End, clamps: Vec<Restraint>| {
-            let cable = cable(12.0, AXIAL_STIFFNESS, friction, upstream, downstream)
-                .with_restraints(clamps)
-                .expect("valid clamps");
-            let run = survivor(&cable, MESH, |xi| motion.longitudinal(xi), 5).expect("an equilibrium");
-            run.state.end_forces(&cable).expect("the state's mesh").downstream
-        };
-        let fixed = run_with(End::Free, End::Fixed, Vec::new());
-        let mut last = 0.0;
-        for exponent in 0..=12 {
-            let stiffness = 10.0_f64.powi(exponent);
-            last = run_with(End::Free, End::Spring(stiffness), Vec::new());
-            // Not monotone in the stiffness: a reading includes the end node's own friction, of either sign.
-            assert!(last > 0.0 && last < LIMITS[1] * 12.0);
-            for position in [0.0, 0.05, 6.0, 6.1, 12.0] {
-                let clamp = Restraint::new(position, stiffness);
-                run_with(End::Free, End::Fixed, vec![clamp]);
-                run_with(End::Spring(stiffness), End::Free, vec![clamp, clamp]);
-            }
-        }
-        // On a spring, however stiff, Coulomb friction on the last half element turns over with the least slip; on a fixed
-        // end, where the slip is known, it does so bit by bit.
-        let is_rigid = friction.compliance() == 0.0;
-        let turning = if is_rigid { LIMITS[1] * MESH.0 } else { 0.0 };
-        assert!(
-            (last - fixed).abs() < 1e-3 * fixed + turning,
-            "the stiffest, {last} N, is as good as fixed, {fixed} N"
-        );
     }
 }
 
@@ -210,21 +111,22 @@ fn a_rigid_shift_of_the_duct_carries_a_free_cable_along() {
         let mut run = Run::new(cable, mesh);
         for _ in 0..2 {
             let (_, last) = run.pass_and_last(&passage);
-            assert!(last.displacement().iter().all(|u| (u - 1e-3).abs() < 1e-15));
-            assert!(run.state.displacement().iter().all(|u| u.abs() < 1e-15));
+            let shifted = last.displacement().iter().map(|u| u - 1e-3);
+            let back = run.state.displacement().iter().copied();
+            assert!(shifted.chain(back).all(|off| off.abs() < 1e-15));
         }
     }
 }
 
 #[test]
-fn twenty_thousand_passes_settle() {
+fn six_thousand_passes_settle() {
     // One step a node: what counts is how many passes there are.
     let mesh = Mesh::new(3.0, 0.3, 0.3).expect("a valid mesh");
     for friction in [coulomb(LIMITS[0]), elastic_plastic(7e6, LIMITS[0])] {
         let cable = reference_cable(3.0, friction);
         let passage = Passage::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
         let mut run = Run::new(cable, mesh);
-        let force = run.passes(19_990, &passage).force.downstream;
+        let force = run.passes(5_990, &passage).force.downstream;
         let settled = run.state.displacement().to_vec();
         assert!(passes(&mut run, &passage, 10));
         assert!(largest_difference(&settled, run.state.displacement()) < 1e-9 * settled[0].abs());
@@ -247,25 +149,14 @@ fn a_duct_that_moves_by_metres_or_by_atoms_is_solved_or_refused() {
 #[test]
 fn a_saw_tooth_motion_is_solved() {
     // No ground is like this: full reversal from node to node, and jumps.
-    let tooth = |xi: f64| {
-        if (xi / 0.2).round().rem_euclid(2.0) == 0.0 {
-            1e-5
-        } else {
-            -1e-5
-        }
+    let tooth = |xi: f64| match (xi / 0.2).round().rem_euclid(2.0) {
+        _ if xi.abs() >= 2.0 => 0.0,
+        0.0 => 1e-5,
+        _ => -1e-5,
     };
-    for friction in [
-        coulomb(27.2),
-        elastic_plastic(1e5, 27.2),
-        elastic_plastic(1e8, 27.2),
-    ] {
+    let sheathed = |shape_factor| elastic_plastic(shape_factor, 27.2);
+    for friction in [coulomb(27.2), sheathed(1e5), sheathed(1e8)] {
         let cable = reference_cable(6.0, friction);
-        let solved = survivor(
-            &cable,
-            MESH,
-            |xi| if xi.abs() < 2.0 { tooth(xi) } else { 0.0 },
-            10,
-        );
-        assert!(solved.is_some());
+        assert!(survivor(&cable, MESH, tooth, 10).is_some());
     }
 }

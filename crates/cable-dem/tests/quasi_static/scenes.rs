@@ -2,28 +2,18 @@
 
 use std::ops::Range;
 
-use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
-    Restraint,
 };
 use ground_field::{Direction, DuctMotion};
 use proptest::prelude::*;
 
-/// Distance beyond the duct's ends from which vehicles come \[m\].
-pub const APPROACH: f64 = 15.0;
-/// EA of the reference cables \[N\].
-pub const AXIAL_STIFFNESS: f64 = 8.01e6;
-/// q b/2 of the reference cables: shear stiffness of their sheaths \[N/m²\].
-pub const SHEATH_STIFFNESS: f64 = 1e8;
-/// Friction limits of the reference cables \[N/m\]: upper phase, and lower phase with the load of the others.
-pub const LIMITS: [f64; 2] = [0.25 * 108.8, 0.27 * 163.2];
+pub use super::shared::{
+    APPROACH, AXIAL_STIFFNESS, LIMITS, assert_near, clamp_springs, largest, reference_motion,
+};
 
-/// Young's modulus 800 MPa, Poisson's ratio 0.4, a load of 20 tf, a duct at 1.2 m.
-pub fn reference_motion() -> DuctMotion {
-    let ground = HalfSpace::new(testkit::soil(800e6, 0.4));
-    testkit::truck(&ground, 11.1).expect("a smooth field")
-}
+/// q b/2 of the reference cables: shear stiffness of their sheaths \[N/m²\].
+const SHEATH_STIFFNESS: f64 = 1e8;
 
 /// Wheels of a vehicle: where each stands \[m\], how far it moves the duct \[m\], and over which width \[m\].
 pub fn any_wheels(moved: Range<f64>) -> impl Strategy<Value = Vec<(f64, f64, f64)>> {
@@ -80,31 +70,6 @@ pub fn cable(
         .expect("a valid cable")
 }
 
-/// Nodes at which clamps pull, and with which stiffness \[N/m\]: within an element at both of its nodes, by the lever rule.
-pub fn clamp_springs(cable: &DuctedCable, mesh: &Mesh) -> Vec<(usize, f64)> {
-    let pulls = |clamp: &Restraint| {
-        let place = clamp.position / mesh.spacing();
-        let left = (place as usize).min(mesh.elements() - 1);
-        let share = place - left as f64;
-        [
-            (left, (1.0 - share) * clamp.stiffness),
-            (left + 1, share * clamp.stiffness),
-        ]
-    };
-    cable.restraints().iter().flat_map(pulls).collect()
-}
-
-/// Largest magnitude, infinite for NaN.
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |worst: f64, value| {
-        if value.is_nan() {
-            f64::INFINITY
-        } else {
-            worst.max(value.abs())
-        }
-    })
-}
-
 /// One cable, its solver and its state.
 #[derive(Debug, Clone)]
 pub struct Run {
@@ -118,6 +83,13 @@ impl Run {
             solver: QuasiStatic::new(cable, mesh).expect("a valid solver"),
             state: CableState::at_rest(&mesh),
         }
+    }
+
+    /// And the passage of the reference's vehicle, with vehicle steps of half an element.
+    pub fn under_truck(cable: &DuctedCable, spacing: f64) -> (Self, Passage) {
+        let mesh = Mesh::new(cable.length(), spacing, 0.5 * spacing).expect("a valid mesh");
+        let passage = Passage::new(cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
+        (Self::new(cable.clone(), mesh), passage)
     }
 
     pub fn try_pass(&mut self, passage: &Passage) -> Result<PassOutcome, CableError> {
@@ -152,11 +124,7 @@ impl Run {
 
     /// Compression along the cable \[N\]: at its upstream end, in its elements, at its downstream end.
     pub fn forces(&self) -> Vec<f64> {
-        let cable = self.solver.cable();
-        let ends = self.state.end_forces(cable).expect("the state's mesh");
-        let inner = self.state.element_forces(cable).expect("the state's mesh");
-        let upstream = std::iter::once(ends.upstream);
-        upstream.chain(inner).chain([ends.downstream]).collect()
+        super::shared::forces(self.solver.cable(), &self.state)
     }
 
     /// Largest imbalance of a node that is not fixed, as a share of the friction limit on one element: equilibrium written
@@ -174,32 +142,25 @@ impl Run {
             force[i] += tension;
             force[i + 1] -= tension;
         }
-        for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
-            match end {
-                End::Free => {}
-                End::Spring(stiffness) => force[node] -= stiffness * u[node],
-                End::Fixed => force[node] = 0.0,
-            }
+        let ends = [(0, cable.upstream()), (last, cable.downstream())];
+        let springs = ends.map(|(node, end)| (node, end.stiffness().unwrap_or(0.0)));
+        for (node, stiffness) in springs.into_iter().chain(clamp_springs(cable, mesh)) {
+            force[node] -= stiffness * u[node];
         }
-        for (node, stiffness) in clamp_springs(cable, mesh) {
-            let end = [(0, cable.upstream()), (last, cable.downstream())];
-            if !end.contains(&(node, End::Fixed)) {
-                force[node] -= stiffness * u[node];
-            }
+        for (node, _) in ends.into_iter().filter(|(_, end)| *end == End::Fixed) {
+            force[node] = 0.0;
         }
-        largest(&force) / (cable.friction().limit() * h)
+        largest(force) / (cable.friction().limit() * h)
     }
 
     /// Largest friction as a share of its limit.
     pub fn utilisation(&self) -> f64 {
-        largest(self.state.friction()) / self.solver.cable().friction().limit()
+        largest(self.state.friction().iter().copied()) / self.solver.cable().friction().limit()
     }
 }
 
 /// Largest difference of two equally long lists.
 pub fn largest_difference(one: &[f64], two: &[f64]) -> f64 {
     assert_eq!(one.len(), two.len());
-    one.iter()
-        .zip(two)
-        .fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()))
+    largest(one.iter().zip(two).map(|(a, b)| a - b))
 }

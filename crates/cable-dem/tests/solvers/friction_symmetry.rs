@@ -3,8 +3,9 @@
 use cable_dem::{CableState, End, Friction, FrictionLaw};
 use proptest::prelude::*;
 
-use super::harness::{Kind, Problem, Run};
+use super::harness::{Kind, Problem, Run, largest};
 use super::random_scenes::{Drawn, Scene};
+use super::shared::clamp_springs;
 
 fn any_scene() -> impl Strategy<Value = Scene> {
     Drawn::default().scenes()
@@ -46,12 +47,10 @@ impl Scene {
 
     /// With q and b multiplied.
     fn with_friction_times(mut self, limit: f64, shape_factor: f64) -> Self {
-        let law = match self.friction.law() {
-            FrictionLaw::ElasticPlastic { shape_factor: b } => FrictionLaw::ElasticPlastic {
-                shape_factor: b * shape_factor,
-            },
-            other => other,
-        };
+        let mut law = self.friction.law();
+        if let FrictionLaw::ElasticPlastic { shape_factor: b } = &mut law {
+            *b *= shape_factor;
+        }
         self.friction = Friction::new(law, self.friction.limit() * limit).expect("valid friction");
         self
     }
@@ -69,14 +68,9 @@ impl Scene {
     }
 
     fn with_lengths_times(mut self, factor: f64) -> Self {
-        for length in [
-            &mut self.length,
-            &mut self.width,
-            &mut self.mesh.0,
-            &mut self.mesh.1,
-        ] {
-            *length *= factor;
-        }
+        self.length *= factor;
+        self.width *= factor;
+        self.mesh = (self.mesh.0 * factor, self.mesh.1 * factor);
         for clamp in &mut self.clamps {
             clamp.position *= factor;
         }
@@ -91,29 +85,14 @@ fn answer(problem: &Problem, state: &CableState) -> [Vec<f64>; 2] {
 
 /// Largest of `one` − factor · `other`, infinite for NaN.
 fn largest_difference(one: &[f64], other: &[f64], factor: f64) -> f64 {
-    one.iter().zip(other).fold(0.0, |worst: f64, (a, b)| {
-        let apart = (a - factor * b).abs();
-        if apart.is_nan() {
-            f64::INFINITY
-        } else {
-            worst.max(apart)
-        }
-    })
+    largest(one.iter().zip(other).map(|(a, b)| a - factor * b))
 }
 
 /// How far any part of `other` is behind `one` \[m\], infinite for NaN.
 fn left_behind(one: &CableState, other: &CableState) -> f64 {
-    one.displacement()
-        .iter()
-        .zip(other.displacement())
-        .fold(0.0, |worst: f64, (one, other)| {
-            let back = one - other;
-            if back.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(back)
-            }
-        })
+    let pairs = one.displacement().iter().zip(other.displacement());
+    // NaN is not below zero.
+    largest(pairs.map(|(one, other)| if one - other < 0.0 { 0.0 } else { one - other }))
 }
 
 proptest! {
@@ -138,14 +117,9 @@ proptest! {
                 }
 
                 let forces: Vec<f64> = run.state.element_forces(cable).expect("the state's mesh").collect();
-                // A clamp within an element pulls at both of its nodes, by the lever rule.
                 let mut springs = vec![0.0; mesh.nodes()];
-                for clamp in cable.restraints() {
-                    let place = clamp.position / mesh.spacing();
-                    let left = (place as usize).min(mesh.elements() - 1);
-                    for (node, share) in [(left, 1.0 - (place - left as f64)), (left + 1, place - left as f64)] {
-                        springs[node] += share * clamp.stiffness * run.state.displacement()[node];
-                    }
+                for (node, stiffness) in clamp_springs(cable, mesh) {
+                    springs[node] += stiffness * run.state.displacement()[node];
                 }
                 for (i, j) in (0..forces.len()).flat_map(|i| (i + 1..forces.len()).map(move |j| (i, j))) {
                     let held: f64 = springs[i + 1..=j].iter().sum();
@@ -238,7 +212,7 @@ proptest! {
         ] {
             let found = answer(&scaled.problem(), &scaled.run(Kind::QuasiStatic).state);
             for ((found, own), factor) in found.iter().zip(&own).zip(factors) {
-                let size = own.iter().fold(f64::MIN_POSITIVE, |most: f64, v| most.max((factor * v).abs()));
+                let size = factor * largest(own.iter().copied()).max(f64::MIN_POSITIVE);
                 let apart = largest_difference(found, own, factor);
                 prop_assert!(apart <= 1e-9 * size, "{apart} of {size}");
             }

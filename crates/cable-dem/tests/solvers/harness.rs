@@ -2,30 +2,23 @@
 
 use std::rc::Rc;
 
-use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, EndForces, EnergyBalance, Explicit, ExplicitOptions, Friction,
     FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, SigmoidLeak, laid,
 };
 use ground_field::Direction;
 
+pub use super::shared::{APPROACH, AXIAL_STIFFNESS, LIMITS, SPEED, assert_near, largest};
+use super::shared::{forces, reference_motion};
+
 pub type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Mass per metre of the cable \[kg/m\]: 108.8 N/m.
 pub const MASS: f64 = 108.8 / 9.80665;
-/// EA of the full-scale experiment's cables \[N\].
-pub const AXIAL_STIFFNESS: f64 = 8.01e6;
-/// Its friction limits \[N/m\]: upper cable, and lower cable with the load of the others.
-pub const LIMITS: [f64; 2] = [0.25 * 108.8, 0.27 * 163.2];
 /// Sheath of the upper cable.
 pub const SHEATH: FrictionLaw = FrictionLaw::ElasticPlastic {
     shape_factor: 2e8 / LIMITS[0],
 };
-/// Distance beyond the duct's ends from which its vehicle comes \[m\].
-pub const APPROACH: f64 = 15.0;
-/// 40 km/h.
-pub const SPEED: f64 = 40.0 / 3.6;
-
 /// The sheath of the full-scale experiment's cables, q b/2 = 1e8 N/m².
 pub fn sheathed(limit: f64) -> FrictionLaw {
     FrictionLaw::ElasticPlastic {
@@ -34,9 +27,9 @@ pub fn sheathed(limit: f64) -> FrictionLaw {
 }
 
 /// The duct 1.2 m below a load of 20 tf on ground of 800 MPa, ν = 0.4, at 40 km/h.
-pub fn truck() -> Result<Drive, Box<dyn std::error::Error>> {
-    let motion = testkit::truck(&HalfSpace::new(testkit::soil(800e6, 0.4)), SPEED)?;
-    Ok(Drive::new(SPEED, APPROACH, move |xi| motion.longitudinal(xi)))
+pub fn truck() -> Drive {
+    let motion = reference_motion();
+    Drive::new(SPEED, APPROACH, move |xi| motion.longitudinal(xi))
 }
 
 /// A cable like those of the full-scale experiment, and its mesh: node spacing and vehicle step \[m\].
@@ -50,28 +43,20 @@ pub struct Bar {
     pub mesh: (f64, f64),
 }
 
-impl Default for Bar {
-    /// The upper cable.
-    fn default() -> Self {
-        Self {
-            length: 30.0,
-            axial_stiffness: AXIAL_STIFFNESS,
-            law: SHEATH,
-            limit: LIMITS[0],
-            ends: (End::Free, End::Fixed),
-            mesh: (0.2, 0.1),
-        }
-    }
-}
+/// The upper cable.
+pub const UPPER: Bar = Bar {
+    length: 30.0,
+    axial_stiffness: AXIAL_STIFFNESS,
+    law: SHEATH,
+    limit: LIMITS[0],
+    ends: (End::Free, End::Fixed),
+    mesh: (0.2, 0.1),
+};
 
 impl Bar {
     pub fn cable(&self) -> Result<DuctedCable, CableError> {
-        DuctedCable::new(
-            self.length,
-            self.axial_stiffness,
-            Friction::new(self.law, self.limit)?,
-        )?
-        .with_ends(self.ends.0, self.ends.1)
+        let friction = Friction::new(self.law, self.limit)?;
+        DuctedCable::new(self.length, self.axial_stiffness, friction)?.with_ends(self.ends.0, self.ends.1)
     }
 
     /// With a vehicle that comes forward, and back.
@@ -81,6 +66,14 @@ impl Bar {
             mesh: Mesh::new(self.length, self.mesh.0, self.mesh.1)?,
             drives: vec![vehicle.clone(), vehicle.back()],
         })
+    }
+}
+
+/// With at most so many node updates.
+pub fn limited(max_node_updates: f64) -> ExplicitOptions {
+    ExplicitOptions {
+        max_node_updates,
+        ..ExplicitOptions::default()
     }
 }
 
@@ -133,30 +126,17 @@ impl Drive {
         }
     }
 
-    /// The same vehicle on its way back.
+    /// The same vehicle on its way back, of one that drives forward.
     pub fn back(&self) -> Self {
         Self {
-            direction: match self.direction {
-                Direction::Forward => Direction::Reverse,
-                Direction::Reverse => Direction::Forward,
-            },
+            direction: Direction::Reverse,
             ..self.clone()
         }
     }
 }
 
-impl std::fmt::Debug for Drive {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "{:?} {} m/s from {} m",
-            self.direction, self.speed, self.approach
-        )
-    }
-}
-
 /// A cable on a mesh, and the vehicles that may come.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Problem {
     pub cable: DuctedCable,
     pub mesh: Mesh,
@@ -171,27 +151,19 @@ impl Problem {
 
     /// Compression along the cable \[N\]: at its upstream end, in its elements, at its downstream end.
     pub fn forces(&self, state: &CableState) -> Vec<f64> {
-        let ends = state.end_forces(&self.cable).expect("the state's mesh");
-        let inner = state.element_forces(&self.cable).expect("the state's mesh");
-        let upstream = std::iter::once(ends.upstream);
-        upstream.chain(inner).chain([ends.downstream]).collect()
+        forces(&self.cable, state)
     }
 
     /// [`Problem::forces`] by the quasi-static solver after vehicles of these indices, and the largest force met in the cable at any time.
     pub fn without_inertia(&self, traffic: &[usize]) -> (Vec<f64>, f64) {
         // Where nothing moves nothing is left but rounding.
-        let mut largest = 1e-6 * self.largest_force();
+        let mut most = 1e-6 * self.largest_force();
         let mut run = Run::new(Kind::QuasiStatic, self).expect("a valid problem");
         for &drive in traffic {
-            let pass = run.watch(drive, |_, state| {
-                let forces = self.forces(&state());
-                largest = forces
-                    .iter()
-                    .fold(largest, |largest, force| largest.max(force.abs()));
-            });
+            let pass = run.watch(drive, |_, state| most = most.max(largest(self.forces(&state()))));
             pass.expect("an equilibrium");
         }
-        (self.forces(&run.state), largest)
+        (self.forces(&run.state), most)
     }
 
     /// Largest force that friction can build up: q L \[N\].
@@ -252,13 +224,8 @@ impl Run {
     pub fn explicit(problem: &Problem, options: ExplicitOptions) -> Result<Self, CableError> {
         let Problem { cable, mesh, drives } = problem;
         let duct = |drive: &Drive| {
-            let Drive {
-                direction,
-                speed,
-                shape,
-                approach,
-            } = drive;
-            MovingDuct::from_shape(cable, mesh, *direction, *speed, &**shape, *approach)
+            let shape = &*drive.shape;
+            MovingDuct::from_shape(cable, mesh, drive.direction, drive.speed, shape, drive.approach)
         };
         let solver = Box::new(Explicit::new(cable.clone(), *mesh, MASS, options)?);
         let ducts = drives.iter().map(duct).collect::<Result<_, _>>()?;
@@ -310,14 +277,7 @@ impl Run {
 
     /// Largest friction as a share of its limit, infinite for NaN.
     pub fn utilisation(&self, problem: &Problem) -> f64 {
-        let largest = self.state.friction().iter().fold(0.0, |worst: f64, f| {
-            if f.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(f.abs())
-            }
-        });
-        largest / problem.cable.friction().limit()
+        largest(self.state.friction().iter().copied()) / problem.cable.friction().limit()
     }
 
     /// Several passes of the first vehicle, at least one; what the last one did.

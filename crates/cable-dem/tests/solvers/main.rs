@@ -3,18 +3,17 @@
 //! [`models`] holds problems with their exact answers, [`harness`] runs any solver on any problem.
 
 mod agreement;
-mod approach;
 mod explicit;
 mod faults;
 mod friction_symmetry;
 mod harness;
 mod inertia;
-#[path = "../shared/mirrored.rs"]
-mod mirrored;
 mod models;
 mod nasty_values;
 mod random_scenes;
 mod restart;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod sigmoid;
 mod slope;
 mod stiff_ends;

@@ -17,11 +17,9 @@ pub struct Scene {
     pub steepness: f64,
     pub ends: (End, End),
     pub clamps: Vec<Restraint>,
-    /// Displacement and length of the duct's motion, its asymmetry and the power of its tails, and what it is pushed forward beside.
+    /// Displacement and length of the duct's motion, and what it is pushed forward beside.
     pub peak: f64,
     pub width: f64,
-    pub skew: f64,
-    pub power: f64,
     pub pushed: f64,
     pub speed: f64,
     /// Node spacing and vehicle step.
@@ -105,9 +103,6 @@ impl Drawn {
                         clamps: clamps.into_iter().map(clamp).collect(),
                         peak,
                         width,
-                        // Not symmetric: steeper behind than ahead.
-                        skew: 0.3,
-                        power: 2.0,
                         pushed: 0.0,
                         speed,
                         mesh: (spacing * width, 0.5 * spacing * width),
@@ -120,17 +115,11 @@ impl Drawn {
 
 impl Scene {
     pub fn problem(&self) -> Problem {
-        let Self {
-            peak,
-            width,
-            skew,
-            power,
-            pushed,
-            ..
-        } = *self;
-        let drive = Drive::new(self.speed, 10.0 * width, move |xi| {
-            let (t, front) = (xi / width, 0.5 * pushed * (1.0 - (xi / 0.8).tanh()));
-            peak * (t + skew * t * t) / (1.0 + t * t).powf(power) + front
+        let scene = self.clone();
+        let drive = Drive::new(self.speed, 10.0 * self.width, move |xi| {
+            let (t, front) = (xi / scene.width, 0.5 * scene.pushed * (1.0 - (xi / 0.8).tanh()));
+            // Not symmetric: steeper behind than ahead.
+            scene.peak * (t + 0.3 * t * t) / (1.0 + t * t).powi(2) + front
         });
         let cable = DuctedCable::new(self.length, self.axial_stiffness, self.friction)
             .and_then(|cable| cable.with_ends(self.ends.0, self.ends.1))

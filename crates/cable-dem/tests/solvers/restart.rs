@@ -2,11 +2,11 @@
 
 use cable_dem::{CableState, End, FrictionLaw, Mesh, Restraint};
 
-use super::harness::{Bar, Kind, LIMITS, Outcome, Run, sheathed, truck};
+use super::harness::{Bar, Kind, LIMITS, Outcome, Run, UPPER, sheathed, truck};
 
 #[test]
 fn a_run_resumed_from_a_saved_state_equals_a_straight_run() -> Outcome {
-    let truck = truck()?;
+    let truck = truck();
     for law in [
         FrictionLaw::Coulomb,
         sheathed(LIMITS[1]),
@@ -18,7 +18,7 @@ fn a_run_resumed_from_a_saved_state_equals_a_straight_run() -> Outcome {
             limit: LIMITS[1],
             ends: (End::Spring(1e6), End::Fixed),
             mesh: (0.25, 0.125),
-            ..Bar::default()
+            ..UPPER
         };
         let mut problem = bar.under(&truck)?;
         problem.cable = problem.cable.with_restraints(vec![Restraint::new(4.1, 1e6)])?;

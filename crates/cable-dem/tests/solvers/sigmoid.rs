@@ -2,7 +2,7 @@
 
 use cable_dem::{CableError, End, ExplicitOptions, FrictionLaw};
 
-use super::harness::{AXIAL_STIFFNESS, Bar, Drive, Kind, LIMITS, Outcome, Run, SHEATH, truck};
+use super::harness::{Bar, Drive, Kind, Outcome, Pass, Run, SHEATH, UPPER, assert_near, limited, truck};
 
 /// Without any motion of the duct, the force stored by passes with memory leaks away as the formula says.
 #[test]
@@ -17,9 +17,9 @@ fn the_sigmoid_leaks_at_the_rate_of_its_formula() -> Outcome {
         let bar = Bar {
             ends,
             mesh: (0.5, 0.5),
-            ..Bar::default()
+            ..UPPER
         };
-        let mut loaded = Run::new(Kind::QuasiStatic, &bar.under(&truck()?)?)?;
+        let mut loaded = Run::new(Kind::QuasiStatic, &bar.under(&truck())?)?;
         loaded.pass(0)?;
 
         let law = FrictionLaw::Sigmoid { shape_factor: 1e7 };
@@ -32,11 +32,7 @@ fn the_sigmoid_leaks_at_the_rate_of_its_formula() -> Outcome {
         let before = run.passes(settled)?.outcome.force.downstream;
         let after = run.pass(0)?.outcome.force.downstream;
         let expected = 1.0 - leak.loss_per_pass;
-        assert!(
-            (after / before / expected - 1.0).abs() < 5e-3,
-            "{ends:?}: {} {expected}",
-            after / before
-        );
+        assert_near(after / before, expected, 5e-3 * expected, ends);
     }
     Ok(())
 }
@@ -44,39 +40,40 @@ fn the_sigmoid_leaks_at_the_rate_of_its_formula() -> Outcome {
 /// A short duct: what the law loses does not depend on the length, and its steps are many.
 const SHORT: Bar = Bar {
     length: 9.0,
-    axial_stiffness: AXIAL_STIFFNESS,
     law: FrictionLaw::Coulomb,
-    limit: LIMITS[0],
-    ends: (End::Free, End::Fixed),
     mesh: (0.5, 0.25),
+    ..UPPER
 };
 
+/// Of one that takes too many steps there is no answer.
 #[test]
-fn the_sigmoid_tends_to_coulombs_law_and_says_when_it_has_not() -> Outcome {
-    let truck = truck()?;
-    let mut rigid = Run::new(Kind::QuasiStatic, &SHORT.under(&truck)?)?;
-    let expected = rigid.passes(2)?.outcome.force.downstream;
+fn the_sigmoid_tends_to_coulombs_law_and_says_that_it_has_not() -> Outcome {
+    let truck = truck();
+    let moved = |pass: &Pass| pass.outcome.upstream_displacement;
+    let expected = moved(&Run::new(Kind::QuasiStatic, &SHORT.under(&truck)?)?.passes(2)?);
     let mut errors = Vec::new();
-    for shape_factor in [1e8, 1e9, 1e10, 1e12] {
+    for exponent in 3..=14 {
+        let shape_factor = 10_f64.powi(exponent);
         let law = FrictionLaw::Sigmoid { shape_factor };
-        let pass = Run::new(Kind::Explicit, &Bar { law, ..SHORT }.under(&truck)?)?.passes(2)?;
-        let error = (pass.outcome.force.downstream / expected - 1.0).abs();
-        let leak = pass.leak.ok_or("no leak")?;
-        println!("b = {shape_factor:.0e}: {error:.1e}; {leak}");
-        assert!(
-            leak.matters() || error < 0.03,
-            "{shape_factor:.0e}: silent error of {error}"
-        );
-        errors.push(error);
+        let mut run = Run::explicit(&Bar { law, ..SHORT }.under(&truck)?, limited(1e8))?;
+        match run.passes(2) {
+            Ok(pass) => {
+                assert!(pass.leak.is_some_and(|leak| leak.matters()));
+                errors.push((moved(&pass) / expected - 1.0).abs());
+            }
+            Err(CableError::TooManySteps { .. } | CableError::NoConvergence { .. }) => {}
+            Err(error) => panic!("{error}"),
+        }
     }
-    assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
+    let last = &errors[errors.len() - 4..];
+    assert!(last.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
     Ok(())
 }
 
 /// The law contains the time step: only b Δt counts, and half the step halves what friction holds on to.
 #[test]
 fn the_sigmoid_depends_on_the_time_step_through_the_product_with_b() -> Outcome {
-    let truck = truck()?;
+    let truck = truck();
     let force = |shape_factor: f64, time_step: f64| -> Result<f64, CableError> {
         let law = FrictionLaw::Sigmoid { shape_factor };
         let options = ExplicitOptions {
@@ -92,17 +89,11 @@ fn the_sigmoid_depends_on_the_time_step_through_the_product_with_b() -> Outcome 
         let found = force(shape_factor, time_step)?;
         // As short a step, with a law as much steeper.
         let same_product = force(shape_factor * time_step / finest, finest)?;
-        println!("Δt = {time_step:.2e} s: {found:.1} N, {same_product:.1} N");
-        assert!(
-            (found / same_product - 1.0).abs() < 0.01,
-            "{found} {same_product}"
-        );
+        assert_near(found, same_product, 0.01 * same_product.abs(), time_step);
         forces.push(found);
     }
-    assert!(
-        forces.windows(2).all(|pair| pair[1] < 0.95 * pair[0]),
-        "{forces:?}"
-    );
+    let falls = |pair: &[f64]| pair[1] < 0.95 * pair[0];
+    assert!(forces.windows(2).all(falls), "{forces:?}");
     Ok(())
 }
 
@@ -110,15 +101,11 @@ fn the_sigmoid_depends_on_the_time_step_through_the_product_with_b() -> Outcome 
 /// returns to rest, for which the law takes one step whatever the speed.
 #[test]
 fn the_sigmoid_depends_on_speed() -> Outcome {
-    let truck = truck()?;
+    let truck = truck();
     let half_the_speed = |law| -> Result<f64, CableError> {
         let force = |speed| -> Result<f64, CableError> {
-            let problem = Bar {
-                length: 15.0,
-                law,
-                ..Bar::default()
-            };
-            let mut run = Run::new(Kind::Explicit, &problem.under(&truck.at(speed))?)?;
+            let problem = Bar { law, ..SHORT }.under(&truck.at(speed))?;
+            let mut run = Run::new(Kind::Explicit, &problem)?;
             Ok(run.passes(2)?.before_rest.downstream)
         };
         Ok(force(5.5)? / force(11.0)?)
@@ -126,14 +113,7 @@ fn the_sigmoid_depends_on_speed() -> Outcome {
     let with_sigmoid = half_the_speed(FrictionLaw::Sigmoid { shape_factor: 1e8 })?;
     let with_memory = half_the_speed(SHEATH)?;
     assert!(with_sigmoid < 0.95, "{with_sigmoid}");
-    assert!((with_memory - 1.0).abs() < 0.01, "{with_memory}");
-    Ok(())
-}
-
-#[test]
-fn a_law_with_memory_has_no_leak() -> Outcome {
-    let pass = Run::new(Kind::Explicit, &Bar::default().under(&truck()?)?)?.pass(0)?;
-    assert_eq!(pass.leak, None);
+    assert_near(with_memory, 1.0, 0.01, "with memory");
     Ok(())
 }
 
@@ -147,15 +127,11 @@ fn all_slip_of_a_law_without_memory_is_heat() -> Outcome {
         law: FrictionLaw::Sigmoid { shape_factor },
         ends: (End::Fixed, End::Fixed),
         mesh: (0.5, 0.5),
-        ..Bar::default()
+        ..UPPER
     };
     let problem = bar.under(&Drive::new(1e4, 15.0, move |_| displacement))?;
     let heat = Run::new(Kind::Explicit, &problem)?.pass(0)?.outcome.dissipated;
-    let each = bar.length * bar.limit * 0.5 * shape_factor * displacement * displacement;
-    assert!(
-        (heat / (2.0 * each) - 1.0).abs() < 0.01,
-        "{heat} J, not {}",
-        2.0 * each
-    );
+    let both = bar.length * bar.limit * shape_factor * displacement * displacement;
+    assert_near(heat, both, 0.01 * both, "J");
     Ok(())
 }

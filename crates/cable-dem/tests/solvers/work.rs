@@ -9,7 +9,7 @@ use cable_dem::{Explicit, ExplicitOptions, FrictionLaw, Mesh, MovingDuct, Passag
 use ground_field::Direction;
 
 use super::harness::{
-    APPROACH, AXIAL_STIFFNESS, Bar, Kind, LIMITS, MASS, Outcome, Run, SHEATH, sheathed, truck,
+    APPROACH, AXIAL_STIFFNESS, Bar, Kind, LIMITS, MASS, Outcome, Run, SHEATH, UPPER, sheathed, truck,
 };
 
 /// Asserts that `count` is at most `most` for each of `each`.
@@ -20,18 +20,21 @@ fn assert_at_most(name: &str, count: usize, most: f64, each: usize, work: Statis
 
 #[test]
 fn a_quasi_static_pass() -> Outcome {
-    let truck = truck()?;
+    let truck = truck();
     let spacing = 0.1;
-    let cables = LIMITS
-        .into_iter()
-        .flat_map(|limit| [sheathed(limit), FrictionLaw::Coulomb].map(|law| (law, limit)));
-    for ((law, limit), length) in cables.flat_map(|cable| [(cable, 30.0), (cable, 300.0)]) {
+    let [upper, lower] = LIMITS;
+    for (law, limit, length) in [
+        (sheathed(upper), upper, 30.0),
+        (sheathed(lower), lower, 300.0),
+        (FrictionLaw::Coulomb, upper, 300.0),
+        (FrictionLaw::Coulomb, lower, 30.0),
+    ] {
         let bar = Bar {
             length,
             law,
             limit,
             mesh: (spacing, 0.05),
-            ..Bar::default()
+            ..UPPER
         };
         let problem = bar.under(&truck)?;
         let has_sheath = law != FrictionLaw::Coulomb;
@@ -42,15 +45,10 @@ fn a_quasi_static_pass() -> Outcome {
         let positions = (length / step).round() as usize + 2 * outside;
         let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
         for passes in [1, 10] {
-            let work = Run::new(Kind::QuasiStatic, &problem)?
-                .passes(passes)?
-                .outcome
-                .statistics;
-            assert_eq!(
-                work.steps,
-                positions + 2,
-                "one step a vehicle position, one from rest and one to it"
-            );
+            let pass = Run::new(Kind::QuasiStatic, &problem)?.passes(passes)?;
+            let work = pass.outcome.statistics;
+            // One step a vehicle position, one from rest and one to it.
+            assert_eq!(work.steps, positions + 2);
             // Where the vehicle is, at either end if it is elsewhere, and now and then once more for a window that has grown, or for
             // a second zone.
             assert_at_most("windows a step", work.windows, 3.4, work.steps, work);
@@ -79,9 +77,9 @@ fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
         length: 300.0,
         axial_stiffness: 1e10,
         law: FrictionLaw::Coulomb,
-        ..Bar::default()
+        ..UPPER
     };
-    let problem = bar.under(&truck()?)?;
+    let problem = bar.under(&truck())?;
     let mut run = Run::new(Kind::QuasiStatic, &problem)?;
     for _ in 0..3 {
         let work = run.pass(0)?.outcome.statistics;
@@ -97,17 +95,13 @@ fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
 
 #[test]
 fn an_explicit_pass() -> Outcome {
-    let truck = truck()?;
+    let truck = truck();
     for law in [
         SHEATH,
         FrictionLaw::Coulomb,
         FrictionLaw::Sigmoid { shape_factor: 1e8 },
     ] {
-        let problem = Bar {
-            law,
-            ..Bar::default()
-        }
-        .under(&truck)?;
+        let problem = Bar { law, ..UPPER }.under(&truck)?;
         let work = Run::new(Kind::Explicit, &problem)?.passes(2)?.outcome.statistics;
         // 0.9 of what waves and half the friction limit allow together, from their formulas.
         let waves = problem.mesh.spacing() * (MASS / AXIAL_STIFFNESS).sqrt();
@@ -122,11 +116,8 @@ fn an_explicit_pass() -> Outcome {
         assert!((work.steps as f64) < 1.001 * duration / time_step, "{work:?}");
         // And some ten linear solves each for the steps from rest and to it, which nothing predicts.
         assert!(work.sweeps <= 2 * 12, "{work:?}");
-        let nodes = problem.mesh.nodes();
-        assert!(
-            work.node_updates <= (work.steps + work.sweeps) * nodes,
-            "{work:?}"
-        );
+        let most = (work.steps + work.sweeps) * problem.mesh.nodes();
+        assert!(work.node_updates <= most, "{work:?}");
         let solver = Explicit::new(problem.cable, problem.mesh, MASS, ExplicitOptions::default())?;
         assert!(duration / work.steps as f64 <= solver.limits().advised());
     }
@@ -136,11 +127,7 @@ fn an_explicit_pass() -> Outcome {
 #[test]
 fn evaluations_of_the_duct() -> Outcome {
     for length in [30.0, 300.0] {
-        let cable = Bar {
-            length,
-            ..Bar::default()
-        }
-        .cable()?;
+        let cable = Bar { length, ..UPPER }.cable()?;
         let mesh = Mesh::new(length, 0.2, 0.05)?;
         let calls = Cell::new(0_usize);
         let shape = |xi: f64| {

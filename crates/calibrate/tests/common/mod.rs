@@ -7,16 +7,19 @@ use fastrand::Rng;
 pub fn saturation(passes: &[f64]) -> impl Fn(&[f64]) -> Result<Vec<f64>, ModelError> + Sync + use<> {
     let passes = passes.to_vec();
     move |p| {
-        Ok(passes
-            .iter()
-            .map(|n: &f64| p[0] * (1.0 - (-n / p[1]).exp()))
-            .collect())
+        let force = |n: &f64| p[0] * (1.0 - (-n / p[1]).exp());
+        Ok(passes.iter().map(force).collect())
     }
 }
 
 /// Its parameters.
 pub fn saturation_parameters() -> Vec<Parameter> {
     vec![linear("force", 10.0, 5000.0), logarithmic("passes", 0.5, 500.0)]
+}
+
+/// Data of a model with its truth and noise.
+pub fn measured(model: &dyn Model, truth: &[f64], sigma: f64, seed: u64) -> Vec<f64> {
+    noisy(&model.predict(truth).unwrap(), sigma, seed)
 }
 
 /// A model of `predict` that always has an answer.
@@ -69,8 +72,13 @@ pub fn gaussian(random: &mut Rng) -> f64 {
 /// `exact` with Gaussian noise of `sigma`.
 pub fn noisy(exact: &[f64], sigma: f64, seed: u64) -> Vec<f64> {
     let mut random = Rng::with_seed(seed);
-    exact
-        .iter()
-        .map(|value| value + sigma * gaussian(&mut random))
-        .collect()
+    let read = |value| value + sigma * gaussian(&mut random);
+    exact.iter().map(read).collect()
+}
+
+/// Asserts that two numbers are no farther apart than `allowed`.
+#[track_caller]
+pub fn assert_near(found: f64, expected: f64, allowed: f64) {
+    let off = (found - expected).abs();
+    assert!(off <= allowed, "{found}, not {expected} within {allowed}");
 }
