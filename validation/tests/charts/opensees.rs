@@ -37,14 +37,9 @@ fn opensees_finds_the_same_forces_on_the_same_mesh() -> Tested {
     assert!(ours.keys().eq(theirs.keys()) && ours.len() == 7, "{ours:?}");
     for (density, ours) in ours {
         assert_eq!((ours.len(), theirs[&density].len()), (5, 5));
-        let most = if density.parse::<f64>()? >= 12.0 {
-            3e-6
-        } else {
-            1.2e-5
-        };
         for (ours, theirs) in ours.iter().zip(&theirs[&density]) {
             assert!(
-                (ours / theirs - 1.0).abs() <= most,
+                (ours / theirs - 1.0).abs() <= 5e-6,
                 "{density}: {ours} N, {theirs} N"
             );
         }
@@ -71,20 +66,20 @@ fn the_general_code_takes_many_times_as_long() -> Tested {
     for theirs in of(&table, "", GENERAL[0]) {
         let ours = of(&table, "", MESH).find(|row| row.knob == theirs.knob);
         let ratio = theirs.seconds / ours.ok_or("no such mesh")?.seconds;
-        let least = if theirs.knob >= 12.0 { 95.0 } else { 30.0 };
-        assert!((least..=175.0).contains(&ratio), "{theirs:?}: {ratio}");
+        let least = if theirs.knob >= 12.0 { 150.0 } else { 25.0 };
+        assert!((least..=400.0).contains(&ratio), "{theirs:?}: {ratio}");
     }
     for error in [1e-2, 1e-3] {
         let general = GENERAL.map(|series| seconds(&table, "", series, error));
         let (best, run) = (general[0].min(general[1]), seconds(&table, "", RUN, error));
         assert!(
-            best.is_finite() && 65.0 * run <= best,
+            best.is_finite() && 50.0 * run <= best,
             "{error}: {run} s, {best} s"
         );
     }
     for rival in GENERAL.into_iter().flat_map(|series| of(&table, "", series)) {
         let run = seconds(&table, "", RUN, rival.error);
-        assert!(15.0 * run <= rival.seconds, "{rival:?}: {run} s");
+        assert!(20.0 * run <= rival.seconds, "{rival:?}: {run} s");
     }
     for choice in of(&table, "", RUN) {
         assert!(choice.error <= choice.knob, "{choice:?}");
