@@ -23,9 +23,9 @@ pub fn read(file: &Path) -> Result<csv::Reader<File>, csv::Error> {
     csv::ReaderBuilder::new().comment(Some(b'#')).from_path(file)
 }
 
-/// The last commit of the sources, and whether they have changed since; `None` where git does not say.
+/// The last commit of the program's sources, and whether they have changed since; `None` where git does not say.
 fn commit() -> Option<String> {
-    const SOURCES: [&str; 5] = ["--", "src", "crates/*/src/*", "validation/src", "Cargo.lock"];
+    const SOURCES: [&str; 4] = ["--", "src", "crates/*/src/*", "Cargo.lock"];
     let git = |arguments: &[&str]| {
         let mut git = Command::new("git");
         let output = git

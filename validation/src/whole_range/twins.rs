@@ -43,24 +43,25 @@ pub fn twins(scene: &Scene, own: &Run) -> Twins {
     Twins {
         stated: stated(own),
         finer: finer.map(|finer| {
-            (
-                errors(scene, &sized(own.clone()), &sized(finer.clone())),
-                stated(&finer),
-            )
+            // Of a clamp that is pulled about as hard as it is pressed a finer run may show the other sign.
+            let [one, other] = [own, &finer].map(|run| unsigned(scene, run, |_, _| true));
+            (errors(scene, &one, &other), stated(&finer))
         }),
         mirror: mirror(scene, own),
         larger: larger(scene, own),
     }
 }
 
-/// Without the signs of the largest forces on clamps during a pass: of a clamp that is pulled about as hard as it is pressed a finer run may
-/// show the other one.
-fn sized(mut run: Run) -> Run {
-    let during = run
-        .restraints
-        .iter_mut()
-        .flat_map(|clamp| &mut clamp.during_passes_n);
-    during.for_each(|force| *force = force.abs());
+/// The run without the sign of every largest force on a clamp during a pass that `is_unsure` of its size and of what the clamp holds.
+fn unsigned(scene: &Scene, run: &Run, is_unsure: impl Fn(f64, f64) -> bool) -> Run {
+    let mut run = run.clone();
+    for (clamp, restraint) in run.restraints.iter_mut().zip(&scene.restraints) {
+        let holds = restraint.holds.unwrap_or(f64::INFINITY);
+        let forces = clamp.during_passes_n.iter_mut();
+        for force in forces.filter(|force| is_unsure(force.abs(), holds)) {
+            *force = force.abs();
+        }
+    }
     run
 }
 
@@ -76,7 +77,12 @@ pub fn larger(scene: &Scene, own: &Run) -> Option<Errors> {
 
 fn off(scene: &Scene, own: &Run, other: Result<Run, Error>) -> Option<Errors> {
     match other {
-        Ok(other) => Some(errors(scene, own, &other)),
+        // A clamp that slips both ways within a pass bears all it holds both ways: rounding says which is the largest.
+        Ok(other) => {
+            let [one, other] =
+                [own, &other].map(|run| unsigned(scene, run, |force, holds| force > 0.999_999 * holds));
+            Some(errors(scene, &one, &other))
+        }
         Err(Error::Stopped | Error::Scene(_)) => None,
         Err(_) => Some([f64::INFINITY; 5]),
     }
