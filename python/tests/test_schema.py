@@ -59,7 +59,7 @@ def test_mistakes_that_a_schema_can_see_are_refused(validator):
         else:
             refused += 1
     # What it cannot see are values that contradict each other, and numbers that follow from others.
-    assert refused >= 135 and missed <= 41, (refused, missed)
+    assert refused >= 135 and missed <= 40, (refused, missed)
 
 
 def test_a_preset_may_give_what_is_required(validator):

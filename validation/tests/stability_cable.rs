@@ -3,7 +3,7 @@
 use creepage::scene::SolverMethod;
 use creepage_validation::Failure;
 use creepage_validation::map::{Cell, Grid, Outcome};
-use creepage_validation::stability::{bends, explicit, heat, implicit, long_term};
+use creepage_validation::stability::{bends, explicit, heat, implicit, long_term, sections};
 
 /// Methods in a map: without guards, and with them.
 const BARE: usize = 0;
@@ -136,5 +136,24 @@ fn what_the_force_of_the_step_before_costs_in_a_bend_is_stated() -> Tested {
     let forces = [&found, &finer].map(|run| run.passes[4].downstream_force_n);
     let (off, stated) = (forces[0] / forces[1] - 1.0, found.error_estimate.relative);
     assert!(off > 0.01 && off < stated, "{off} {stated}");
+    Ok(())
+}
+
+/// Where a section locks the cable, the coarse mesh that other friction may do with is refined.
+#[test]
+fn a_section_that_locks_the_cable_is_refined() -> Tested {
+    let map = sections::map(3, 3)?;
+    let [least, usual] = [0, 1].map(|ratio| map.cells[3 + ratio].error);
+    assert!(least < 1.4e-2 && usual < 1.4e-2, "{least} {usual}");
+    let key = format!("dynamic_coefficient = {}", map.x[2] * map.y[1]);
+    let mut scene = bends::duct(&key, map.y[1], bends::STIFFNESSES[0], bends::NODES, 1.0)?;
+    (scene.solver.node_spacing, scene.solver.vehicle_step) = (None, None);
+    scene.solver.tolerance = 0.01;
+    let run = creepage::run(&scene)?;
+    let (spacing, stated) = (run.plan.node_spacing_m, run.error_estimate.relative);
+    assert!(
+        spacing < 0.25 * 1.2 / bends::NODES && stated <= 0.01,
+        "{spacing} {stated}"
+    );
     Ok(())
 }

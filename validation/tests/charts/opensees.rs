@@ -37,9 +37,11 @@ fn opensees_finds_the_same_forces_on_the_same_mesh() -> Tested {
     assert!(ours.keys().eq(theirs.keys()) && ours.len() == 7, "{ours:?}");
     for (density, ours) in ours {
         assert_eq!((ours.len(), theirs[&density].len()), (5, 5));
+        // On the finest mesh the windows of the quasi-static solver leave out the most.
+        let most = if density == "48" { 5e-6 } else { 3e-6 };
         for (ours, theirs) in ours.iter().zip(&theirs[&density]) {
             assert!(
-                (ours / theirs - 1.0).abs() <= 5e-6,
+                (ours / theirs - 1.0).abs() <= most,
                 "{density}: {ours} N, {theirs} N"
             );
         }
