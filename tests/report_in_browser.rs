@@ -11,6 +11,7 @@
 mod devtools;
 
 use std::fs;
+use std::path::PathBuf;
 
 use creepage::report::{Report, ReportOptions};
 use creepage::scene::{Dimension, TrafficVehicle, Unit};
@@ -63,27 +64,58 @@ struct Seen {
     console: Vec<String>,
 }
 
-/// Shows `page` on a screen of `width` px.
-fn show(page: &str, width: u32, dark: bool) -> Seen {
-    let (mut browser, folder) = Browser::open("report_in_browser", width, dark);
-    let file = folder.join("page.html");
-    fs::write(&file, page).expect("the page");
-    let is_there = "document.readyState === 'complete' && location.protocol === 'file:'";
-    browser.go(&format!("file://{}", file.display()), is_there);
-    let result = browser.value(&format!("(() => {{{CONTRAST_OF}{MEASURE}}})()"));
-    let complaints = browser.complaints();
-    let console = complaints
-        .iter()
-        .map(|event| format!("CONSOLE {event}"))
-        .collect();
-    drop(browser);
-    let _ = fs::remove_dir_all(&folder);
-    Seen { result, console }
+/// A browser that shows one page after the other.
+struct Screen {
+    browser: Browser,
+    folder: PathBuf,
+    count: usize,
 }
 
-/// What is wrong with a page of so many figures; nothing where all is well.
-fn faults(page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
-    let Seen { result, console } = show(page, width, dark);
+impl Screen {
+    fn new() -> Self {
+        let (browser, folder) = Browser::open("report_in_browser", DESK, false);
+        let count = 0;
+        Self {
+            browser,
+            folder,
+            count,
+        }
+    }
+
+    /// Shows `page` on a screen of `width` px.
+    fn show(&mut self, page: &str, width: u32, dark: bool) -> Seen {
+        self.count += 1;
+        let name = format!("page-{}.html", self.count);
+        let file = self.folder.join(&name);
+        fs::write(&file, page).expect("the page");
+        self.browser.screen(width, dark);
+        let is_there = format!("document.readyState === 'complete' && location.pathname.endsWith('/{name}')");
+        self.browser.go(&format!("file://{}", file.display()), &is_there);
+        let result = self
+            .browser
+            .value(&format!("(() => {{{CONTRAST_OF}{MEASURE}}})()"));
+        let complaints = self.browser.complaints();
+        let console = complaints
+            .iter()
+            .map(|event| format!("CONSOLE {event}"))
+            .collect();
+        Seen { result, console }
+    }
+
+    /// What is wrong with a page of so many figures; nothing where all is well.
+    fn faults(&mut self, page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
+        faults(&self.show(page, width, dark), width, dark, figures)
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+fn faults(seen: &Seen, width: u32, dark: bool, figures: usize) -> Vec<String> {
+    let Seen { result, console } = seen;
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
     let of = |name: &str| number(&result[name]);
     let seen = result["figures"].as_array().expect("a list");
@@ -111,7 +143,11 @@ fn faults(page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
         checks.extend(of_figure);
     }
     let wrong = checks.into_iter().filter(|check| !check.0);
-    console.into_iter().chain(wrong.map(|check| check.1)).collect()
+    console
+        .iter()
+        .cloned()
+        .chain(wrong.map(|check| check.1))
+        .collect()
 }
 
 fn upper(overrides: &[&str]) -> Scene {
@@ -177,10 +213,11 @@ fn imperial() -> String {
 #[test]
 #[ignore = "needs Chromium"]
 fn the_page_is_well_on_phones_and_desks_by_day_and_night() {
+    let mut screen = Screen::new();
     for page in [plain(), full(), imperial()] {
         for width in [PHONE, DESK] {
             for dark in [false, true] {
-                let faults = faults(&page, width, dark, 8);
+                let faults = screen.faults(&page, width, dark, 8);
                 assert!(faults.is_empty(), "{width} px, dark {dark}: {faults:#?}");
             }
         }
@@ -192,9 +229,10 @@ fn the_page_is_well_on_phones_and_desks_by_day_and_night() {
 fn millions_of_passes_and_no_friction_are_well_on_a_phone() {
     let many = upper(&["traffic.passes=2000000", "solver.tolerance=0.05"]);
     let none = upper(&["friction.dynamic_coefficient=0", "traffic.passes=3"]);
+    let mut screen = Screen::new();
     // Without friction nothing moves, which no chart shows.
     for (scene, figures) in [(many, 8), (none, 7)] {
-        let faults = faults(&page(&scene, &ReportOptions::default()), PHONE, false, figures);
+        let faults = screen.faults(&page(&scene, &ReportOptions::default()), PHONE, false, figures);
         assert!(faults.is_empty(), "{faults:#?}");
     }
 }
@@ -209,9 +247,9 @@ fn printed(page: &str) -> String {
 #[test]
 #[ignore = "needs Chromium"]
 fn what_is_folded_is_open_on_paper() {
-    let page = plain();
-    let seen = |page: &str, width: u32| {
-        let Seen { result, console } = show(page, width, false);
+    let (page, mut screen) = (plain(), Screen::new());
+    let mut seen = |page: &str, width: u32| {
+        let Seen { result, console } = screen.show(page, width, false);
         assert_eq!(console, Vec::<String>::new());
         (result["folded"].as_u64(), result["unfolded"].as_u64())
     };
@@ -257,7 +295,7 @@ fn crowded() -> String {
 #[test]
 #[ignore = "needs Chromium"]
 fn heat_and_crowded_drawings_are_well_on_every_screen_and_on_paper() {
-    let page = crowded();
+    let (page, mut screen) = (crowded(), Screen::new());
     for (page, width, dark) in [
         (&page, PHONE, false),
         (&page, PHONE, true),
@@ -266,7 +304,7 @@ fn heat_and_crowded_drawings_are_well_on_every_screen_and_on_paper() {
         (&printed(&page), SHEET, false),
     ] {
         // Two drawings; two figures of force, three of heat, two of the cause.
-        let faults = faults(page, width, dark, 9);
+        let faults = screen.faults(page, width, dark, 9);
         assert!(faults.is_empty(), "{width} px, dark {dark}: {faults:#?}");
     }
 }
@@ -285,11 +323,12 @@ fn a_fault_is_seen() {
         ("svg [fill=\"#262626\"]", "svg [fill=\"#000001\"]", "contrast"),
         ("columns: 2 22rem", "columns: 2", "text of"),
     ];
+    let mut screen = Screen::new();
     for (old, new, fault) in faulty {
         assert!(page.contains(old), "{old}");
-        let faults = faults(&page.replacen(old, new, 1), PHONE, true, 8);
+        let faults = screen.faults(&page.replacen(old, new, 1), PHONE, true, 8);
         let is_seen = faults.iter().any(|found| found.contains(fault));
         assert!(is_seen, "{fault}: {faults:#?}");
     }
-    assert_eq!(faults(&page, PHONE, true, 8), Vec::<String>::new());
+    assert_eq!(screen.faults(&page, PHONE, true, 8), Vec::<String>::new());
 }

@@ -14,7 +14,7 @@ fn many(scene: &Scene) {
         (600, SolverMethod::PassLaw),
     ] {
         let mut scene = by(scene, method);
-        scene.traffic.passes = passes;
+        (scene.traffic.passes, scene.solver.tolerance) = (passes, 0.03);
         answer(&scene);
     }
 }

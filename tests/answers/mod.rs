@@ -6,7 +6,6 @@ pub mod common;
 pub mod long_term;
 mod meshes;
 mod mixes;
-mod random;
 mod road;
 mod saturation;
 mod search;

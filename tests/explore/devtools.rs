@@ -47,10 +47,15 @@ impl Browser {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         fs::create_dir_all(&folder).expect("a folder");
         let mut browser = Self::start(&folder);
-        let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
-        browser.call("Emulation.setDeviceMetricsOverride", &size);
-        browser.media("prefers-color-scheme", if dark { "dark" } else { "light" });
+        browser.screen(width, dark);
         (browser, folder)
+    }
+
+    /// A screen of this width, by day or night.
+    pub fn screen(&mut self, width: u32, dark: bool) {
+        let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", &size);
+        self.media("prefers-color-scheme", if dark { "dark" } else { "light" });
     }
 
     fn start(folder: &Path) -> Self {
@@ -206,14 +211,15 @@ impl Browser {
         self.call("Emulation.setEmulatedMedia", &feature);
     }
 
-    /// Errors that were thrown, and what stands on the console.
-    pub fn complaints(&self) -> Vec<Value> {
+    /// Errors that were thrown, and what stands on the console, since the last call.
+    pub fn complaints(&mut self) -> Vec<Value> {
         let kinds = "Runtime.exceptionThrown Runtime.consoleAPICalled Log.entryAdded";
-        let is_complaint = |event: &&Value| kinds.split(' ').any(|kind| event["method"] == kind);
+        let is_complaint = |event: &Value| kinds.split(' ').any(|kind| event["method"] == kind);
         // That a question is refused is what a page is told.
-        let is_refusal = |event: &&Value| event.to_string().contains("422");
-        let complaints = self.events.iter().filter(is_complaint);
-        complaints.filter(|event| !is_refusal(event)).cloned().collect()
+        let is_refusal = |event: &Value| event.to_string().contains("422");
+        let events = std::mem::take(&mut self.events);
+        let is_wrong = |event: &Value| is_complaint(event) && !is_refusal(event);
+        events.into_iter().filter(is_wrong).collect()
     }
 }
 

@@ -35,7 +35,7 @@ fn doubling_the_tolerance_never_costs_more() {
 fn ordinary() -> impl Iterator<Item = Scene> {
     (0..).zip(scenes::KINDS.split(' ')).map(|(seed, kind)| {
         let mut scene = scenes::scene(kind, seed);
-        scene.traffic.passes = scene.traffic.passes.min(60);
+        scene.traffic.passes = scene.traffic.passes.min(30);
         scene
     })
 }

@@ -54,7 +54,7 @@ fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
 fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
     let mut unguarded = 0;
     for (name, mix) in long_term::MIXES {
-        let map = long_term::map(mix, 3, 4, true)?;
+        let map = long_term::map(mix, 2, 4, true)?;
         let told = || format!("{name}: {}", map.summary(GUARDED));
         unguarded += map.count(BARE, Outcome::Wrong);
         assert_eq!(map.count(GUARDED, Outcome::Wrong), 0, "{}", told());
@@ -79,7 +79,7 @@ fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
 fn days_of_heat_are_right_or_say_that_they_are_not() -> Tested {
     let (mut few, mut all) = (0, 0);
     for case in heat::CASES {
-        let map = case.map(2, 2, 4)?;
+        let map = case.map(2, 2, 3)?;
         let [right, whole] =
             [heat::Outcome::Right, heat::Outcome::RightWhole].map(|is| heat::count(&map, is));
         assert_eq!(right + whole, map.cells.len(), "{}", case.lines(&map));

@@ -37,9 +37,13 @@ impl Double {
             x = x * Self::from(0.5);
             halvings += 1;
         }
-        let series = (1..=13).rev().fold(Self::ONE, |sum, k| {
-            Self::ONE + x * sum * (Self::ONE / Self::from(f64::from(k)))
-        });
+        // Horner's rule for 13!/0! + 13!/1! x + … + x¹³, whole numbers, and one division.
+        let (mut sum, mut factorial) = (Self::ONE, 1.0);
+        for k in (1..=13).rev() {
+            factorial *= f64::from(k);
+            sum = sum * x + Self::from(factorial);
+        }
+        let series = sum / Self::from(factorial);
         (0..halvings).fold(series, |power, _| power * power)
     }
 }

@@ -66,13 +66,13 @@ impl Layer {
         let normal = [-two * mu, (four * nu - four - two * x) * mu];
         scaled([[one, x], [one, x + kappa], shear, normal], decay)
     }
+}
 
-    /// The two that decay upward, at y = −m · (distance above the layer's bottom).
-    fn rising(&self, y: Double) -> States {
-        // The mirror image: U and σ change their signs with z → −z beside W's and τ's.
-        let [[a, b], [c, d], [e, f], [g, h]] = self.falling(-y);
-        [[a, -b], [-c, d], [-e, f], [g, -h]]
-    }
+/// The two solutions that decay upward, as far above the layer's bottom as `falling` is below its top: U and σ change their signs with
+/// z → −z relative to W's and τ's.
+fn rising(falling: States) -> States {
+    let [[a, b], [c, d], [e, f], [g, h]] = falling;
+    [[a, -b], [-c, d], [-e, f], [g, -h]]
 }
 
 fn scaled(states: States, factor: Double) -> States {
@@ -175,11 +175,11 @@ impl Ground {
         let mut passages = Vec::new();
         for layer in self.layers.iter().rev() {
             let x = Double::from(m) * Double::from(layer.thickness);
+            let (near, far) = (layer.falling(zero), layer.falling(x));
             // below · d' − rising · u = falling(x) · d.
-            let rising = scaled(layer.rising(zero), -Double::ONE);
-            let [a, b, c, d] = solved(&below, &rising, &layer.falling(x));
+            let [a, b, c, d] = solved(&below, &scaled(rising(near), -Double::ONE), &far);
             passages.push([a, b]);
-            below = combined(&layer.falling(zero), identity, &layer.rising(-x), [c, d]);
+            below = combined(&near, identity, &rising(far), [c, d]);
             tops.push(below);
         }
         tops.reverse();
