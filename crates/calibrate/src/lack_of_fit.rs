@@ -69,7 +69,7 @@ fn squares(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{probability_of_scatter, probability_of_signs, probability_of_size};
+    use super::{probability_of_gain, probability_of_scatter, probability_of_signs, probability_of_size};
 
     #[test]
     fn sigmas_bound_the_scatter() {
@@ -79,6 +79,15 @@ mod tests {
         let root = (-0.05_f64.ln()).sqrt();
         assert!((probability_of_scatter(&[vec![root, -root], vec![0.0]], 1.0) - 0.05).abs() < 1e-9);
         assert_eq!(probability_of_scatter(&[], 0.0), 1.0);
+    }
+
+    /// The 95 % quantile of χ² with one degree of freedom is 1.96², that of F with one and ten 4.9646.
+    #[test]
+    fn a_parameter_gains_something_by_chance() {
+        let near = |found: Option<f64>| assert!((found.unwrap() - 0.05).abs() < 1e-5, "{found:?}");
+        near(probability_of_gain(20.0 + 4.0 * 3.841_459, 20.0, 10.0, Some(2.0)));
+        near(probability_of_gain(20.0 + 2.0 * 4.964_603, 20.0, 10.0, None));
+        assert_eq!(probability_of_gain(2.0, 1.0, 2.0, None), None);
     }
 
     #[test]

@@ -117,6 +117,61 @@ fn a_diffusion_is_followed_to_its_end() -> Outcome {
     Ok(())
 }
 
+/// Every second pass undoes what the one before it did, which grows evenly with their number: over a jump it is as far on its way as the jump.
+#[test]
+fn what_passes_do_within_a_period_grows_over_a_jump() -> Outcome {
+    const GROWTH: f64 = 1e-7;
+    let (cable, mesh) = cable(End::Free, End::Spring(1e6), LIMIT)?;
+    let mut resting = RestingCable::new(&cable, &mesh)?;
+    let mut shift = 0.0;
+    let mut pass = |Next { phase, number }: Next, state: &mut CableState| {
+        // Passes that only measure end their period where the others do.
+        shift = if phase == 0 {
+            GROWTH * number.unwrap_or(0) as f64
+        } else {
+            -shift
+        };
+        let displacement = state.displacement().iter().map(|u| u + shift).collect();
+        *state = CableState::from_parts(&mesh, displacement, state.friction().to_vec())?;
+        if phase == 0 {
+            return PassOutcome::at_rest(resting.cable(), state);
+        }
+        diffuse(&mut resting, &mesh, state)
+    };
+    let wanted = [41, 101, 201, 601, 1001, 1501, 1999];
+    let mut right = Vec::new();
+    let mut state = CableState::at_rest(&mesh);
+    for number in 1..=2000 {
+        let phase = (number - 1) as usize % 2;
+        let next = Next {
+            phase,
+            number: Some(number),
+        };
+        let outcome = pass(next, &mut state)?;
+        if wanted.contains(&number) {
+            right.push(outcome.upstream_displacement);
+        }
+    }
+    let mut request = Request::new(2000, &[0, 1])?;
+    request.wanted = &wanted;
+    let found = evolve(&cable, &mesh, &jumps(1e-3)?, &request, |next, state| {
+        pass(next, state).map_err(JumpError::from)
+    })?;
+    assert!(found.simulated < 400, "{}", found.simulated);
+    let wanted = found
+        .records
+        .iter()
+        .filter(|record| wanted.contains(&record.pass));
+    for (record, right) in wanted.zip(right) {
+        assert_near(
+            record.outcome.upstream_displacement,
+            right,
+            0.02 * GROWTH * 2000.0,
+        );
+    }
+    Ok(())
+}
+
 /// Nothing holds the cable: it goes on for ever, 0.7 q g a pass, and no rounding of its way is felt.
 #[test]
 fn a_cable_that_nothing_holds_moves_on() -> Outcome {

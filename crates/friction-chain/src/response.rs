@@ -128,3 +128,38 @@ pub(crate) fn rest(left: &Response, right: &Response, limits: [f64; 2], own: imp
     };
     u.max(low).min(high)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Grounding, Response, rest};
+
+    /// A spring of 2 N/m behind a node that rubs with 1 N, and one of 1 N/m in front of it: up to 1 N only the latter gives way.
+    #[test]
+    fn beyond_its_friction_a_node_gives_way() {
+        let rubbing = Grounding {
+            stiffness: 0.0,
+            load: 0.0,
+            slips: [0.0; 2],
+            bounds: [1.0, -1.0],
+        };
+        let mut left = Response::new(Some(0.0), 2.0);
+        left.add(&rubbing, 1.0);
+        let free = Response::new(None, 0.0);
+        for (pull, moved) in [(0.5, 0.5), (1.0, 1.0), (3.0, 4.0), (-0.5, -0.5), (-3.0, -4.0)] {
+            let found = rest(&left, &free, [f64::NEG_INFINITY, f64::INFINITY], |_| -pull);
+            assert!((found - moved).abs() < 1e-12, "{pull} N: {found} m");
+        }
+    }
+
+    #[test]
+    fn a_soft_sheath_rubs_the_less_the_farther_it_is_sheared_back() {
+        let sheath = Grounding {
+            stiffness: 0.0,
+            load: 0.0,
+            slips: [1.0, 3.0],
+            bounds: [5.0, -3.0],
+        };
+        let found = [0.0, 1.0, 1.5, 2.5, 3.0, 9.0].map(|u| sheath.friction(u));
+        assert_eq!(found, [5.0, 5.0, 3.0, -1.0, -3.0, -3.0]);
+    }
+}

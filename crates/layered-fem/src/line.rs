@@ -92,3 +92,31 @@ fn second_derivatives(s: &[f64], values: &[Displacement]) -> Vec<Displacement> {
     }
     bends
 }
+
+#[cfg(test)]
+mod tests {
+    use ground_field::Displacement;
+
+    use super::DepthLine;
+
+    /// Values 0, 1, 0 at s = 0, 1, 2, by hand. u_r: M₀ = M₂ = 0 and 4 M₁ = −12. u_z, level on the axis: 2 M₀ + M₁ = 6 and
+    /// M₀ + 4 M₁ = −12. In the middle of an interval the spline is off its chord by −(M + M')/16.
+    #[test]
+    fn a_spline_of_three_nodes_is_that_of_its_definition() {
+        let [radii, values] = [[0.0_f64, 1.0, 2.0].map(|s| 3.0 * s.sinh()), [0.0, 1.0, 0.0]];
+        let values = values.map(|value| Displacement {
+            radial: value,
+            vertical: value,
+        });
+        let line = DepthLine::new(&radii, 3.0, &values, None, None, 1.0);
+        let expected = [
+            (0.5, 0.5 + 3.0 / 16.0, 0.5 - (36.0 - 30.0) / 7.0 / 16.0),
+            (1.5, 0.5 + 3.0 / 16.0, 0.5 + 30.0 / 7.0 / 16.0),
+        ];
+        for (s, radial, vertical) in expected {
+            let found = line.at(3.0 * f64::sinh(s));
+            assert!((found.radial - radial).abs() < 1e-12, "{found:?}");
+            assert!((found.vertical - vertical).abs() < 1e-12, "{found:?}");
+        }
+    }
+}

@@ -5,7 +5,7 @@
 //! λ = √(EA γ), γ = 2/(q b), the friction beyond fades as e^(−x/λ), and the slipping part S and the force F = q (S + λ) follow from
 //! D = q/(2EA)·((S + λ)² + λ²). After the return an anchored bar keeps (1 − √2) of its force.
 
-use cable_dem::{DuctedCable, End, Friction, Mesh, Passage, Restraint};
+use cable_dem::{CableState, DuctedCable, End, Friction, Mesh, PassOutcome, Passage, Restraint};
 use ground_field::Direction;
 
 use super::scenes::{Run, assert_near, cable, coulomb, elastic_plastic};
@@ -234,4 +234,28 @@ fn a_clamp_holds_a_long_cable_from_both_sides() {
         let kept_beside = Q * (pushed - slipping(0.5)).abs().max(kept.abs());
         assert!(outcome.max_compression <= kept_beside + Q * mesh.spacing());
     }
+}
+
+/// Friction pushes all of the cable forward, and a clamp within an element takes away twice what has come to it: the forces on either side of
+/// the clamp are the extremes.
+#[test]
+fn forces_are_extreme_beside_a_clamp_within_an_element() {
+    let (length, spacing, place) = (10.0, 0.5, 6.1);
+    let borne = Q * place;
+    let cable = cable(length, EA, coulomb(Q), End::Free, End::Free);
+    let cable = cable
+        .with_restraints(vec![Restraint::new(place, 1e6)])
+        .expect("a clamp");
+    let mesh = Mesh::new(length, spacing, spacing).expect("a mesh");
+    let mut displacement = vec![1e-3];
+    for element in 0..mesh.elements() {
+        let [from, to] = [0, 1].map(|node| (element + node) as f64 * spacing);
+        let beyond = (to - place.max(from)).max(0.0) / spacing;
+        let force = 0.5 * Q * (from + to) - 2.0 * borne * beyond;
+        displacement.push(displacement[element] - force * spacing / EA);
+    }
+    let state = CableState::from_parts(&mesh, displacement, vec![Q; mesh.nodes()]).expect("a state");
+    let found = PassOutcome::at_rest(&cable, &state).expect("forces");
+    assert_near(found.max_compression, borne, 1e-6 * borne, "before");
+    assert_near(found.max_tension, borne, 1e-6 * borne, "beyond");
 }
