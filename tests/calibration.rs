@@ -51,6 +51,7 @@ fn readings(forces: &[f64]) -> Readings {
 
 /// Forces by the solver with inertia on a mesh twice as fine as the fit's first.
 #[test]
+#[ignore = "ten seconds: .ci/run runs it"]
 fn friction_comes_back_from_another_solver() {
     let finer = "solver={ method = \"explicit\", node_spacing = 0.1, vehicle_step = 0.05 }";
     let truth = ["friction.shape_factor=2e6", "traffic.passes=40", finer];

@@ -87,9 +87,11 @@ fn the_sigmoid_depends_on_the_time_step_through_the_product_with_b() -> Outcome 
     let mut forces = Vec::new();
     for time_step in [1e-5, 5e-6, finest] {
         let found = force(shape_factor, time_step)?;
-        // As short a step, with a law as much steeper.
-        let same_product = force(shape_factor * time_step / finest, finest)?;
-        assert_near(found, same_product, 0.01 * same_product.abs(), time_step);
+        if time_step > finest {
+            // As short a step, with a law as much steeper.
+            let same_product = force(shape_factor * time_step / finest, finest)?;
+            assert_near(found, same_product, 0.01 * same_product.abs(), time_step);
+        }
         forces.push(found);
     }
     let falls = |pair: &[f64]| pair[1] < 0.95 * pair[0];
