@@ -114,7 +114,7 @@ fn covariance_is_that_of_the_analytic_jacobian() {
 /// deviation is 3.1.
 #[test]
 #[ignore = "600 fits, ten seconds: .ci/run runs it"]
-fn intervals_cover_the_truth() {
+fn intervals_of_95_percent_hold_the_truth() {
     let model = saturation(&passes(30));
     let truth = [550.0, 12.0];
     let exact = model.predict(&truth).unwrap();
