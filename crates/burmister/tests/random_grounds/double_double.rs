@@ -28,6 +28,9 @@ impl Double {
 
     /// e^self for self ≤ 0, by Taylor's series of self/2^k and k squarings.
     pub fn exp(self) -> Self {
+        if self == Self::ZERO {
+            return Self::ONE;
+        }
         if self.high < -700.0 {
             return Self::ZERO;
         }
