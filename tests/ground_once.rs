@@ -24,6 +24,7 @@ fn time(work: &mut dyn FnMut()) -> Duration {
 }
 
 #[test]
+#[ignore = "seven seconds: .ci/run runs it"]
 fn what_takes_many_runs_takes_little_longer_than_the_ground() {
     let scene = scene();
     let mut plan = || drop(creepage::plan(&scene).expect("a plan"));

@@ -3,7 +3,7 @@
 use creepage::{DayExtremes, ErrorSource, PassRecord, Run, Scene};
 
 use crate::answers::common::{self, assert_within, is_told};
-use crate::scenes::{self, assert_near, largest};
+use crate::scenes::{self, assert_near};
 
 /// The full-scale experiment's upper cable, heated by 20 K every day, with few vehicles a day.
 const WARM: [&str; 4] = [
@@ -112,55 +112,6 @@ fn a_cable_that_does_not_expand_is_computed_as_without_heat() {
         "heat = { expansion = 1e-5, daily_swing = 0 }",
     ] {
         assert_eq!(answer(&scene(&[short, heat])), without, "{heat}");
-    }
-}
-
-/// Days of which few passes are simulated, or none, against every pass on the same mesh; the last day is cut short.
-#[test]
-#[ignore = "ten seconds: .ci/run runs it"]
-fn few_real_passes_are_enough_within_the_stated_error() {
-    let cases: [&[&str]; 3] = [
-        &[],
-        &[
-            "ends = { upstream = \"free\", downstream = \"free\" }",
-            "duct = { length = 25, depth = 1, slope = 0.03 }",
-        ],
-        &[
-            "vehicles = [{ speed = 10, load = \"20 tf\", share = 2 }, { name = \"back\", speed = 10, load = \"12 tf\", direction = \"reverse\" }]",
-            "restraints = [{ position = 20, stiffness = 1e6 }]",
-        ],
-    ];
-    for lines in cases {
-        let answer = |method: &str| {
-            let solver = format!(
-                "solver = {{ method = \"{method}\", node_spacing = 0.2, vehicle_step = 0.1, tolerance = 0.02 }}"
-            );
-            run(&[lines, &["traffic = { passes = 2703, per_day = 801 }", &solver]].concat())
-        };
-        let (every, few) = (answer("quasi-static"), answer("auto"));
-        assert_eq!((every.cost.simulated_passes, every.days.len()), (2703, 4));
-        assert_eq!(few.days.len(), 4);
-        assert!(few.cost.simulated_passes < 1900, "{}", few.cost.simulated_passes);
-        let stated = few.error_estimate.parts.temperature;
-        assert!(stated < 0.02, "{stated}");
-        for (right, found) in every.days.iter().zip(&few.days) {
-            assert_eq!(right.day, found.day);
-            let forces = |day: &DayExtremes| {
-                let upstream = [day.upstream_max_n, day.upstream_min_n];
-                let downstream = [day.downstream_max_n, day.downstream_min_n];
-                [upstream, downstream, [day.max_compression_n, day.max_tension_n]].concat()
-            };
-            let largest = largest(forces(right));
-            for (right_force, found_force) in forces(right).into_iter().zip(forces(found)) {
-                // A quarter of the tolerance is not worth an estimate.
-                let allowed = stated.max(5e-3) * largest;
-                assert_within(found_force, right_force, allowed, (lines, right.day));
-            }
-        }
-        let last = [&every, &few].map(|run| run.passes[run.passes.len() - 1].pass);
-        assert_eq!(last, [2703, 2703]);
-        // The end of the cable is where its last row says it is, and the day stops there.
-        assert_eq!(few.heat.as_ref().map(|heat| heat.all_days.day), Some(4));
     }
 }
 
@@ -299,20 +250,21 @@ fn days_that_few_real_periods_keep_restless_settle_with_more() {
     assert_near(few.downstream_min_n, many.downstream_min_n, allowed, "N");
 }
 
-/// Up to a hundred vehicles a day, of several kinds: days are jumped over and held to days of all of them, within what is stated.
+/// Up to a hundred vehicles a day, of several kinds: days are jumped over and held to days of all of them, within what is stated; the last
+/// day is cut short.
 #[test]
 fn days_of_few_vehicles_of_two_kinds_are_jumped_over() {
     let lines = |method: &str| {
         [
             "duct = { length = 60, depth = 1.2 }".to_owned(),
             "vehicles = [{ speed = 10, load = \"20 tf\" }, { name = \"light\", speed = 10, load = \"6 tf\" }]".to_owned(),
-            "traffic = { passes = 720, per_day = 24 }".to_owned(),
+            "traffic = { passes = 709, per_day = 24 }".to_owned(),
             format!("solver = {{ method = \"{method}\", node_spacing = 0.4, vehicle_step = 0.4, tolerance = 0.1 }}"),
         ]
     };
     let of = |method: &str| run(&lines(method).each_ref().map(String::as_str));
     let (jumped, every) = (of("pass-law"), of("quasi-static"));
-    assert_eq!(every.cost.simulated_passes, 720);
+    assert_eq!(every.cost.simulated_passes, 709);
     assert!(jumped.cost.simulated_passes < 500, "{:?}", jumped.cost);
     let largest = day(&every, 30).downstream_max_n;
     let allowed = largest * jumped.error_estimate.relative;

@@ -54,7 +54,7 @@ fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
 fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
     let mut unguarded = 0;
     for (name, mix) in long_term::MIXES {
-        let map = long_term::map(mix, 2, 4, true)?;
+        let map = long_term::map(mix, 2, 3, true)?;
         let told = || format!("{name}: {}", map.summary(GUARDED));
         unguarded += map.count(BARE, Outcome::Wrong);
         assert_eq!(map.count(GUARDED, Outcome::Wrong), 0, "{}", told());
