@@ -24,29 +24,6 @@ fn burmister_is_right_everywhere_and_transfer_matrices_are_not() {
     assert!(grid.count(1, Outcome::Right) > 20);
 }
 
-// cargo test --release -p creepage-validation stability_ground -- --ignored
-#[test]
-#[ignore = "45 grounds by finite elements"]
-fn elements_are_never_wrong_as_poissons_ratio_goes_to_a_half() {
-    let map = fem::incompressible(5).unwrap();
-    // Rounding is refused where a very stiff layer is nearly incompressible: contrast of 1e4 from ν = 0.4999.
-    never_wrong(&map, 4);
-    assert!(
-        map.grid.count(1, Outcome::Wrong) > 20,
-        "the locking element locks"
-    );
-}
-
-// cargo test --release -p creepage-validation stability_ground -- --ignored
-#[test]
-#[ignore = "25 grounds by finite elements"]
-fn elements_are_never_wrong_over_thickness_and_contrast() {
-    let map = fem::layered(5, 5).unwrap();
-    never_wrong(&map, 0);
-    let right = map.grid.count(1, Outcome::Right);
-    assert!(right > 5, "{right}");
-}
-
 /// A corner of both maps that is quick enough for every run of the tests.
 #[test]
 #[ignore = "ten seconds: .ci/run runs it"]
