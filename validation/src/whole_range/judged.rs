@@ -11,7 +11,7 @@ use creepage::{Error, ErrorSource, PassRecord, Progress, Run, RunOptions, Scene}
 use crate::largest;
 
 /// Scenes whose plan states a longer time \[s\] are not run.
-const LONGEST: f64 = 3.0;
+const LONGEST: f64 = 0.5;
 /// Time after which a run that was to take less than [`LONGEST`] is given up.
 const GIVEN_UP: Duration = Duration::from_secs(100);
 /// An error that is allowed.
