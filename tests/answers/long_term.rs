@@ -90,8 +90,8 @@ pub fn random(seed: u64) -> Scene {
     scene
 }
 
-/// Largest difference of a force on any listed pass, as a share of the largest then or of a tenth of the largest at all.
-pub fn difference(scene: &Scene, every: &Run, jumps: &Run) -> f64 {
+/// Largest difference of a force on any listed pass, as a share of the largest then or of a tenth of the largest at all; and on the last.
+pub fn difference(scene: &Scene, every: &Run, jumps: &Run) -> (f64, f64) {
     let floor = 0.1 * every.passes.iter().map(largest_force).fold(0.0, f64::max);
     let floor = floor.max(0.01 * limit(scene));
     let of_pass = |found: &PassRecord| {
@@ -101,13 +101,15 @@ pub fn difference(scene: &Scene, every: &Run, jumps: &Run) -> f64 {
         let pairs = right.into_iter().zip(found);
         largest(pairs.map(|(right, found)| right - found)) / largest(right).max(floor)
     };
-    jumps.passes.iter().map(of_pass).fold(0.0, f64::max)
+    let worst = jumps.passes.iter().map(of_pass).fold(0.0, f64::max);
+    (worst, jumps.passes.last().map_or(0.0, of_pass))
 }
 
 /// What came out of one scene.
 struct Found {
     seed: u64,
     worst: f64,
+    last: f64,
     stated: f64,
 }
 
@@ -129,26 +131,48 @@ fn compare(seed: u64) -> Option<Found> {
             Err(Error::Inaccurate { .. }) => continue,
             every => every.unwrap_or_else(|error| panic!("scene {seed}: {error}")),
         };
-        let worst = difference(&scene, &every, &jumps);
+        let (worst, last) = difference(&scene, &every, &jumps);
         let stated = jumps.error_estimate.relative;
-        let percent = [worst, stated, jumps.error_estimate.parts.passes].map(|share| 100.0 * share);
+        let percent = [worst, last, stated, jumps.error_estimate.parts.passes].map(|share| 100.0 * share);
         let [simulated, passes] = [jumps.cost.simulated_passes, scene.traffic.passes];
-        println!("{seed}: {simulated} of {passes}; worst, stated, passes: {percent:.3?} %");
-        return Some(Found { seed, worst, stated });
+        println!("{seed}: {simulated} of {passes}; worst, last, stated, passes: {percent:.3?} %");
+        return Some(Found {
+            seed,
+            worst,
+            last,
+            stated,
+        });
     }
     None
 }
 
-/// Forces on every listed pass are within the tolerance and the stated error: scenes in which every pass is simulated soonest, and two that
-/// jumps once got wrong. In 1031 the first jump after the passes simulated at the start was held to nothing; in 1077 a jump to the end left
-/// 1.5 % in the last pass.
+/// Forces within the tolerance on every listed pass in 97 of 100 scenes, on the last in all, and the stated error above the true one in
+/// 95 of 100.
+fn assert_right(seeds: Vec<u64>) {
+    let count = seeds.len();
+    let found: Vec<Found> = seeds.into_par_iter().filter_map(compare).collect();
+    let share =
+        |good: &dyn Fn(&&Found) -> bool| found.iter().filter(good).count() as f64 / found.len() as f64;
+    let bad = found.iter().filter(|f| f.worst > TOLERANCE.min(f.stated));
+    let bad: Vec<u64> = bad.map(|f| f.seed).collect();
+    println!("{} of {count} scenes compared; not within: {bad:?}", found.len());
+    assert!(20 * found.len() >= 17 * count, "few meshes were good enough");
+    assert!(share(&|f| f.worst <= TOLERANCE) >= 0.97, "{bad:?}");
+    assert!(share(&|f| f.last <= TOLERANCE) >= 1.0, "{bad:?}");
+    assert!(share(&|f| f.worst <= f.stated) >= 0.95, "{bad:?}");
+}
+
+/// A tenth of the scenes: those in which every pass is simulated soonest; and two that jumps once got wrong. In 1031 the first jump after
+/// the passes simulated at the start was held to nothing; in 1077 a jump to the end left 1.5 % in the last pass.
 #[test]
 #[ignore = "ten seconds: .ci/run runs it"]
 fn jumps_agree_with_every_pass() {
-    let seeds = [3, 5, 6, 7, 8, 15, 16, 19, 20, 33, 1031, 1077];
-    let found: Vec<Found> = seeds.into_par_iter().filter_map(compare).collect();
-    assert!(found.len() >= 11, "few meshes were good enough");
-    let bad = found.iter().filter(|f| f.worst > TOLERANCE.min(f.stated));
-    let bad: Vec<u64> = bad.map(|f| f.seed).collect();
-    assert!(bad.is_empty(), "{bad:?}");
+    assert_right(vec![3, 5, 6, 7, 8, 15, 16, 19, 20, 33, 1031, 1077]);
+}
+
+#[test]
+#[ignore = "120 random scenes, every pass simulated: half an hour; FIRST chooses other seeds"]
+fn many_scenes_with_jumps_are_those_of_every_pass() {
+    let first = std::env::var("FIRST").map_or(0, |text| text.parse().expect("a seed"));
+    assert_right((first..first + 120).collect());
 }

@@ -40,8 +40,8 @@ fn whole_shares_of_many_kinds_leave_nothing_to_a_mix_that_stands_in() {
     let jumps = run(creepage::scene::SolverMethod::PassLaw);
     let every = run(creepage::scene::SolverMethod::QuasiStatic);
     assert!(jumps.cost.simulated_passes < 600, "{:?}", jumps.cost);
-    let worst = difference(&scene, &every, &jumps);
-    assert!(worst < 0.01, "{worst}");
+    let (worst, last) = difference(&scene, &every, &jumps);
+    assert!(worst.max(last) < 0.01, "{worst} {last}");
     let stated = jumps.error_estimate.parts.passes;
     assert!(stated < 0.01, "{stated}");
 }

@@ -32,7 +32,7 @@ pub fn under(vehicles: &str, traffic: &str) -> Scene {
 
 /// Two to six vehicles with shares from 1 : 1 to 1 : 1000 and loads from 1 : 10, some against the common direction; evenly mixed, in a
 /// sequence of 13 to 500 or at random; springs and clamps.
-pub fn random(seed: u64) -> Scene {
+pub fn random(seed: u64, passes: Option<u64>) -> Scene {
     let mut rng = Rng::with_seed(seed);
     let mut between = |low: f64, high: f64| low + (high - low) * rng.f64();
     let depth = between(0.7, 2.0);
@@ -63,7 +63,7 @@ pub fn random(seed: u64) -> Scene {
             )
         })
         .collect();
-    let passes = between(400.0, 3000.0) as u64;
+    let drawn = between(400.0, 3000.0) as u64;
     let order = between(0.0, 1.0);
     let order = if order < 0.3 {
         let vehicles = (0..between(13.0, 500.0) as usize).map(|_| {
@@ -87,7 +87,7 @@ pub fn random(seed: u64) -> Scene {
         ends,
         format!("restraints = [{}]", clamps.join(", ")),
         format!("vehicles = [{}]", vehicles.join(", ")),
-        format!("traffic = {{ passes = {passes}{order} }}"),
+        format!("traffic = {{ passes = {}{order} }}", passes.unwrap_or(drawn)),
     ];
     Scene::from_toml("scene", &lines.join("\n")).expect("a valid scene")
 }

@@ -45,3 +45,12 @@ proptest! {
         assert_written_out(n, (passes / (n as u64 + 1)).max(1))?;
     }
 }
+
+#[test]
+#[ignore = "all n from 1 to 300, 2000 passes each: minutes"]
+fn n_to_one_is_the_sequence_of_n_and_one_for_all_n() -> Result<(), TestCaseError> {
+    for n in 1..=300 {
+        assert_written_out(n, 2000 / (n as u64 + 1))?;
+    }
+    Ok(())
+}
