@@ -67,18 +67,27 @@ struct Seen {
 /// A browser that shows one page after the other.
 struct Screen {
     browser: Browser,
-    folder: PathBuf,
+    // Dropped after the browser, which writes there.
+    folder: Folder,
     count: usize,
+}
+
+/// A folder that goes with its owner.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
 }
 
 impl Screen {
     fn new() -> Self {
         let (browser, folder) = Browser::open("report_in_browser", DESK, false);
-        let count = 0;
         Self {
             browser,
-            folder,
-            count,
+            folder: Folder(folder),
+            count: 0,
         }
     }
 
@@ -86,7 +95,7 @@ impl Screen {
     fn show(&mut self, page: &str, width: u32, dark: bool) -> Seen {
         self.count += 1;
         let name = format!("page-{}.html", self.count);
-        let file = self.folder.join(&name);
+        let file = self.folder.0.join(&name);
         fs::write(&file, page).expect("the page");
         self.browser.screen(width, dark);
         let is_there = format!("document.readyState === 'complete' && location.pathname.endsWith('/{name}')");
@@ -104,17 +113,11 @@ impl Screen {
 
     /// What is wrong with a page of so many figures; nothing where all is well.
     fn faults(&mut self, page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
-        faults(&self.show(page, width, dark), width, dark, figures)
+        faults(self.show(page, width, dark), width, dark, figures)
     }
 }
 
-impl Drop for Screen {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.folder);
-    }
-}
-
-fn faults(seen: &Seen, width: u32, dark: bool, figures: usize) -> Vec<String> {
+fn faults(seen: Seen, width: u32, dark: bool, figures: usize) -> Vec<String> {
     let Seen { result, console } = seen;
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
     let of = |name: &str| number(&result[name]);
@@ -143,11 +146,7 @@ fn faults(seen: &Seen, width: u32, dark: bool, figures: usize) -> Vec<String> {
         checks.extend(of_figure);
     }
     let wrong = checks.into_iter().filter(|check| !check.0);
-    console
-        .iter()
-        .cloned()
-        .chain(wrong.map(|check| check.1))
-        .collect()
+    console.into_iter().chain(wrong.map(|check| check.1)).collect()
 }
 
 fn upper(overrides: &[&str]) -> Scene {

@@ -103,7 +103,7 @@ def test_a_killed_driver_loses_nothing_finished(network, tmp_path, seed):
     check(out, before, expected)
 
 
-@pytest.mark.parametrize("workers", [1, 4])
+@pytest.mark.parametrize("workers", [1, 2, 4])
 def test_any_number_of_workers_gives_the_same_bytes(network, tmp_path, workers):
     scene, rows, expected = network
     with Cluster(tmp_path, workers) as cluster:

@@ -1,6 +1,6 @@
 //! Looser tolerances never cost more, and plans foresee the work.
 
-use creepage::{RunOptions, Scene};
+use creepage::RunOptions;
 
 use super::scenes;
 use crate::answers::long_term;
@@ -37,14 +37,16 @@ const PER_SECOND: f64 = 1e8;
 #[test]
 #[ignore = "ten seconds: .ci/run runs it"]
 fn the_rough_time_follows_the_work() {
-    let with = |mut scene: Scene, passes: u64| {
-        scene.traffic.passes = passes;
+    let ordinary = (0..).zip(scenes::KINDS.split(' ')).map(|(seed, kind)| {
+        let mut scene = scenes::scene(kind, seed);
+        scene.traffic.passes = scene.traffic.passes.min(30);
         scene
-    };
-    let kinds = (0..).zip(scenes::KINDS.split(' '));
-    let ordinary = kinds.map(|(seed, kind)| scenes::scene(kind, seed));
-    let ordinary = ordinary.map(|scene| with(scene.clone(), scene.traffic.passes.min(30)));
-    let long = (1..6).map(|seed| with(long_term::random(seed), 1_000_000));
+    });
+    let long = (1..6).map(|seed| {
+        let mut scene = long_term::random(seed);
+        scene.traffic.passes = 1_000_000;
+        scene
+    });
     let mut factors = Vec::new();
     for scene in ordinary.chain(long) {
         let plan = creepage::plan(&scene).expect("a plan");

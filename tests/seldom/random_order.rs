@@ -11,7 +11,7 @@ use crate::scenes;
 /// Random runs of which every pass is simulated, the passes before which they still remember that nothing had passed, and after which the
 /// forces on both ends hardly depend on which pass it is.
 const RUNS: u64 = 6;
-const PASSES: u64 = 1100;
+const PASSES: u64 = 1400;
 const FORGOTTEN: u64 = 400;
 
 /// Two kinds of vehicle that drive both ways or one, by their shares, over a cable between a fixed end and one that is free or sprung.
