@@ -59,8 +59,7 @@ def study(
     folder; without one, this machine computes in so many threads. progress: called with the share of the parts that are done, or a bar
     of tqdm.
 
-    Samples are as exact as their scatter asks for: to ``solver.tolerance``, or to a quarter of the standard deviation of the duct's
-    largest force where that is more, up to 5 %. Each says its error in ``error_estimate``.
+    Samples are computed to 2 %, unless the scene or a column names ``solver.tolerance``. Each says its error in ``error_estimate``.
     """
     threads, show = threads_of(threads), callback(progress)
     if client is not None and not hasattr(client, "nthreads"):
