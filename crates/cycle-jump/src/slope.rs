@@ -8,7 +8,7 @@
 
 use cable_dem::RestingCable;
 
-use crate::period::{Period, difference};
+use crate::period::{Period, difference, remove_mean};
 use crate::tuning::{OVERSHOOT, REGULARISATION, SLOPE_FALL};
 
 /// Growth of the slope at most where a jump overshot: any bound does, against a prediction of
@@ -81,10 +81,11 @@ impl Slope {
     }
 }
 
-/// By how much one period differs from an earlier one: its advance \[m\], and the friction K Δu/w
-/// in its middle \[N/m\].
+/// By how much one period differs from an earlier one: its advance \[m\] but for that of a cable
+/// as a whole, which friction does not answer to, and the friction K Δu/w in its middle \[N/m\].
 fn changes(from: &Period, to: &Period, cable: &RestingCable) -> (Vec<f64>, Vec<f64>) {
-    let rate = difference(&to.rate, &from.rate);
+    let mut rate = difference(&to.rate, &from.rate);
+    remove_mean(cable, &mut rate);
     let mut friction = vec![0.0; rate.len()];
     cable.balance(&difference(&to.middle, &from.middle), &mut friction);
     (rate, friction)
