@@ -55,7 +55,7 @@ pub enum CableError {
     /// Solvers with inertia do not follow heat.
     #[error("the cable is not as warm as it was laid: solvers with inertia do not follow that")]
     Heated,
-    /// Rounding is too large beside the friction limit for the answer to mean anything.
+    /// Rounding is too large relative to the friction limit for the answer to mean anything.
     #[error(
         "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness:?} N at a node spacing of {spacing:?} m is too stiff for this friction",
         spacing = short(*spacing)

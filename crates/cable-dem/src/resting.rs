@@ -212,7 +212,7 @@ impl RestingCable {
     ///
     /// K u = w (f + p) + θ,  f from the slip −Δu by the [friction law](crate::FrictionLaw).
     ///
-    /// Any number of steps gives the same answer as long as no node turns back on the way. The ends of a free cable that is long beside
+    /// Any number of steps gives the same answer as long as no node turns back on the way. The ends of a free cable that is long relative to
     /// Θ/q move by Θ²/(2 q EA).
     ///
     /// ```

@@ -48,9 +48,9 @@ pub fn diagnose(
     let sequences = sequences(rows, &noise, &judged);
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
-    let is_told = fit.degrees_of_freedom >= FEWEST && !hidden;
+    let is_stated = fit.degrees_of_freedom >= FEWEST && !hidden;
     let of_cell = |quantity| {
-        let error = is_told.then(|| cell_error(problem, found, quantity, &judged));
+        let error = is_stated.then(|| cell_error(problem, found, quantity, &judged));
         error.unwrap_or(Ok(None))
     };
     let errors = [of_cell(Quantity::Drift)?, of_cell(Quantity::ZeroOffset)?];
@@ -149,7 +149,7 @@ fn outliers(noise: &[f64], weights: &[f64]) -> Vec<usize> {
     let is_far = |&row: &usize| noise[row].abs() > OUTLIER * spread || weights[row] < LEFT_OUT;
     let far: Vec<usize> = (0..noise.len()).filter(is_far).collect();
     // Of so many, they are no outliers: the rest is not what they lie out of. Of few readings none
-    // is told apart.
+    // is distinguished.
     let are_outliers = noise.len() >= 6 && 4 * far.len() <= noise.len();
     if are_outliers { far } else { Vec::new() }
 }

@@ -14,7 +14,7 @@ const NEARLY_ALL: f64 = 0.9;
 /// force by less than 30.
 const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
-/// What looks mistaken beside what the scenes' own values predict.
+/// What looks mistaken compared with what the scenes' own values predict.
 pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
     let expected = problem.predict(MeshOf::Guess, 1.0, &[])?;
     let mut mistakes = Vec::new();

@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 0.01;
 /// same jumps between them: where jumps were chosen anew, forces would not be smooth in the
 /// parameters.
 const EVERY_PASS: u64 = 1000;
-/// Error of such a jump, the periods before the first one, and its length beside them.
+/// Error of such a jump, the periods before the first one, and its length relative to them.
 const JUMP: JumpSize = JumpSize {
     tolerance: 1e-3,
     first_periods: 8,

@@ -4,7 +4,7 @@ use crate::readings::Reading;
 
 /// Makes the median of |e| under Gaussian noise a standard deviation.
 pub const MEDIAN_TO_SIGMA: f64 = 1.4826;
-/// Least noise beside the largest value: digits that an instrument shows.
+/// Least noise relative to the largest value: digits that an instrument shows.
 const LEAST: f64 = 1e-3;
 
 /// Standard deviations that weigh readings of several kinds against each other; `None` where all

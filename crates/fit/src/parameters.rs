@@ -145,7 +145,7 @@ pub fn error_of(
     let largest = own().fold(f64::MIN_POSITIVE, |most, row| most.max(row.value.abs()));
     let last = own().fold(1.0_f64, |most, row| most.max(row.passes as f64));
     let is_drift = quantity == Quantity::Drift;
-    let (told, natural) = if is_drift {
+    let (given, natural) = if is_drift {
         (options.drift_sigma, ERROR * largest / last)
     } else {
         (options.zero_offset_sigma, ERROR * largest)
@@ -161,7 +161,7 @@ pub fn error_of(
     let of_series = words_if(rows.iter().any(|row| row.series > 0), &of_series);
     let shares = cells(rows).iter().filter(|(series, _)| *series == cell.0).count() > 1;
     let name = format!("{quantity}{of_series}{}", words_if(shares, &of_place));
-    let sigma = told.unwrap_or(natural);
+    let sigma = given.unwrap_or(natural);
     let (bound, prior) = (FARTHEST * sigma, Prior { value: 0.0, sigma });
     let parameter = Parameter::term(&name, -bound, bound, &column);
     let parameter = parameter.and_then(|parameter| parameter.with_prior(prior));

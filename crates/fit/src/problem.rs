@@ -16,7 +16,7 @@ use crate::unknown::Quantity;
 use creepage_plan::Levels;
 use creepage_run::Error;
 
-/// Ripple of the forces as parameters change on a fixed mesh, beside its typical error: as a node
+/// Ripple of the forces as parameters change on a fixed mesh, relative to its typical error: as a node
 /// more slips, their slope jumps. Measured on the full-scale scenes, where it is 1 to 2 % of that
 /// on four meshes.
 const RIPPLE: f64 = 0.02;
@@ -130,7 +130,7 @@ impl Problem<'_> {
     }
 }
 
-/// All series, each on one of its meshes, and the stiffness of the ground beside the scene's where
+/// All series, each on one of its meshes, and the stiffness of the ground relative to the scene's where
 /// it is not fitted.
 struct OnMesh<'a>(&'a Problem<'a>, MeshOf, f64);
 

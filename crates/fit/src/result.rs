@@ -148,7 +148,7 @@ pub struct FittedReading {
 pub struct LackOfFit {
     /// Probability of so few changes of sign by chance.
     pub p_runs: f64,
-    /// Probability that noise alone shows so much drift; null where it is fitted or cannot be told.
+    /// Probability that noise alone shows so much drift; null where it is fitted or not known.
     pub p_trend: Option<f64>,
     /// Probability that noise alone shows a zero that is off by so much; null as before.
     pub p_offset: Option<f64>,

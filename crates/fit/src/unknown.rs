@@ -24,7 +24,7 @@ pub enum Quantity {
     SectionCoefficient(usize),
 }
 
-/// Of what cannot be told beforehand.
+/// Of what is not known beforehand.
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// Names, units (1 for a number), and the least and the largest value that a fit considers; those of a cell's

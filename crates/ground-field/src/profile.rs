@@ -229,7 +229,7 @@ impl Cell {
 /// Cells that grow with their distance from the axis.
 fn initial_edges(depth: f64, end: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
-    // A depth that is nothing beside the reach is left to bisection.
+    // A depth that is nothing relative to the reach is left to bisection.
     let mut edge = (0.5 * depth).max(1e-12 * end);
     // Lengths too small to be added up make one cell.
     while edge > edges[edges.len() - 1] && edge < 0.999 * end {

@@ -69,7 +69,7 @@ pub enum Error {
         /// Why.
         reason: String,
     },
-    /// The duct is so long beside its depth that no mesh of it can be computed.
+    /// The duct is so long relative to its depth that no mesh of it can be computed.
     #[error(
         "duct.length = {length} m and duct.depth = {depth} m: found a mesh of {nodes:.1e} nodes, as fine as this depth needs; allowed: 5e6 \
          nodes, with a shorter or a deeper duct, a larger solver.tolerance, or a solver.node_spacing"
@@ -95,7 +95,7 @@ pub enum Error {
     /// The callback of progress stopped the computation.
     #[error("stopped before it was done")]
     Stopped,
-    /// There is no pass whose answer could be told.
+    /// There is no pass whose answer is known.
     #[error("no pass was computed")]
     NoPass,
     /// An error whose cause stands in a scene file.

@@ -28,8 +28,8 @@ pub mod meshes {
 pub mod jumps {
     /// Passes after which a run takes no more jumps, and fewest and most periods of them.
     pub const PATIENCE: (u64, u64, u64) = (7200, 12, 600);
-    /// Error of a single jump beside the tolerance to begin with, and length of the first jump
-    /// beside the periods before it; the largest such error.
+    /// Error of a single jump relative to the tolerance to begin with, and length of the first jump
+    /// relative to the periods before it; the largest such error.
     pub const FIRST: (f64, f64) = (6.0, 0.8);
     pub const LARGEST: f64 = 0.06;
     /// Share of the tolerance that jumps may take: the first mesh leaves about as much.

@@ -39,7 +39,7 @@ impl<'n> Given<'n> {
         self.wrong(self.node.described())
     }
 
-    /// Refuses what is no table, and keys of a table that are not known or exclude each other. An unknown key is told before one that
+    /// Refuses what is no table, and keys of a table that are not known or exclude each other. An unknown key is reported before one that
     /// is missing: a misspelt one is both.
     pub fn check_table(&self) -> Result<()> {
         let keys = self.form.keys();

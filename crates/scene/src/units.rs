@@ -3,7 +3,7 @@
 use crate::nearest::nearest;
 
 /// A dimension in a row: its name, its noun with an article, and its units, that of SI first: symbol, power of ten, factor. A unit that
-/// answers are told in has a name of its own.
+/// answers are given in has a name of its own.
 macro_rules! dimensions {
     ($($dimension:ident $noun:literal: $($($name:ident)? $symbol:literal $exponent:literal $factor:tt $(/ $divisor:expr)?),+;)+) => {
         /// Physical dimension of a quantity in a scene.

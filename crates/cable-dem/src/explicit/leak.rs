@@ -7,9 +7,9 @@ use crate::{DuctedCable, End, FrictionLaw, MovingDuct};
 
 /// Share of stored force lost in one pass from which the leak matters.
 const LOSS: f64 = 0.01;
-/// Reference speed beside the duct's velocity from which friction is viscous.
+/// Reference speed relative to the duct's velocity from which friction is viscous.
 const VISCOUS: f64 = 0.1;
-/// Spreading length beside the duct's natural length from which the gain of a pass fades.
+/// Spreading length relative to the duct's natural length from which the gain of a pass fades.
 const SPREAD: f64 = 0.5;
 
 /// What the sigmoid law loses at rest: a warning to show, when it [matters](SigmoidLeak::matters).
@@ -31,7 +31,7 @@ const SPREAD: f64 = 0.5;
 /// it, which begin with the law's slope and forget their friction as a step Δt does.
 ///
 /// Forces locked into a short stretch fade sooner: in the time T of a pass they spread by ℓ = √(EA T/η). Just after a pass
-/// the gain stands within a few depths of the ends and of the vehicle's trace, so that this length beside the duct's natural
+/// the gain stands within a few depths of the ends and of the vehicle's trace, so that this length relative to the duct's natural
 /// length decides, long before e^(−T/τ) is felt: measured on the 30 m scene, 67 % of the force of two passes is
 /// missing at ℓ = 6 m, 21 % at 1.9 m, 3 % at 0.6 m and 0.3 % at 0.2 m.
 ///

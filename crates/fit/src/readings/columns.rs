@@ -77,9 +77,9 @@ fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError
     let columns = MEASURED.map(|kind| table.of(kind).into_iter().map(move |column| (kind, column)));
     for (kind, column) in columns.into_iter().flatten() {
         let name = &table.names[column];
-        let is_told = |told: &str| name.chosen && told.to_lowercase() == name.text.to_lowercase();
-        let told = options.ends.iter().find(|(told, _)| is_told(told));
-        let end = told.map(|(_, end)| *end).or_else(|| end(name));
+        let is_named = |chosen: &str| name.chosen && chosen.to_lowercase() == name.text.to_lowercase();
+        let chosen = options.ends.iter().find(|(column, _)| is_named(column));
+        let end = chosen.map(|(_, end)| *end).or_else(|| end(name));
         if values.iter().any(|other| (other.kind, other.end) == (kind, end)) {
             let word = if kind == MOVEMENT { "movement" } else { "force" };
             let choice = format!("--column-{word} chooses one, or names the end of each: upstream=NAME");
@@ -88,7 +88,7 @@ fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError
         }
         if let Some(unit) = name.unit.as_ref().filter(|unit| si(kind, "1", unit).is_err()) {
             // An option stands in no line.
-            let (line, place) = if is_told_unit(options, kind) {
+            let (line, place) = if is_chosen_unit(options, kind) {
                 (0, "--unit")
             } else {
                 (table.line, &*name.text)
@@ -108,7 +108,7 @@ fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError
 }
 
 /// Whether the options say the unit of this kind of values.
-fn is_told_unit(options: &ReadOptions, kind: Kind) -> bool {
+fn is_chosen_unit(options: &ReadOptions, kind: Kind) -> bool {
     kind == FORCE && options.table.unit.is_some()
 }
 
@@ -126,7 +126,7 @@ fn add_sigmas(table: &mut Table, options: &ReadOptions, values: &mut [Values]) -
             return Err(table.wrong(table.line, format!("{text}: its unit"), UNITS));
         }
         for value in fitting {
-            let is_of_value = unit.is_none() || is_told_unit(options, value.kind);
+            let is_of_value = unit.is_none() || is_chosen_unit(options, value.kind);
             let like = if is_of_value { value.column } else { column };
             table.names[column].kind = Some(value.kind);
             if let Some((first, _)) = value.sigma.replace((column, like)) {

@@ -1,4 +1,4 @@
-//! What the reader is told of a file of readings; the rest it recognises.
+//! What a user says about a file of readings; the rest is recognised.
 
 use creepage_tables::Options;
 

@@ -37,7 +37,7 @@ pub struct ErrorShares {
     pub passes: f64,
     /// Heat and traffic of days of which few passes were simulated, or none.
     pub temperature: f64,
-    /// The same as `passes`, by its older name.
+    /// The same as `passes`.
     pub law: f64,
     /// Largest error of an end's movement from all causes, as a share of the largest movement.
     pub movement: f64,

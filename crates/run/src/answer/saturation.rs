@@ -106,7 +106,7 @@ impl Course<'_> {
         Some(if is_near { with_reached } else { (least, most) })
     }
 
-    /// The force of a pass by which the saturation is told: the largest on an end, or inside a
+    /// The force of a pass by which the saturation is stated: the largest on an end, or inside a
     /// cable that nothing holds.
     fn shown(&self, outcome: &PassOutcome) -> f64 {
         match (self.scene.ends.upstream, self.scene.ends.downstream) {
