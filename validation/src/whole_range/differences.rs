@@ -121,11 +121,12 @@ fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
         worst.all(MOVEMENT, movements(found), movements(exact), scale.movement);
     }
     for (clamp, exact) in run.restraints.iter().zip(&exact.restraints) {
+        let of_clamp = exact.after_passes_n.iter().chain(&exact.during_passes_n);
+        let whole = largest(of_clamp.copied()).max(scale.force);
         for (found, exact) in [
             (&clamp.after_passes_n, &exact.after_passes_n),
             (&clamp.during_passes_n, &exact.during_passes_n),
         ] {
-            let whole = largest(exact.iter().copied()).max(scale.force);
             for &(index, at) in &pairs {
                 worst.note(CLAMP, found[index], exact[at], whole);
             }
