@@ -132,6 +132,29 @@ fn the_stated_error_is_above_the_true_one_and_the_tolerance_is_kept() {
         share(&|case| matches!(case, Case::Refused)),
         share(&|case| matches!(case, Case::Unjudged)),
     );
+    for wanted in TOLERANCES {
+        let of_run = |case: &Case| match case {
+            Case::Judged {
+                tolerance,
+                found,
+                stated,
+            } if *tolerance == wanted => Some(
+                (0..KINDS.len())
+                    .map(|kind| stated[kind] / found[kind].max(1e-9))
+                    .fold(f64::INFINITY, f64::min),
+            ),
+            _ => None,
+        };
+        let mut ratios: Vec<f64> = all.iter().filter_map(of_run).collect();
+        ratios.sort_by(f64::total_cmp);
+        let above = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
+        if let (Some(least), Some(median)) = (ratios.first(), ratios.get(ratios.len() / 2)) {
+            let count = ratios.len();
+            println!(
+                "{wanted}: {count} judged, {above} state enough; stated/true: median {median:.1}, least {least:.2}"
+            );
+        }
+    }
     for (kind, name) in KINDS.into_iter().enumerate() {
         let understated =
             share(&|case| matches!(case, Case::Judged { found, stated, .. } if found[kind] > stated[kind]));
