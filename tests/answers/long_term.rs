@@ -203,7 +203,7 @@ fn jumps_agree_with_every_pass() {
 }
 
 #[test]
-#[ignore = "120 random scenes, every pass simulated: half an hour; FIRST chooses other seeds"]
+#[ignore = "120 random scenes, every pass simulated: ten minutes; FIRST chooses other seeds"]
 fn many_scenes_with_jumps_are_those_of_every_pass() {
     let first = std::env::var("FIRST").map_or(0, |text| text.parse().expect("a seed"));
     assert_right((first..first + 120).collect());

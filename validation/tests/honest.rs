@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use creepage::scene::{GroundModel, SolverMethod};
 use creepage::{Run, Scene};
-use creepage_validation::whole_range::differences::{Errors, KINDS, errors, stated};
+use creepage_validation::whole_range::differences::{Errors, KINDS, stated};
+use creepage_validation::whole_range::twins::off_finer;
 use rayon::prelude::*;
 
 use super::ordinary_scenes;
@@ -98,7 +99,7 @@ fn cases(seed: u64) -> Vec<Case> {
                 (Ok(run), Some(exact)) if exact.plan.node_spacing_m < 0.55 * run.plan.node_spacing_m => {
                     Case::Judged {
                         tolerance,
-                        found: errors(&scene, &run, exact),
+                        found: off_finer(&scene, &run, exact),
                         stated: stated(&run),
                     }
                 }

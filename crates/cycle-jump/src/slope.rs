@@ -81,8 +81,9 @@ impl Slope {
     }
 }
 
-/// By how much one period differs from an earlier one: its advance \[m\] but for that of a cable
-/// as a whole, which friction does not answer to, and the friction K Δu/w in its middle \[N/m\].
+/// By how much one period differs from an earlier one: its advance \[m\] without the movement as a
+/// whole of a cable that nothing holds, and the friction K Δu/w in its middle \[N/m\]. Such a
+/// movement leaves friction as it is; a slope from it would be a division by rounding.
 fn changes(from: &Period, to: &Period, cable: &RestingCable) -> (Vec<f64>, Vec<f64>) {
     let mut rate = difference(&to.rate, &from.rate);
     remove_mean(cable, &mut rate);

@@ -68,7 +68,7 @@ pub struct PlanReport {
     /// Error to expect, as a share of the force; `None` on a mesh that the scene names.
     pub estimated_error: Option<f64>,
     /// Rough time of the whole run \[s\] on one core of about 3 GHz, from counted work: within a
-    /// factor of five as a rule, and far more where finer meshes prove necessary.
+    /// factor of five in about half of all scenes, far more where finer meshes prove necessary.
     pub estimated_seconds: f64,
     /// Whether the cable creeps, and how much force there can be, by one number; `None` where
     /// nothing moves the duct.

@@ -121,13 +121,15 @@ fn of_passes(run: &Run, exact: &Run, scale: &Scale) -> Errors {
         worst.all(MOVEMENT, movements(found), movements(exact), scale.movement);
     }
     for (clamp, exact) in run.restraints.iter().zip(&exact.restraints) {
-        // The largest force in size during a pass: of a clamp that is pulled about as hard as it is pressed its sign is chance.
         let of_clamp = exact.after_passes_n.iter().chain(&exact.during_passes_n);
         let whole = largest(of_clamp.copied()).max(scale.force);
-        for &(index, at) in &pairs {
-            let [found, exact] = [(clamp, index), (exact, at)]
-                .map(|(clamp, at)| [clamp.after_passes_n[at], clamp.during_passes_n[at].abs()]);
-            worst.all(CLAMP, found, exact, whole);
+        for (found, exact) in [
+            (&clamp.after_passes_n, &exact.after_passes_n),
+            (&clamp.during_passes_n, &exact.during_passes_n),
+        ] {
+            for &(index, at) in &pairs {
+                worst.note(CLAMP, found[index], exact[at], whole);
+            }
         }
     }
     worst.0

@@ -42,10 +42,38 @@ pub fn twins(scene: &Scene, own: &Run) -> Twins {
     let finer = run(&finer).ok().filter(is_finer);
     Twins {
         stated: stated(own),
-        finer: finer.map(|finer| (errors(scene, own, &finer), stated(&finer))),
+        finer: finer.map(|finer| (off_finer(scene, own, &finer), stated(&finer))),
         mirror: mirror(scene, own),
         larger: larger(scene, own),
     }
+}
+
+/// How far the answer `own` of a scene lies from that of a finer run, which may show the other sign of a clamp that is pulled about as hard
+/// as it is pressed.
+pub fn off_finer(scene: &Scene, own: &Run, finer: &Run) -> Errors {
+    let [one, other] = [own, finer].map(|run| unsigned(scene, run, |_, _, _| true));
+    errors(scene, &one, &other)
+}
+
+/// The run without the sign of every largest force on a clamp during a pass that `is_unsure` of its size, of the force after the pass, and of
+/// what the clamp holds.
+fn unsigned(scene: &Scene, run: &Run, is_unsure: impl Fn(f64, f64, f64) -> bool) -> Run {
+    let mut run = run.clone();
+    for (clamp, restraint) in run.restraints.iter_mut().zip(&scene.restraints) {
+        let holds = restraint.holds.unwrap_or(f64::INFINITY);
+        for (force, after) in clamp.during_passes_n.iter_mut().zip(&clamp.after_passes_n) {
+            if is_unsure(force.abs(), after.abs(), holds) {
+                *force = force.abs();
+            }
+        }
+    }
+    run
+}
+
+/// Whether a clamp may bear as much both ways within a pass, since all friction beside it turned over or it slipped both ways: then rounding
+/// says which force is the largest.
+fn turns_over(force: f64, after: f64, holds: f64) -> bool {
+    force < 1.000_001 * after || force > 0.999_999 * holds
 }
 
 /// How far the answer `own` of a scene lies from that of its mirror image.
@@ -60,7 +88,10 @@ pub fn larger(scene: &Scene, own: &Run) -> Option<Errors> {
 
 fn off(scene: &Scene, own: &Run, other: Result<Run, Error>) -> Option<Errors> {
     match other {
-        Ok(other) => Some(errors(scene, own, &other)),
+        Ok(other) => {
+            let [one, other] = [own, &other].map(|run| unsigned(scene, run, turns_over));
+            Some(errors(scene, &one, &other))
+        }
         Err(Error::Stopped | Error::Scene(_)) => None,
         Err(_) => Some([f64::INFINITY; 5]),
     }
