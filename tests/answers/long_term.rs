@@ -1,7 +1,7 @@
 //! Jumps over passes against the simulation of every pass, on the same mesh: random scenes of every kind.
 
 use creepage::scene::SolverMethod;
-use creepage::{Error, PassRecord, Run, Scene};
+use creepage::{Error, PassRecord, RestraintRecord, Run, Scene};
 use fastrand::Rng;
 use rayon::prelude::*;
 
@@ -90,19 +90,36 @@ pub fn random(seed: u64) -> Scene {
     scene
 }
 
-/// Largest difference of a force on any listed pass, as a share of the largest then or of a tenth of the largest at all; and on the last.
+/// Largest difference of a force on any listed pass, and on the last: in the cable and on its ends relative to the largest there then, on a
+/// clamp to the largest on it; to a tenth of the largest of all, if that is more. The force in the cable changes at a clamp by what that
+/// carries, so that on one side it is at least half as large.
 pub fn difference(scene: &Scene, every: &Run, jumps: &Run) -> (f64, f64) {
-    let floor = 0.1 * every.passes.iter().map(largest_force).fold(0.0, f64::max);
+    let on_clamp = |clamp: &RestraintRecord| largest(clamp.after_passes_n.iter().copied());
+    let on_ends = every.passes.iter().map(largest_force);
+    let floor = 0.1 * largest(on_ends.chain(every.restraints.iter().map(on_clamp)));
     let floor = floor.max(0.01 * limit(scene));
-    let of_pass = |found: &PassRecord| {
-        let right = &every.passes[every.passes.partition_point(|record| record.pass < found.pass)];
-        assert_eq!(right.pass, found.pass);
-        let (right, found) = (forces_after(right), forces_after(found));
-        let pairs = right.into_iter().zip(found);
-        largest(pairs.map(|(right, found)| right - found)) / largest(right).max(floor)
+    let of_pass = |(place, found): (usize, &PassRecord)| {
+        let same = every.passes.partition_point(|record| record.pass < found.pass);
+        assert_eq!(every.passes[same].pass, found.pass);
+        let (right, found) = (forces_after(&every.passes[same]), forces_after(found));
+        let apart = largest(right.into_iter().zip(found).map(|(right, found)| right - found));
+        let beside_clamps = every
+            .restraints
+            .iter()
+            .map(|clamp| 0.5 * clamp.after_passes_n[same]);
+        let in_cable = largest(right.into_iter().chain(beside_clamps)).max(floor);
+        let clamps = every.restraints.iter().zip(&jumps.restraints);
+        let clamps = clamps.map(|(right, found)| {
+            let apart = right.after_passes_n[same] - found.after_passes_n[place];
+            apart.abs() / on_clamp(right).max(floor)
+        });
+        clamps.fold(apart / in_cable, f64::max)
     };
-    let worst = jumps.passes.iter().map(of_pass).fold(0.0, f64::max);
-    (worst, jumps.passes.last().map_or(0.0, of_pass))
+    let apart: Vec<f64> = jumps.passes.iter().enumerate().map(of_pass).collect();
+    (
+        largest(apart.iter().copied()),
+        apart.last().copied().unwrap_or_default(),
+    )
 }
 
 /// What came out of one scene.

@@ -9,8 +9,6 @@ mod node;
 mod problem;
 mod response;
 mod stretch;
-#[cfg(test)]
-mod tests;
 mod tolerance;
 pub mod tridiagonal;
 mod tuning;

@@ -162,7 +162,7 @@ pub(crate) fn stiffness(
             let shape = Shape::at(nodes, xi, eta);
             let determinant = shape.determinant;
             if determinant.is_nan() || determinant <= 0.0 {
-                return Err(FemError::Degenerate { determinant });
+                return Err(FemError::Degenerate);
             }
             let moduli = elasticity(shape.radius, shape.depth);
             let weight = weight_eta * weight_xi * determinant * shape.radius;

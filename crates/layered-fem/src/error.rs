@@ -5,11 +5,8 @@
 #[non_exhaustive]
 pub enum FemError {
     /// An element has no positive area: lines of the mesh coincide in rounding.
-    #[error("an element has a Jacobian determinant of {determinant:.3e}, which must be positive")]
-    Degenerate {
-        /// The Jacobian determinant that was not positive.
-        determinant: f64,
-    },
+    #[error("an element of the mesh has no positive area")]
+    Degenerate,
     /// The mesh would need more unknowns than allowed.
     #[error("the mesh needs {needed} unknowns, {allowed} are allowed")]
     TooLarge {
@@ -19,17 +16,10 @@ pub enum FemError {
         allowed: usize,
     },
     /// The stiffness matrix is not positive definite in floating-point arithmetic.
-    #[error(
-        "the stiffness matrix with {unknowns} unknowns could not be factored: it is not positive definite"
-    )]
-    Factorisation {
-        /// Unknowns of the system.
-        unknowns: usize,
-    },
+    #[error("the stiffness matrix is not positive definite")]
+    Factorisation,
     /// The solution does not satisfy the equations: solving for what remains changes it.
-    #[error(
-        "solving for the residual changes the solution by {change:.1e} of itself where {allowed:.1e} is allowed"
-    )]
+    #[error("the residual changes the solution by {change:.1e} of itself, {allowed:.1e} is allowed")]
     Inaccurate {
         /// Largest change over the largest displacement.
         change: f64,

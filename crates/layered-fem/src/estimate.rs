@@ -1,4 +1,4 @@
-//! The error of an answer, and the work behind it.
+//! The error of an answer.
 
 /// Estimated error of a displacement at one depth, from the difference between two meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,18 +22,4 @@ impl ErrorEstimate {
             self.vertical.max(self.radial)
         }
     }
-}
-
-/// Meshes made and loads solved so far.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct FemStatistics {
-    /// Unknowns of the finest mesh.
-    pub unknowns: usize,
-    /// Entries of its Cholesky factor.
-    pub factor_entries: usize,
-    /// Meshes factored since construction.
-    pub factorisations: usize,
-    /// Loads solved on the meshes that are held.
-    pub solves: usize,
 }

@@ -86,8 +86,8 @@ fn reach(profile: &SoilProfile) -> f64 {
         Base::HalfSpace(soil) => {
             let base = soil.young_modulus();
             let plate = depth * (stiffest / base).max(1.0).cbrt();
-            let membrane = |layer: &SoilLayer| layer.thickness() * ends(layer)[0].max(ends(layer)[1]) / base;
-            let membrane: f64 = profile.layers().iter().map(membrane).sum();
+            let stretch = |layer: &SoilLayer| layer.thickness() * ends(layer)[0].max(ends(layer)[1]) / base;
+            let membrane: f64 = profile.layers().iter().map(stretch).sum();
             (REACH_HALF_SPACE * plate.max(LEAST_LENGTH)).max(REACH_MEMBRANE * membrane)
         }
         Base::Rigid => {
@@ -112,8 +112,7 @@ impl Lines {
         let mut layers = profile.layers().to_vec();
         let block = layers.first().map_or(LARGEST_BLOCK, block_depth);
         let scale = (0.5 * block).max(SMALLEST_SCALE);
-        let stretch = ORDINARY_ALPHA / alpha * parts as f64;
-        let reach = stretch * reach(profile).max(50.0 * scale);
+        let reach = ORDINARY_ALPHA / alpha * parts as f64 * reach(profile).max(50.0 * scale);
         let grade = Grade {
             scale,
             alpha,
@@ -138,8 +137,7 @@ impl Lines {
         let mut radii = vec![0.0];
         let block_columns = grade.fill(block, &mut radii, |_| 0.0)?;
         grade.fill(block + reach, &mut radii, |_| 0.0)?;
-        let needed = 2 * (2 * radii.len() - 1) * (2 * depths.len() - 1);
-        grade.check(needed)?;
+        grade.check(2 * (2 * radii.len() - 1) * (2 * depths.len() - 1))?;
         Ok(Self {
             radii,
             depths,
@@ -214,11 +212,7 @@ fn bisected(mut low: f64, mut high: f64, below: impl Fn(f64) -> bool) -> f64 {
     // To rounding.
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if below(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        *(if below(middle) { &mut low } else { &mut high }) = middle;
     }
     0.5 * (low + high)
 }

@@ -95,8 +95,7 @@ impl Level {
 
     /// Displacement along r at one depth under a unit load, which is solved for at its first use.
     pub(crate) fn line(&mut self, contact_radius: f64, depth: f64) -> Result<DepthLine, FemError> {
-        let bottom = self.rows[self.rows.len() - 1];
-        if depth >= bottom {
+        if self.rows.last().is_none_or(|&bottom| depth >= bottom) {
             // Below the mesh.
             return Ok(DepthLine::new(&[], 1.0, &[], None, self.far, depth));
         }
@@ -132,14 +131,9 @@ impl Level {
     /// Node rows and Lagrange weights that interpolate at `depth`, all in the band it lies in.
     fn depth_weights(&self, depth: f64) -> Vec<(usize, f64)> {
         let (lines, rows) = (&self.lines, &self.rows);
-        let mut first = 0;
-        let mut last = 0;
-        for band in &lines.bands {
-            (first, last) = (last, 2 * band.end);
-            if depth < rows[last] {
-                break;
-            }
-        }
+        let here = lines.bands.partition_point(|band| rows[2 * band.end] <= depth);
+        let (above, rest) = lines.bands.split_at(here);
+        let [first, last] = [above.last(), rest.first()].map(|band| band.map_or(0, |band| 2 * band.end));
         let count = ROWS_IN_DEPTH.min(last - first + 1);
         let distance = |row: &usize| (rows[*row] - depth).abs();
         let nearest = (first..=last).min_by(|a, b| distance(a).total_cmp(&distance(b)));

@@ -15,5 +15,5 @@ mod model;
 mod system;
 
 pub use error::FemError;
-pub use estimate::{ErrorEstimate, FemStatistics};
+pub use estimate::ErrorEstimate;
 pub use model::LayeredFem;

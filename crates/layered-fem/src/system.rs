@@ -19,10 +19,8 @@ const CORRECTIONS: usize = 2;
 pub(crate) struct System {
     pub mesh: Mesh,
     matrices: Vec<ElementMatrix>,
-    /// Number of each degree of freedom among the unknowns, or `FIXED`.
-    unknown: Vec<usize>,
-    /// Those that are not prescribed.
-    pub unknowns: usize,
+    /// The unknowns: degrees of freedom that are not prescribed.
+    pub unknowns: Vec<usize>,
     pub factor: Factor,
 }
 
@@ -38,21 +36,17 @@ impl System {
         prescribed: &[bool],
         elasticity: impl Fn(usize, f64, f64) -> Elasticity,
     ) -> Result<Self, FemError> {
-        let mut unknowns = 0;
-        let mut unknown = vec![FIXED; prescribed.len()];
-        for (number, _) in unknown.iter_mut().zip(prescribed).filter(|(_, fixed)| !**fixed) {
-            *number = unknowns;
-            unknowns += 1;
+        let unknowns: Vec<usize> = (0..prescribed.len()).filter(|&dof| !prescribed[dof]).collect();
+        let mut number = vec![FIXED; prescribed.len()];
+        for (unknown, &dof) in unknowns.iter().enumerate() {
+            number[dof] = unknown;
         }
         let matrix = |e| stiffness(&mesh.corners(e), |r, z| elasticity(e, r, z));
-        let matrices = (0..mesh.elements.len())
-            .map(matrix)
-            .collect::<Result<Vec<_>, _>>()?;
-        let factor = Factor::new(&mesh, &matrices, &unknown).ok_or(FemError::Factorisation { unknowns })?;
+        let matrices: Vec<ElementMatrix> = (0..mesh.elements.len()).map(matrix).collect::<Result<_, _>>()?;
+        let factor = Factor::new(&mesh, &matrices, &number).ok_or(FemError::Factorisation)?;
         Ok(Self {
             mesh,
             matrices,
-            unknown,
             unknowns,
             factor,
         })
@@ -68,16 +62,11 @@ impl System {
         let mut displacement = given.to_vec();
         let mut change = 0.0;
         for _ in 0..=CORRECTIONS {
-            let mut correction = vec![0.0; self.unknowns];
-            let numbers = self.unknown.iter().enumerate();
-            let free = || numbers.clone().filter(|(_, unknown)| **unknown != FIXED);
             let residual = self.residual(force, &displacement);
-            for (dof, &unknown) in free() {
-                correction[unknown] = residual[dof];
-            }
+            let mut correction: Vec<f64> = self.unknowns.iter().map(|&dof| residual[dof]).collect();
             self.factor.solve(&mut correction);
-            for (dof, &unknown) in free() {
-                displacement[dof] += correction[unknown];
+            for (&dof, change) in self.unknowns.iter().zip(&correction) {
+                displacement[dof] += change;
             }
             change = largest(&correction) / largest(&displacement).max(f64::MIN_POSITIVE);
         }
@@ -108,13 +97,11 @@ impl System {
 
 fn largest(values: &[f64]) -> f64 {
     // `f64::max` would drop a NaN.
-    values.iter().fold(0.0, |most, value| {
-        if value.abs() > most || value.is_nan() {
-            value.abs()
-        } else {
-            most
-        }
-    })
+    let sizes = values.iter().map(|value| value.abs());
+    sizes.fold(
+        0.0,
+        |most, size| if size > most || size.is_nan() { size } else { most },
+    )
 }
 
 #[cfg(test)]
@@ -303,7 +290,7 @@ mod tests {
         }
         assert!(matches!(
             System::new(clockwise, &[false; 18], |_, _, _| soil(1.0, 0.3)),
-            Err(FemError::Degenerate { .. })
+            Err(FemError::Degenerate)
         ));
         let no_number = |_: usize, _: f64, _: f64| Elasticity {
             shear: f64::NAN,

@@ -33,7 +33,6 @@ fn grounds_are_answered_or_refused() {
                         let _ = ground.displacements(load, &[], depth);
                     }
                 }
-                let _ = ground.statistics();
             }
         }
     }

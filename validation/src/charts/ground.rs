@@ -89,7 +89,7 @@ const METHODS: [Method; 3] = [
         run: |profile, accuracy| {
             let ground = LayeredFem::new(profile, accuracy)?;
             let motion = motion(&ground, accuracy)?;
-            Ok((motion, ground.statistics().unknowns))
+            Ok((motion, ground.unknowns()))
         },
     },
 ];
