@@ -130,21 +130,26 @@ struct Found {
     stated: f64,
 }
 
+/// The passes of a scene on a mesh of so many nodes a depth.
+fn by(method: SolverMethod, nodes: f64, scene: &Scene) -> Result<Run, Error> {
+    let (mut scene, spacing) = (
+        scene.clone(),
+        (scene.duct.depth / nodes).min(scene.duct.length / 8.0),
+    );
+    (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(spacing), Some(0.5 * spacing));
+    scene.solver.method = method;
+    creepage::run(&scene)
+}
+
 /// `None` where no mesh here is good enough, jumps or not.
 fn compare(seed: u64) -> Option<Found> {
-    let mut scene = random(seed);
+    let scene = random(seed);
     for nodes in NODES {
-        let spacing = (scene.duct.depth / nodes).min(scene.duct.length / 8.0);
-        (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(spacing), Some(0.5 * spacing));
-        let mut run = |method| {
-            scene.solver.method = method;
-            creepage::run(&scene)
-        };
-        let jumps = match run(SolverMethod::PassLaw) {
+        let jumps = match by(SolverMethod::PassLaw, nodes, &scene) {
             Err(Error::Inaccurate { .. }) => continue,
             jumps => jumps.unwrap_or_else(|error| panic!("scene {seed}: {error}")),
         };
-        let every = match run(SolverMethod::QuasiStatic) {
+        let every = match by(SolverMethod::QuasiStatic, nodes, &scene) {
             Err(Error::Inaccurate { .. }) => continue,
             every => every.unwrap_or_else(|error| panic!("scene {seed}: {error}")),
         };
@@ -209,6 +214,18 @@ fn a_cable_that_moves_as_a_whole_goes_on_evenly() {
         let jumped = movement(passes, "auto");
         assert!((jumped / every - 1.0).abs() < 5e-3, "{passes}: {jumped} {every}");
     }
+}
+
+/// Every run with jumps begins with the shortest, which would put a force off by 1.4 %: one that begins later shows it.
+#[test]
+fn the_first_jump_is_measured_where_it_is_the_shortest() {
+    let mut scene = random(35);
+    scene.traffic.passes = 100;
+    let methods = [SolverMethod::QuasiStatic, SolverMethod::PassLaw];
+    let [every, jumps] = methods.map(|method| by(method, NODES[0], &scene).expect("an answer"));
+    assert!(jumps.cost.simulated_passes < 90, "{:?}", jumps.cost);
+    let (worst, last) = difference(&scene, &every, &jumps);
+    assert!(worst.max(last) < 0.5 * TOLERANCE, "{worst} {last}");
 }
 
 /// A tenth of the scenes: those in which every pass is simulated soonest; and two that jumps once got wrong. In 1031 the first jump after

@@ -89,6 +89,12 @@ impl JumpSize {
     }
 }
 
+/// The first jump of these passes: after how many more periods than at the start, and its length.
+fn first_jump(passes: &Passes) -> Option<(usize, u64)> {
+    let mut lengths = passes.schedule.iter().copied().enumerate();
+    lengths.find(|(_, length)| *length > 0)
+}
+
 /// The first passes, by which periods that stand in for the traffic are not compared: those of a
 /// random order are a draw that no mix foretells, and means over periods of other lengths hold
 /// other passes. They are two periods, or half of the traffic if that is less.
@@ -134,20 +140,20 @@ impl Search<'_> {
                 Err(Error::Jumps(_)) if error.is_some() => break,
                 finer => finer?,
             };
-            let off = self.simulator.difference(&finer, &passes);
+            let mut off = self.simulator.difference(&finer, &passes);
+            if let Some((place, _)) = first_jump(&finer).filter(|jump| Some(*jump) == first_jump(&passes)) {
+                // There both err alike: one that begins with twice as many periods shows it.
+                let mut others = size.finer();
+                others.first_periods = 2 * (others.first_periods + place as u64);
+                let others = self.simulate(level, others, period)?;
+                off = off.max(self.simulator.difference(&finer, &others));
+            }
             (size, passes, error) = (size.finer(), finer, Some(off));
             if off.is_within(self.allowed) || cost * passes.statistics.work() > MAX_NODE_UPDATES {
                 break;
             }
         }
         let mut error = error.unwrap_or_default();
-        if error == Shares::default() && passes.schedule.iter().any(|&length| length > 0) {
-            // Both runs took the same jumps: one that takes others shows their error.
-            let mut others = size.finer();
-            others.first_periods *= 2;
-            let others = self.simulate(level, others, period)?;
-            error = self.simulator.difference(&passes, &others);
-        }
         // Both are of the same displacements, and movements are fewer: they may agree by chance.
         error.movement = error.worse();
         Ok(Found {
