@@ -6,8 +6,8 @@
 //!
 //! *Outcomes of a draw.* Identified where the intervals of 95 % of both parameters are closed, else not identifiable, which the fit says.
 //! Where only that of b is closed, it rests on the bound of μ_d: such draws are counted apart, and the wrong ones among them. An
-//! identified b is right if the truth lies within the interval or within a tenth of it; it may miss it in one of twenty draws; it is wrong if it lies
-//! further off than three times the interval's half width on that side, in ln b.
+//! identified b is right if the truth lies within the interval or within a tenth of b; it may miss it in one of twenty draws, where the true values
+//! fit far worse; it is wrong if it misses it although they fit about as well.
 
 use std::path::Path;
 
