@@ -28,7 +28,7 @@ from ._scene import Scene, Source, source
 
 #: What the folder looks like.
 FORMAT = 2
-#: Rows that a part has at least, if there are as many: about four minutes of one core.
+#: Rows that a part has at least, if there are as many: about six minutes of one core.
 ROWS_OF_A_PART = 2000
 #: More is a slip.
 MOST_DUCTS = 10**12

@@ -206,8 +206,9 @@ impl Search<'_> {
         for (vehicles, share) in &period.others {
             let other = self.in_place(found, vehicles.clone())?;
             let [rows, other_rows] = [&found.passes, &other].map(|passes| self.later(passes));
-            let all = [rows, &found.passes.peaks].concat();
-            let all_other = [other_rows, &other.peaks].concat();
+            // Later rows may be means: the largest of a single pass may stand among the first rows.
+            let [all, all_other] =
+                [&found.passes, &other].map(|passes| [&passes.records[..], &passes.peaks].concat());
             // The largest of all passes are not between those of two mixes; of absent vehicles
             // single passes show them.
             let is_absent = vehicles.iter().any(|vehicle| period.absent.contains(vehicle));
