@@ -9,6 +9,8 @@ mod node;
 mod problem;
 mod response;
 mod stretch;
+#[cfg(test)]
+mod tests;
 mod tolerance;
 pub mod tridiagonal;
 mod tuning;
