@@ -132,10 +132,8 @@ struct Found {
 
 /// The passes of a scene on a mesh of so many nodes a depth.
 fn by(method: SolverMethod, nodes: f64, scene: &Scene) -> Result<Run, Error> {
-    let (mut scene, spacing) = (
-        scene.clone(),
-        (scene.duct.depth / nodes).min(scene.duct.length / 8.0),
-    );
+    let mut scene = scene.clone();
+    let spacing = (scene.duct.depth / nodes).min(scene.duct.length / 8.0);
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(spacing), Some(0.5 * spacing));
     scene.solver.method = method;
     creepage::run(&scene)

@@ -212,7 +212,8 @@ fn bisected(mut low: f64, mut high: f64, below: impl Fn(f64) -> bool) -> f64 {
     // To rounding.
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        *(if below(middle) { &mut low } else { &mut high }) = middle;
+        let end = if below(middle) { &mut low } else { &mut high };
+        *end = middle;
     }
     0.5 * (low + high)
 }

@@ -94,9 +94,8 @@ impl Mesher {
     /// large relative to a stiff layer rounding is felt long before it matters.
     fn level(&self, parts: usize) -> Result<Level, GroundError> {
         let rounding = (1e-3 * self.accuracy).max(LEAST_CHANGE);
-        let level = self
-            .lines(parts)
-            .and_then(|lines| Level::new(&self.profile, rounding, lines));
+        let lines = self.lines(parts);
+        let level = lines.and_then(|lines| Level::new(&self.profile, rounding, lines));
         level.map_err(in_model)
     }
 }

@@ -1,7 +1,8 @@
 //! Jumps that are good enough: how large they may be, and what they leave wrong.
 //!
 //! Two runs that differ in the error of a single jump and in the length of the first one differ by
-//! about the error of either. Each is compared with one whose jumps are half as large.
+//! about the error of either. Each is compared with one whose jumps are half as large, and where
+//! both begin with the same jump, with one that begins later.
 
 use cycle_jump::Record;
 
@@ -123,6 +124,27 @@ impl Search<'_> {
         simulator.simulate(simulator.plan.scene, level, None, self.progress.next(0.5), false)
     }
 
+    /// The passes by jumps of this `size`, and how far they and those by larger ones lie apart.
+    fn compared(&mut self, level: usize, size: JumpSize, larger: &Passes) -> Result<(Passes, Shares), Error> {
+        let period = &self.simulator.plan.period;
+        let passes = self.simulate(level, size, period)?;
+        let mut off = self.simulator.difference(&passes, larger);
+        if let Some((place, _)) = first_jump(&passes).filter(|jump| Some(*jump) == first_jump(larger)) {
+            // There both err alike: one that begins with twice as many periods shows it.
+            let first_periods = 2 * (size.first_periods + place as u64);
+            let later = self.simulate(
+                level,
+                JumpSize {
+                    first_periods,
+                    ..size
+                },
+                period,
+            )?;
+            off = off.max(self.simulator.difference(&passes, &later));
+        }
+        Ok((passes, off))
+    }
+
     /// The largest jumps whose error is allowed.
     fn jumps(&mut self) -> Result<Found, Error> {
         let plan = self.simulator.plan;
@@ -136,18 +158,10 @@ impl Search<'_> {
         let cost = 2 * REFINEMENT_COST.pow((levels.first - level) as u32);
         let mut error = None;
         for _ in 0..FINEST {
-            let finer = match self.simulate(level, size.finer(), period) {
+            let (finer, off) = match self.compared(level, size.finer(), &passes) {
                 Err(Error::Jumps(_)) if error.is_some() => break,
-                finer => finer?,
+                compared => compared?,
             };
-            let mut off = self.simulator.difference(&finer, &passes);
-            if let Some((place, _)) = first_jump(&finer).filter(|jump| Some(*jump) == first_jump(&passes)) {
-                // There both err alike: one that begins with twice as many periods shows it.
-                let mut others = size.finer();
-                others.first_periods = 2 * (others.first_periods + place as u64);
-                let others = self.simulate(level, others, period)?;
-                off = off.max(self.simulator.difference(&finer, &others));
-            }
             (size, passes, error) = (size.finer(), finer, Some(off));
             if off.is_within(self.allowed) || cost * passes.statistics.work() > MAX_NODE_UPDATES {
                 break;
