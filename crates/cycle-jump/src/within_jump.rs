@@ -3,12 +3,16 @@
 use cable_dem::{CableError, CableState, PassOutcome, RestingCable};
 
 use crate::flow::Flow;
-use crate::period::{Period, phase_of, remove_mean};
+use crate::period::{Period, difference, phase_of, remove_mean};
 
 /// Passes of a vehicle within a jump are computed so far apart, as a ratio of their numbers. Forces
 /// change on the scale of that number: between two such passes they differ from a straight line by
 /// (ln 1.03)²/8 = 1e-4 of themselves. Three thousand rows take two thirds of the time.
 const ROW_RATIO: f64 = 1.03;
+/// If a jump changes less of the forces than such rows miss, outcomes lie on a straight line between
+/// both periods. Five random mixes of a hundred vehicles with a million passes take 0.75 to 0.9 of
+/// the time.
+pub const STEADY: f64 = 1e-4;
 
 /// A jump that was taken, from one simulated period to another.
 pub struct JumpInterval<'a> {
@@ -54,6 +58,20 @@ impl JumpInterval<'_> {
         let mut state = moved.with_thermal_force(before.thermal_force)?;
         cable.settle(&mut state)?;
         Ok((state, whole))
+    }
+
+    /// Its change of the displacements \[m\].
+    pub fn change(&self) -> Vec<f64> {
+        difference(self.to.0.displacement(), self.from.0.displacement())
+    }
+
+    /// What `pass` did, on a straight line from the period before to the one at the end.
+    pub fn on_line(&self, pass: u64) -> PassOutcome {
+        let phase = phase_of(pass, self.before.len());
+        let periods = (pass - 1) / self.before.len() as u64 + 1 - self.begin;
+        let share = periods as f64 / self.length as f64;
+        let [before, after] = [self.before, self.after].map(|period| period.outcome(phase));
+        PassOutcome::combined(&[(1.0 - share, &before), (share, &after)])
     }
 
     /// Outcomes of `passes`, in ascending order. Passes far enough apart follow from the state after

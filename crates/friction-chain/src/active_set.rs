@@ -28,6 +28,8 @@ pub struct ImplicitStep {
     pub(crate) tolerance: Tolerance,
     /// Storage of the linear solve.
     factors: Vec<f64>,
+    /// Nodes whose contact states were corrected last, ascending.
+    corrected: Vec<usize>,
 }
 
 /// Counts of work that do not depend on the machine.
@@ -50,6 +52,7 @@ impl ImplicitStep {
             work: Work::default(),
             tolerance: Tolerance::new(&chain, 0.0),
             factors: vec![0.0; nodes],
+            corrected: Vec::new(),
             chain,
         }
     }
@@ -97,9 +100,8 @@ impl ImplicitStep {
         for _ in 0..MAX_ITERATIONS {
             self.stop(load, stretch)?;
             self.displace(load, stretch);
-            let corrected;
-            (worst, corrected) = self.correct(load, stretch);
-            if !corrected {
+            worst = self.correct(load, stretch);
+            if self.corrected.is_empty() {
                 break;
             }
             self.advance(load, stretch);
@@ -148,14 +150,15 @@ impl ImplicitStep {
     }
 
     /// Sets the friction of the solved displacements and corrects contact states that do not hold. Returned: the largest violation, as a
-    /// share of the friction limit, and whether a contact state was corrected.
-    fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> (f64, bool) {
+    /// share of the friction limit.
+    fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> f64 {
         let (chain, tolerance, load) = (&self.chain, self.tolerance, load.on(stretch));
         let Trial { r, g, contact } = &mut self.trial;
         let [mut left, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
         let (nodes, r, g) = (stretch.of(&chain.nodes), stretch.of(r), stretch.of_mut(g));
         let contact = stretch.of_mut(contact);
-        let (mut worst, mut corrected) = (0.0_f64, false);
+        self.corrected.clear();
+        let mut worst = 0.0_f64;
         // What is not a number is a violation too.
         let mut violate = |share: f64| worst = worst.max(if share.is_nan() { f64::INFINITY } else { share });
         for i in 0..stretch.count() {
@@ -177,7 +180,7 @@ impl ImplicitStep {
                     continue;
                 }
                 violate(excess / node.limit);
-                corrected = true;
+                self.corrected.push(stretch.lo + i);
                 contact[i] = if total < 0.0 {
                     Contact::Backward
                 } else {
@@ -199,12 +202,12 @@ impl ImplicitStep {
                 let slips_along = along >= -tolerance.slip;
                 if !slips_along {
                     violate(1.0);
-                    corrected = true;
+                    self.corrected.push(stretch.lo + i);
                     contact[i] = Contact::Stuck;
                 }
             }
         }
-        (worst, corrected)
+        worst
     }
 
     /// Lets nodes beside those that slip slip too, as many as it takes to bear the force on the first of them. A stuck node shields those
@@ -216,7 +219,7 @@ impl ImplicitStep {
         // The friction of a node that was solved for as slipping is at the limit.
         let excess = |k: usize| total(k).abs() - nodes[k].limit;
         let slipped = |contact: &[Contact], k: usize| contact[k] != Contact::Stuck && excess(k) <= accuracy;
-        for k in stretch.nodes() {
+        for &k in &self.corrected {
             let state = contact[k];
             if state == Contact::Stuck || excess(k) <= accuracy {
                 continue;

@@ -60,37 +60,40 @@ impl Response {
 
     /// With one more node at its end, held by its `ground`, and behind a spring of `stiffness` k \[N/m\] to the next one.
     pub fn add(&mut self, ground: &Grounding, stiffness: f64) {
-        let softness = 1.0 / stiffness;
-        let behind = |u: f64, p: f64| {
-            let p = p + ground.stiffness * u - ground.load;
-            (u + p * softness, p)
-        };
         let ([forward, backward], [upper, lower]) = (ground.slips, ground.bounds);
-        let new = [(forward, upper), (backward, lower)].map(|(u, bound)| behind(u, self.force(u) - bound));
         let from = self.corners.partition_point(|(u, _)| *u < forward);
         let to = from + self.corners[from..].partition_point(|(u, _)| *u <= backward);
-        let rub = |(u, p): &mut (f64, f64), friction: f64| (*u, *p) = behind(*u, *p - friction);
-        self.corners[..from]
-            .iter_mut()
-            .for_each(|corner| rub(corner, upper));
-        let between = self.corners[from..to].iter_mut();
-        between.for_each(|corner| rub(corner, ground.friction(corner.0)));
-        self.corners[to..]
-            .iter_mut()
-            .for_each(|corner| rub(corner, lower));
+        let softness = 1.0 / stiffness;
+        let behind = |(u, p): (f64, f64), friction: f64| {
+            let p = p - friction + ground.stiffness * u - ground.load;
+            (u + p * softness, p)
+        };
+        let first = behind((forward, self.between(from, forward)), upper);
+        let last = behind((backward, self.between(to, backward)), lower);
+        let count = self.corners.len();
+        self.corners.resize(count + 2, last);
+        for i in (to..count).rev() {
+            self.corners[i + 2] = behind(self.corners[i], lower);
+        }
+        self.corners[to + 1] = last;
+        for i in (from..to).rev() {
+            self.corners[i + 1] = behind(self.corners[i], ground.friction(self.corners[i].0));
+        }
+        self.corners[from] = first;
+        for corner in &mut self.corners[..from] {
+            *corner = behind(*corner, upper);
+        }
         self.outer += ground.stiffness;
         self.outer /= 1.0 + self.outer * softness;
-        if forward == backward {
-            self.corners.splice(from..to, new);
-        } else {
-            self.corners.insert(to, new[1]);
-            self.corners.insert(from, new[0]);
-        }
     }
 
     /// p(u).
     pub fn force(&self, u: f64) -> f64 {
-        let next = self.corners.partition_point(|(at, _)| *at < u);
+        self.between(self.corners.partition_point(|(at, _)| *at < u), u)
+    }
+
+    /// p(u), where u is not beyond the corner `next` nor before the one in front of it.
+    fn between(&self, next: usize, u: f64) -> f64 {
         let before = next.checked_sub(1).map(|i| self.corners[i]);
         match (before, self.corners.get(next)) {
             (Some((u0, p0)), Some(&(u1, p1))) => p0 + (p1 - p0) * (u - u0) / (u1 - u0),

@@ -1,5 +1,8 @@
 //! Chains of equations in which every unknown knows its two neighbours alone.
 
+/// Rows after which determinants are made 1 again.
+const RESCALED: usize = 256;
+
 /// The equation of one unknown, x = `share` · (the sum of both neighbours) + `value`.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
@@ -9,38 +12,47 @@ pub struct Row {
     pub value: f64,
 }
 
-/// What elimination makes of a row: pivot · x = share · (the next neighbour) + pivot · value.
+/// What elimination makes of a row: x = factor · (the next neighbour) + value, with factor = minor/determinant.
 #[derive(Clone, Copy)]
 struct Eliminated {
-    share: f64,
-    pivot: f64,
+    /// d_i = d_{i−1} − a_i a_{i−1} d_{i−2} of the rows so far, with their shares a.
+    determinant: f64,
+    /// a_i d_{i−1}.
+    minor: f64,
     value: f64,
 }
 
 impl Eliminated {
-    /// x = factor · (the next neighbour) + value, and the row after it.
+    /// The row after it, and its factor. Determinants in place of their ratios, since each row waits for the one before it, and a product
+    /// takes a fourth of a division.
     #[inline]
     fn next(self, row: Row) -> (Self, f64) {
-        // The next pivot waits for this division and subtraction alone.
-        let pivot = 1.0 - row.share * self.share / self.pivot;
-        let inverse = 1.0 / pivot;
-        let value = (row.value + row.share * self.value) * inverse;
-        (
-            Self {
-                share: row.share,
-                pivot,
-                value,
-            },
-            row.share * inverse,
-        )
+        let determinant = self.determinant - row.share * self.minor;
+        let inverse = self.determinant / determinant;
+        let factor = row.share * inverse;
+        let next = Self {
+            determinant,
+            minor: row.share * self.determinant,
+            value: row.value * inverse + factor * self.value,
+        };
+        (next, factor)
+    }
+
+    /// The same with a determinant of 1: each may be half the one before.
+    fn rescaled(self) -> Self {
+        Self {
+            determinant: 1.0,
+            minor: self.minor / self.determinant,
+            ..self
+        }
     }
 }
 
 /// Solves the rows of every index of `x`, of which there is one at least, between neighbours that are held at `before` and `after`;
 /// `factors` is storage of as many or more.
 ///
-/// Gaussian elimination (L. H. Thomas, 1949), from both ends at once, since each division waits for the one before it: 1.3 times as
-/// fast as from one end. Shares between 0 and ½, or up to 1 at an end without a neighbour, need no pivoting.
+/// Gaussian elimination (L. H. Thomas, 1949), from both ends at once, since each row waits for the one before it: 1.3 times as
+/// fast as from one end, where pivots took the place of determinants. Shares between 0 and ½, or up to 1 at an end without a neighbour, need no pivoting.
 ///
 /// # Panics
 ///
@@ -51,8 +63,8 @@ pub fn solve([before, after]: [f64; 2], row: impl Fn(usize) -> Row, factors: &mu
     let factors = &mut factors[..count];
     let middle = count / 2;
     let held = |value| Eliminated {
-        share: 0.0,
-        pivot: 1.0,
+        determinant: 1.0,
+        minor: 0.0,
         value,
     };
     let (mut low, mut high) = (held(before), held(after));
@@ -64,10 +76,13 @@ pub fn solve([before, after]: [f64; 2], row: impl Fn(usize) -> Row, factors: &mu
             (high, factors[j]) = high.next(row(j));
             x[j] = high.value;
         }
+        if i % RESCALED == 0 {
+            (low, high) = (low.rescaled(), high.rescaled());
+        }
     }
     let Row { share, value } = row(middle);
     let met = (value + share * (low.value + high.value))
-        / (1.0 - share * (low.share / low.pivot + high.share / high.pivot));
+        / (1.0 - share * (low.rescaled().minor + high.rescaled().minor));
     x[middle] = met;
     let (mut left, mut right) = (met, met);
     for k in 1..=middle {

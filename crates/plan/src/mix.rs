@@ -3,7 +3,7 @@
 use cable_dem::{Order, Traffic};
 
 use crate::error::Error;
-use crate::tuning::periods::{EXACT, LEAST, NEAR, SHORT};
+use crate::tuning::periods::{EXACT, LEAST, LONGER, NEAR, SHORT};
 
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
@@ -34,16 +34,20 @@ impl Mix {
     }
 
     /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has
-    /// them exactly, if that is not too long; or the first that is near, or the nearest.
+    /// them exactly, if that is not too long; or the nearest of those that are hardly longer than
+    /// the first that is near; or the nearest of all.
     pub fn best(shares: &[f64], most: usize) -> Self {
         let all = (1..=most).map(|length| Self::nearest(shares, length));
         let all = all.filter(|mix| mix.len() <= most);
         let is_near = |mix: &Self| mix.distance() <= NEAR && mix.len() >= LEAST;
-        let near = all.clone().find(is_near).or_else(|| nearest_of(all.clone()));
-        let near = near.unwrap_or_else(|| Self::nearest(shares, most));
-        let longest = SHORT.max(EXACT * near.len());
-        let exact = all.take(longest).find(Self::is_exact);
-        exact.unwrap_or(near)
+        let (shortest, longest) = all
+            .clone()
+            .find(is_near)
+            .map_or((1, most), |mix| (mix.len(), (LONGER * mix.len() as f64) as usize));
+        let exact = all.clone().take(SHORT.max(EXACT * shortest)).find(Self::is_exact);
+        let in_length = |mix: &Self| (shortest..=longest).contains(&mix.len());
+        let near = exact.or_else(|| nearest_of(all.filter(in_length)));
+        near.unwrap_or_else(|| Self::nearest(shares, most))
     }
 
     /// A mix of at most `most` vehicles on the other side of the wanted shares, or at least another

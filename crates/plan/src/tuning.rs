@@ -69,6 +69,8 @@ pub mod periods {
     pub const STAND_INS: usize = 48;
     /// A mix is near where every vehicle's share is right within this share of itself.
     pub const NEAR: f64 = 0.05;
+    /// The nearest of all that are at most so many times as long is taken.
+    pub const LONGER: f64 = 1.25;
     /// It has at least so many vehicles: in shorter ones too few of those follow each other that do
     /// in the traffic, and its largest forces are missed.
     pub const LEAST: usize = 100;

@@ -8,6 +8,7 @@ use cycle_jump::Record;
 
 use super::PassSimulator;
 use super::draws::Draws;
+use super::scatter::scatter;
 use crate::Progress;
 use crate::answer::JumpSize;
 use crate::answer::differences::{Shares, difference, extremes_difference};
@@ -21,6 +22,9 @@ use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Period, Plan};
 
 const FINEST: usize = 8;
+/// Where jumps change less of the forces and have missed less, there is nothing for another run to
+/// show: forces between simulated passes are off by as much.
+const STEADY: f64 = 1e-4;
 /// Draws of a random order at least, at most, and as long as they take no more nodes than this.
 const FEWEST_DRAWS: usize = 4;
 const MOST_DRAWS: usize = 24;
@@ -120,34 +124,45 @@ impl Search<'_> {
             jumping: Some(Jumping::new(period, size)),
             ..self.simulator
         };
+        let plan = simulator.plan;
+        // The answer's first mesh is not simulated again.
+        let answer = level == plan.levels.first && *period == plan.period;
         // How many runs it takes is not known: each is half of what is left.
-        simulator.simulate(simulator.plan.scene, level, None, self.progress.next(0.5), false)
+        simulator.simulate(plan.scene, level, None, self.progress.next(0.5), answer)
+    }
+
+    /// How far passes by jumps of this `size`, whose first one came after so many more periods than
+    /// at the start, and those that begin with twice as many periods lie apart.
+    fn begun_later(
+        &mut self,
+        level: usize,
+        size: JumpSize,
+        passes: &Passes,
+        place: usize,
+    ) -> Result<Shares, Error> {
+        let first_periods = 2 * (size.first_periods + place as u64);
+        let later = JumpSize {
+            first_periods,
+            ..size
+        };
+        let later = self.simulate(level, later, &self.simulator.plan.period)?;
+        Ok(self.simulator.difference(passes, &later))
     }
 
     /// The passes by jumps of this `size`, and how far they and those by larger ones lie apart.
     fn compared(&mut self, level: usize, size: JumpSize, larger: &Passes) -> Result<(Passes, Shares), Error> {
-        let period = &self.simulator.plan.period;
-        let passes = self.simulate(level, size, period)?;
+        let passes = self.simulate(level, size, &self.simulator.plan.period)?;
         let mut off = self.simulator.difference(&passes, larger);
         if let Some((place, _)) = first_jump(&passes).filter(|jump| Some(*jump) == first_jump(larger)) {
-            // There both err alike: one that begins with twice as many periods shows it.
-            let first_periods = 2 * (size.first_periods + place as u64);
-            let later = self.simulate(
-                level,
-                JumpSize {
-                    first_periods,
-                    ..size
-                },
-                period,
-            )?;
-            off = off.max(self.simulator.difference(&passes, &later));
+            // There both err alike.
+            off = off.max(self.begun_later(level, size, &passes, place)?);
         }
         Ok((passes, off))
     }
 
     /// The largest jumps whose error is allowed.
     fn jumps(&mut self) -> Result<Found, Error> {
-        let plan = self.simulator.plan;
+        let (plan, allowed) = (self.simulator.plan, self.allowed);
         let (scene, levels, period) = (plan.scene, &plan.levels, &plan.period);
         let mut size = JumpSize::largest(plan);
         // A short duct costs little, and the few nodes of a coarser mesh behave differently.
@@ -155,17 +170,30 @@ impl Search<'_> {
         let (level, mut passes) = on_coarse_level(levels, levels.first, below, |level| {
             self.simulate(level, size, period)
         })?;
-        let cost = 2 * REFINEMENT_COST.pow((levels.first - level) as u32);
         let mut error = None;
+        let is_alone = passes.schedule.iter().filter(|length| **length > 0).count() == 1;
+        if let Some((place, _)) = first_jump(&passes).filter(|_| is_alone) {
+            // It goes to the end whatever error is allowed: finer ones would be the same. Where it
+            // changes nothing, the period simulated at its end has shown all that it can miss.
+            size = size.finer();
+            let off = passes.missed.max(passes.changed);
+            error = Some(if off < STEADY {
+                Shares::both(off)
+            } else {
+                self.begun_later(level, size, &passes, place)?
+            });
+        }
+        let cost = 2 * REFINEMENT_COST.pow((levels.first - level) as u32);
+        let is_costly = |passes: &Passes| cost * passes.statistics.work() > MAX_NODE_UPDATES;
         for _ in 0..FINEST {
+            if error.is_some_and(|off: Shares| off.is_within(allowed) || is_costly(&passes)) {
+                break;
+            }
             let (finer, off) = match self.compared(level, size.finer(), &passes) {
                 Err(Error::Jumps(_)) if error.is_some() => break,
                 compared => compared?,
             };
             (size, passes, error) = (size.finer(), finer, Some(off));
-            if off.is_within(self.allowed) || cost * passes.statistics.work() > MAX_NODE_UPDATES {
-                break;
-            }
         }
         let mut error = error.unwrap_or_default();
         // Both are of the same displacements, and movements are fewer: they may agree by chance.
@@ -216,7 +244,10 @@ impl Search<'_> {
     /// forces and movements on the passes that both show, and the largest of all.
     fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
         let (period, scale) = (&self.simulator.plan.period, self.simulator.scale);
-        let mut error = Shares::default();
+        let mut error = match &period.others[..] {
+            [_, ..] if !period.reordered => scatter(&found.passes.period, scale),
+            _ => Shares::default(),
+        };
         for (vehicles, share) in &period.others {
             let other = self.in_place(found, vehicles.clone())?;
             let [rows, other_rows] = [&found.passes, &other].map(|passes| self.later(passes));

@@ -33,6 +33,10 @@ pub struct Passes {
     pub has_rejected: bool,
     /// The most that a jump had missed before it was corrected, as a share of what is large.
     pub missed: f64,
+    /// The most that a jump has changed of the forces, as a share of the largest.
+    pub changed: f64,
+    /// What each pass of the last whole period did; none if nothing was jumped.
+    pub period: Vec<PassOutcome>,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
     /// Passes of the period beside the records that show more.
@@ -84,6 +88,8 @@ impl<'a> Simulation<'a> {
             schedule: Vec::new(),
             has_rejected: false,
             missed: 0.0,
+            changed: 0.0,
+            period: Vec::new(),
             beyond: None,
             peaks: Vec::new(),
             days: None,
@@ -206,6 +212,8 @@ impl Task<'_> {
             schedule: evolution.schedule,
             has_rejected: evolution.has_rejected,
             missed: evolution.missed,
+            changed: evolution.changed,
+            period: evolution.period,
             beyond: evolution.beyond,
             ..simulation.passes
         })
