@@ -51,8 +51,9 @@ impl Eliminated {
 /// Solves the rows of every index of `x`, of which there is one at least, between neighbours that are held at `before` and `after`;
 /// `factors` is storage of as many or more.
 ///
-/// Gaussian elimination (L. H. Thomas, 1949), from both ends at once, since each row waits for the one before it: 1.3 times as
-/// fast as from one end, where pivots took the place of determinants. Shares between 0 and ½, or up to 1 at an end without a neighbour, need no pivoting.
+/// Gaussian elimination (L. H. Thomas, 1949), from both ends at once, since each row waits for the one before it. With determinants a pass
+/// takes 0.92 to 0.95 of the time that it takes with their ratios, the pivots. Shares between 0 and ½, or up to 1 at an end without a
+/// neighbour, need no pivoting.
 ///
 /// # Panics
 ///
