@@ -20,3 +20,4 @@ pub use evolve::evolve;
 pub use peaks::peaks;
 pub use record::{Beyond, Evolution, Record};
 pub use request::{Guide, Jumps, Next, Request};
+pub use within_jump::STEADY;

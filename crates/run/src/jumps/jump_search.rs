@@ -4,7 +4,7 @@
 //! about the error of either. Each is compared with one whose jumps are half as large, and where
 //! both begin with the same jump, with one that begins later.
 
-use cycle_jump::Record;
+use cycle_jump::{Record, STEADY};
 
 use super::PassSimulator;
 use super::draws::Draws;
@@ -22,9 +22,6 @@ use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Period, Plan};
 
 const FINEST: usize = 8;
-/// Where jumps change less of the forces and have missed less, there is nothing for another run to
-/// show: forces between simulated passes are off by as much.
-const STEADY: f64 = 1e-4;
 /// Draws of a random order at least, at most, and as long as they take no more nodes than this.
 const FEWEST_DRAWS: usize = 4;
 const MOST_DRAWS: usize = 24;
@@ -244,10 +241,10 @@ impl Search<'_> {
     /// forces and movements on the passes that both show, and the largest of all.
     fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
         let (period, scale) = (&self.simulator.plan.period, self.simulator.scale);
-        let mut error = match &period.others[..] {
-            [_, ..] if !period.reordered => scatter(&found.passes.period, scale),
-            _ => Shares::default(),
-        };
+        let mut error = Shares::default();
+        if !period.is_own() && !period.reordered {
+            error = scatter(&found.passes.period, scale);
+        }
         for (vehicles, share) in &period.others {
             let other = self.in_place(found, vehicles.clone())?;
             let [rows, other_rows] = [&found.passes, &other].map(|passes| self.later(passes));
