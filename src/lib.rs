@@ -51,7 +51,7 @@
 //! # Features
 //!
 //! `cli`, the command, is on by default with its page, `explore`, and takes all others with it. Without default features a scene is read, planned
-//! and run, with few crates beside these; `calibrate` adds fits, `study` sweeps, designs and measures, `report` (with both) the page
+//! and run, with few other crates; `calibrate` adds fits, `study` sweeps, designs and measures, `report` (with both) the page
 //! and workbooks, `fem` finite elements, `schema` the JSON Schema of a scene.
 
 #[cfg(feature = "cli")]

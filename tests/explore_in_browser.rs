@@ -18,14 +18,14 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use devtools::{Browser, CONTRAST_OF, DESK, LEAST_CONTRAST, PHONE};
+use devtools::{Browser, CONTRAST_OF, DESK, MIN_CONTRAST, PHONE};
 use server::{Explored, creepage};
 
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Whether the last full answer and its pass are there.
 const RESTS: &str = "settled && !under && film !== null && !/…/.test(get('state').textContent)";
 /// Of all words that are seen, the least contrast with what is behind them.
-const LEAST: &str = r"
+const LEAST_CONTRAST: &str = r"
   const behind = (node) => {
     const colour = getComputedStyle(node).backgroundColor;
     return (channels(colour)[3] ?? 1) > 0 || !node.parentElement ? colour : behind(node.parentElement);
@@ -120,9 +120,11 @@ impl Page {
     fn is_well_made(&mut self, when: &str) {
         for colours in ["dark", "light"] {
             self.browser.media("prefers-color-scheme", colours);
-            let contrast = self.browser.value(&format!("(() => {{{CONTRAST_OF}{LEAST}}})()"));
+            let contrast = self
+                .browser
+                .value(&format!("(() => {{{CONTRAST_OF}{LEAST_CONTRAST}}})()"));
             assert!(
-                contrast[0].as_f64() >= Some(LEAST_CONTRAST),
+                contrast[0].as_f64() >= Some(MIN_CONTRAST),
                 "{when}, {colours}: {contrast}"
             );
         }

@@ -50,7 +50,7 @@ fn what_takes_many_runs_takes_little_longer_than_the_ground() {
         }),
     ];
     for (name, work) in works {
-        // Other tests compute beside this one: one of several pairs, one after the other.
+        // Other tests compute at the same time: one of several pairs, one after the other.
         let pair = |_| time(work).div_duration_f64(time(&mut plan)) < 1.5;
         assert!((0..3).any(pair), "{name} takes far longer than the ground");
     }

@@ -189,7 +189,7 @@ fn a_run_that_fails_is_a_row() {
     assert!(!slipping.within_limits && slipping.kept == 4, "{slipping:?}");
 }
 
-/// Where nothing is said, friction is assumed and the ground is known to a factor of two; the middle is then the scene's own ground.
+/// If nothing is said, friction is assumed and the ground is known to a factor of two; the middle is then the scene's own ground.
 #[test]
 fn assumptions_are_marked_and_surround_the_scene() {
     let file = file(&[

@@ -23,7 +23,7 @@ fn the_scene_of_the_pages_runs() {
 
 /// The commands of the README and of every page of docs/ run, a page in one folder with `my-duct.toml`; a block of `csv`
 /// whose first line is `# NAME.csv` is a file there. A block of `text` after a block of `sh` shows lines that its commands
-/// print, in their order; a line `...` stands for what is left out. Where nothing is shown, a few passes are enough. A block
+/// print, in their order; a line `...` stands for what is left out. If nothing is shown, a few passes are enough. A block
 /// marked `sh slow` is not run.
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]

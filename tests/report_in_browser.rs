@@ -19,7 +19,7 @@ use creepage::{Readings, Scene, SceneFile, Units};
 use ground_field::Direction;
 use serde_json::Value;
 
-use devtools::{Browser, CONTRAST_OF, DESK, LEAST_CONTRAST, PHONE};
+use devtools::{Browser, CONTRAST_OF, DESK, MIN_CONTRAST, PHONE};
 
 /// A4 without its margins of 15 mm, at 96 px an inch.
 const SHEET: u32 = 680;
@@ -111,7 +111,7 @@ impl Screen {
         Seen { result, console }
     }
 
-    /// What is wrong with a page of so many figures; nothing where all is well.
+    /// What is wrong with a page of so many figures; nothing if all is well.
     fn faults(&mut self, page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
         faults(self.show(page, width, dark), width, dark, figures)
     }
@@ -128,7 +128,7 @@ fn faults(seen: Seen, width: u32, dark: bool, figures: usize) -> Vec<String> {
         (of("width") == wide, format!("the page is {} px wide", result["width"])),
         (result["dark"] == dark, format!("dark is {}, asked {dark}", result["dark"])),
         (of("scroll") <= of("room"), format!("{} px scroll sideways", result["scroll"])),
-        (of("contrast") >= LEAST_CONTRAST, format!("contrast of words {}", result["contrast"])),
+        (of("contrast") >= MIN_CONTRAST, format!("contrast of words {}", result["contrast"])),
         (seen.len() == figures, format!("{} figures", seen.len())),
     ];
     for (k, figure) in seen.iter().enumerate() {
@@ -139,7 +139,7 @@ fn faults(seen: Seen, width: u32, dark: bool, figures: usize) -> Vec<String> {
             (of("width") > 200.0 && of("height") > 100.0, format!("figure {k} is not seen: {figure}")),
             (of("right") <= wide, format!("figure {k} is cut off: {figure}")),
             (of("text") >= SMALLEST_TEXT, format!("figure {k}: text of {} px", figure["text"])),
-            (of("contrast") >= LEAST_CONTRAST, format!("figure {k}: contrast {}", figure["contrast"])),
+            (of("contrast") >= MIN_CONTRAST, format!("figure {k}: contrast {}", figure["contrast"])),
             (is_empty("outside"), format!("figure {k}: outside {}", figure["outside"])),
             (is_empty("overlapping"), format!("figure {k}: overlapping {}", figure["overlapping"])),
         ];

@@ -1,4 +1,4 @@
-//! Fits of what else is measured beside a load cell's force: readings are runs on a mesh of 24 nodes per depth with known parameters, and noise;
+//! Fits of what else is measured besides a load cell's force: readings are runs on a mesh of 24 nodes per depth with known parameters, and noise;
 //! fits choose their own.
 
 use creepage::calibration::{Quantity, Unknown};

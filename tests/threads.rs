@@ -1,4 +1,4 @@
-//! A command takes no more threads than it is told, and a computation none beside those of the pool it is called in.
+//! A command takes no more threads than it is told, and a computation none but those of the pool it is called in.
 
 use std::collections::HashSet;
 use std::ops::ControlFlow;

@@ -154,7 +154,7 @@ def test_columns_of_other_libraries_are_read(quick_scene, tmp_path):
 
 
 def test_a_text_among_distributions_is_a_row_that_failed(quick_scene, tmp_path):
-    for name, cells in [("one part", [LAW, "abc", "0.3"]), ("no law beside it", ["0.3", "abc", LAW])]:
+    for name, cells in [("one part", [LAW, "abc", "0.3"]), ("no other law", ["0.3", "abc", LAW])]:
         rows = ducts(3).set_column(2, FRICTION, pyarrow.array(cells))
         study = creepage.study(quick_scene, rows, tmp_path / name, samples=2, ducts_per_part=2)
         table = study.dataset().to_table()

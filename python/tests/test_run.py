@@ -136,7 +136,7 @@ def test_a_call_costs_less_than_a_millisecond_beside_its_run():
         creepage.sweep(UPPER, rows.slice(row, 1), QUICK, threads=1)
     single = time.process_time() - single
     each = 1e3 * (single - whole) / count
-    print(f"{each:.2f} ms a call beside {1e3 * whole / count:.2f} ms of its run")
+    print(f"{each:.2f} ms a call besides {1e3 * whole / count:.2f} ms of its run")
     assert each < 1
 
 

@@ -10,7 +10,7 @@ use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::calibration::{
-    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, MOST_RUNS, ResidualSize,
+    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, MAX_RUNS, ResidualSize,
     SHARES, Series, Unknown,
 };
 use crate::scene::{Dimension, FrictionLaw, four_digits};
@@ -44,10 +44,10 @@ pub struct Arguments {
     /// dynamic_coefficient,shape_factor (only the first with Coulomb's law)
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Unknown>())]
     fit: Vec<Unknown>,
-    /// Standard deviation of a load cell's zero, where it is fitted. Default: a quarter of the largest force
+    /// Standard deviation of a load cell's zero, if it is fitted. Default: a quarter of the largest force
     #[arg(long, value_name = "FORCE", value_parser = quantity(Dimension::Force, POSITIVE, "a positive force such as \"20 N\""))]
     zero_offset_sigma: Option<f64>,
-    /// Standard deviation of its drift per pass, where it is fitted. Default: a quarter of the largest force over all passes
+    /// Standard deviation of its drift per pass, if it is fitted. Default: a quarter of the largest force over all passes
     #[arg(long, value_name = "FORCE", value_parser = quantity(Dimension::Force, POSITIVE, "a positive force such as \"20 N\""))]
     drift_sigma: Option<f64>,
     /// Measured deflection under the first vehicle, "115 um"; also fits ground_stiffness
@@ -151,7 +151,7 @@ fn calibrate(arguments: &Arguments, inputs: &[Input], readings: &[Readings]) -> 
         .zip(readings)
         .map(|(scene, readings)| Series { scene, readings });
     let series: Vec<Series<'_>> = series.collect();
-    let most = MOST_RUNS as f64;
+    let most = MAX_RUNS as f64;
     // Measured on one to four parameters; two are fitted where none is named.
     let fitted = Some(arguments.fit.len()).filter(|count| *count > 0);
     let usual = 16 + 25 * fitted.unwrap_or(2);

@@ -91,7 +91,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let limits = |Places(places): &Places| -> Result<Limits, Failure> {
         // Held somehow: what is limited there counts.
         let held = input.located(held(&input.scene, places, 1.0))?;
-        let limits = arguments.limits.limits_beside(&held, &everywhere)?;
+        let limits = arguments.limits.limits_with(&held, &everywhere)?;
         if limits.all().next().is_some() {
             return Ok(limits);
         }

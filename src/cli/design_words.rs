@@ -12,13 +12,13 @@ use crate::words::Reader;
 /// The names of a table's columns, and its rows.
 type Table = (Vec<String>, Vec<Vec<String>>);
 
-/// The best of all `designs`: with its runs where it is alone, or beside the others.
+/// The best of all `designs`: with its runs if it is alone, or next to the others.
 pub fn print(best: &Design, designs: &[Design], reader: &Reader) -> Result<(), Failure> {
     let mut out = terminal::out();
     let (title, held, passes) = (terminal::line(&best.title), places(&best.places), best.passes);
     let (what, (names, rows)) = if designs.len() > 1 {
         let ways = format!("{} ways to hold the cable", designs.len());
-        (ways, beside(designs, reader))
+        (ways, comparison(designs, reader))
     } else {
         (held.clone(), curve(best, reader))
     };
@@ -74,8 +74,8 @@ fn stiffness(spring: &Spring, reader: &Reader) -> String {
     }
 }
 
-/// Several designs beside each other.
-fn beside(all: &[Design], reader: &Reader) -> Table {
+/// Several designs side by side.
+fn comparison(all: &[Design], reader: &Reader) -> Table {
     #[rustfmt::skip]
     let names = ["held by", "stiffness", "largest share of a limit", "of", "on the clamp", "within limits"];
     let row = |design: &Design| {
@@ -92,7 +92,7 @@ fn beside(all: &[Design], reader: &Reader) -> Table {
             percent(design.excess()),
             named(&found.tightest(&design.limits)),
             words_if(on_clamps.is_empty(), "–").to_owned() + &on_clamps,
-            within(found) + words_if(is_near(design), ", nearer than the error"),
+            verdict(found) + words_if(is_near(design), ", nearer than the error"),
         ])
     };
     let rows = all.iter().filter_map(row).collect();
@@ -128,13 +128,13 @@ fn curve(design: &Design, reader: &Reader) -> Table {
         };
         let first = stiffness(&point.springs[0], reader);
         let cells = [first].into_iter().chain(columns.iter().map(cell));
-        cells.chain([within(point)]).collect()
+        cells.chain([verdict(point)]).collect()
     };
     let names = ["stiffness".to_owned()].into_iter().chain(names).collect();
     (names, design.curve.iter().map(row).collect())
 }
 
-fn within(point: &TradeOff) -> String {
+fn verdict(point: &TradeOff) -> String {
     let within = if point.within_limits { "yes" } else { "no" };
     within.to_owned() + words_if(point.leaves_duct, ", leaves the duct")
 }

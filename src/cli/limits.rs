@@ -44,7 +44,7 @@ struct Limit {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Named {
-    /// The ends, where nothing is named.
+    /// The ends, if nothing is named.
     Ends,
     /// Every clamp.
     Clamps,
@@ -107,8 +107,8 @@ pub fn place(text: &str) -> Option<Place> {
 }
 
 /// Smallest force \[N\] and largest movement \[m\] that a limit is likely to be.
-const LEAST_FORCE: f64 = 10.0;
-const MOST_MOVEMENT: f64 = 1.0;
+const MIN_FORCE: f64 = 10.0;
+const MAX_MOVEMENT: f64 = 1.0;
 
 impl LimitArguments {
     /// Limits of force and of movement that were typed elsewhere, as the options take them; or which one is wrong, and why.
@@ -139,14 +139,14 @@ impl LimitArguments {
             bare.map(|limit| limit.value).collect()
         };
         for force in bare(&self.limit_force) {
-            if force < LEAST_FORCE {
+            if force < MIN_FORCE {
                 terminal::warn(format_args!(
                     "--limit-force is {force} N: did you mean {force}kN?"
                 ));
             }
         }
         for movement in bare(&self.limit_movement) {
-            if movement > MOST_MOVEMENT {
+            if movement > MAX_MOVEMENT {
                 let meant = format!("did you mean {movement}mm?");
                 terminal::warn(format_args!("--limit-movement is {movement} m: {meant}"));
             }
@@ -167,21 +167,21 @@ impl LimitArguments {
     /// clamp's own limit before that of all clamps.
     pub fn limits(&self, scene: &Scene) -> Result<Limits, Failure> {
         self.warn_of_slips();
-        self.limits_beside(scene, &[])
+        self.limits_with(scene, &[])
     }
 
-    /// The limits of every point of a sweep. A limit of all clamps is none where there is no clamp.
+    /// The limits of every point of a sweep. A limit of all clamps is none if there is no clamp.
     pub fn of_points(&self) -> crate::sweep::PointLimits {
         let own = self.clone();
         crate::sweep::PointLimits::new(format!("{self:?}"), move |scene| {
             // A clamp of other points, wherever it is.
-            let limits = own.limits_beside(scene, &[Place::Clamp(f64::NAN)]);
+            let limits = own.limits_with(scene, &[Place::Clamp(f64::NAN)]);
             limits.map_err(|failure| failure.to_string())
         })
     }
 
     /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.
-    pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
+    pub fn limits_with(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
         let clamps = scene.restraints.iter();
         let clamps: Vec<Place> = clamps.map(|clamp| Place::Clamp(clamp.position)).collect();
         let all = [&[Place::Upstream, Place::Downstream], &clamps[..], elsewhere].concat();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::outputs::{Force, beside};
+use super::outputs::{Force, further_output};
 use super::progress::watched;
 use super::shared::{Input, Json, TrafficArguments, UncertainArguments};
 use super::terminal;
@@ -53,10 +53,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let mut files = arguments.force.files(read.into_iter().flatten());
     let (xlsx, allowed) = (&arguments.xlsx, "a workbook of Excel, such as measures.xlsx");
-    let workbook = beside(&mut files, "--xlsx", xlsx.as_deref(), "xlsx", allowed)?;
+    let workbook = further_output(&mut files, "--xlsx", xlsx.as_deref(), "xlsx", allowed)?;
     let study = Study::new(input.file())?;
     // A limit of a clamp that no measure has would say nothing.
-    arguments.limits.limits_beside(&input.scene, &study.clamps())?;
+    arguments.limits.limits_with(&input.scene, &study.clamps())?;
     let comparison = input.located(compared(&study, &arguments.limits))?;
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     if let Some(output) = &workbook {

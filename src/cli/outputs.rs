@@ -88,7 +88,7 @@ pub fn output(
 }
 
 /// The same where a file is named at all, of what stands in no row with the answer: it is not standard output.
-pub fn beside(
+pub fn further_output(
     files: &mut Files,
     argument: &'static str,
     path: Option<&Path>,
@@ -128,7 +128,7 @@ impl OutputArguments {
         let is_on_stdout = is_table_alone || table.as_ref().is_some_and(Output::is_standard_output);
         if self.json.json && is_on_stdout {
             let found = "standard output, where --json prints";
-            return Err(Failure::usage("--csv", found, "a file beside --json"));
+            return Err(Failure::usage("--csv", found, "another file with --json"));
         }
         Ok(Destination {
             json: self.json,

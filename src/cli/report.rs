@@ -24,7 +24,7 @@ const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The page holds scene, numbers, figures and, given limits, the measures that keep them; it needs no network and nothing beside it. It names the files it was made from with their SHA-256, and the date: that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it. It is in the units that were typed in limits and scene, where they suit.
+    after_help = "The page holds scene, numbers, figures and, given limits, the measures that keep them; it needs no network and no other file. It names the files it was made from with their SHA-256, and the date: that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it. It is in the units that were typed in limits and scene, where they suit.
 
 Examples:
   creepage report my-duct.toml -o my-duct.html

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::limits::{CheckArgument, LimitArguments};
-use super::outputs::{OutputArguments, beside};
+use super::outputs::{OutputArguments, further_output};
 use super::progress::watched;
 use super::shared::{Input, TrafficArguments};
 use super::state::StartArgument;
@@ -63,7 +63,7 @@ pub struct Judged<'a> {
 
 #[derive(Serialize)]
 pub struct Judgement {
-    /// Of the limit that is exceeded first; null where all are kept.
+    /// Of the limit that is exceeded first; null if all are kept.
     limit_reached_after: Option<Reached>,
     pub limits: Vec<Verdict>,
 }
@@ -92,12 +92,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let destination = arguments.output.destination(&mut files)?;
     let start = arguments.start.start()?;
     let (option, path) = ("--save-state", arguments.save_state.as_deref());
-    let saved = beside(&mut files, option, path, "json", "a file for --from-state")?;
+    let saved = further_output(&mut files, option, path, "json", "a file for --from-state")?;
     let (path, allowed) = (
         arguments.xlsx.as_deref(),
         "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv",
     );
-    let workbook = beside(&mut files, "--xlsx", path, "xlsx", allowed)?;
+    let workbook = further_output(&mut files, "--xlsx", path, "xlsx", allowed)?;
     let reader = Reader::new(arguments.limits.units(input.file()), &input.scene);
     let words = |_| "passes on finer and finer meshes".to_owned();
     let run = watched(1.0, words, |progress| {

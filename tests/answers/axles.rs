@@ -1,4 +1,4 @@
-//! Many passes of an axle histogram: stand-ins beside every axle at random.
+//! Many passes of an axle histogram: stand-ins compared with every axle at random.
 
 use creepage::{CableEnd, Limited, PassRecord, Scene};
 

@@ -147,7 +147,7 @@ fn assert_finite(value: &serde_json::Value, place: &str) {
 }
 
 /// A free end carries nothing, a fixed one does not move, a spring carries what it is compressed by; and what the ends carry
-/// differs by no more than friction holds, where there are no clamps.
+/// differs by no more than friction holds, if there are no clamps.
 #[track_caller]
 fn assert_ends(scene: &Scene, passes: &[PassRecord]) {
     let friction = limit(scene) * scene.duct.length;

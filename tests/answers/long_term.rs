@@ -139,7 +139,7 @@ fn by(method: SolverMethod, nodes: f64, scene: &Scene) -> Result<Run, Error> {
     creepage::run(&scene)
 }
 
-/// `None` where no mesh here is good enough, jumps or not.
+/// `None` if no mesh here is good enough, jumps or not.
 fn compare(seed: u64) -> Option<Found> {
     let scene = random(seed);
     for nodes in NODES {

@@ -111,7 +111,7 @@ fn a_named_mesh_of_few_nodes_a_depth_is_answered_on_layers_too() {
     assert!(stated.relative < 0.1, "{stated:?}");
 }
 
-/// Where nothing creeps the ends slip on a centimetre of cable, less than meshes resolve: forces of a fraction of a newton are answered all
+/// If nothing creeps the ends slip on a centimetre of cable, less than meshes resolve: forces of a fraction of a newton are answered all
 /// the same, with the error that they have.
 #[test]
 fn forces_too_small_to_matter_are_answered_with_a_large_error() {

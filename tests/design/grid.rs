@@ -139,7 +139,7 @@ pub fn sprung(scene: &Scene, places: &[Place], stiffness: f64) -> Run {
     held(scene, &springs)
 }
 
-/// Checks a design that keeps its limits: by a run of its own, and none does beside its range.
+/// Checks a design that keeps its limits: by a run of its own, and none outside its range does.
 pub fn check_range(scene: &Scene, places: &[Place], all: &[Given]) -> Design {
     let design = designed(scene, places, all);
     let answer = design.answer.as_ref().expect("an answer");

@@ -62,7 +62,7 @@ fn where_only_forces_are_limited_two_springs_are_as_stiff_as_they_allow() {
     assert!(springs.all(|spring| spring.stiffness_n_per_m.is_none()));
 }
 
-/// Limits that the springs hardly keep: where none is found, it is known only if the nearest is farther from them than its error.
+/// Limits that the springs hardly keep: if none is found, it is known only if the nearest is farther from them than its error.
 #[test]
 fn springs_that_hardly_keep_the_limits_are_found() {
     let scene = scene(&[]);

@@ -15,7 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub const PHONE: u32 = 390;
 pub const DESK: u32 = 1200;
 /// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
-pub const LEAST_CONTRAST: f64 = 4.5;
+pub const MIN_CONTRAST: f64 = 4.5;
 /// The contrast of two colours, in JavaScript.
 pub const CONTRAST_OF: &str = r"
   const channels = (colour) => colour.match(/[\d.]+/g).map(Number);

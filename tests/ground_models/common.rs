@@ -76,7 +76,7 @@ pub fn any_base() -> impl Strategy<Value = Base> {
     prop_oneof![2 => any_soil().prop_map(Base::HalfSpace), 1 => Just(Base::Rigid)]
 }
 
-/// A depth of 0.6 to 2 m that lies above the base, if that is rock; `None` where there is none.
+/// A depth of 0.6 to 2 m that lies above the base, if that is rock; `None` if there is none.
 pub fn depth_in(layers: &[(f64, Soil)], base: Base, share: f64) -> Option<f64> {
     let bottom = match base {
         Base::Rigid => 0.9 * layers.iter().map(|layer| layer.0).sum::<f64>(),

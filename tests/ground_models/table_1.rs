@@ -59,7 +59,7 @@ fn the_preset_has_the_ratio_of_the_papers_figures() {
     within(peaks(&["ground.model=fem"]), ROCK_OF_THE_PRESET, 0.15);
     assert_within(as_computed[0] / as_computed[1], 16.0 / 90.0, 5e-4, as_computed);
     within(peaks(&["ground.vertical_peak=90 um"]), [16.0, 90.0], 0.05);
-    // What stands beside the preset counts instead of its value.
+    // Other keys count instead of the preset's values.
     within(peaks(&["ground.rigid_base_depth=12 m"]), ROCK, 0.05);
     within(peaks(&["ground.rigid_base_depth="]), HALF_SPACE, 0.05);
 }

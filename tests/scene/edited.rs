@@ -290,7 +290,7 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
     }
 }
 
-/// Work that a test can do: two passes over a cable that is not long beside its duct's depth, on a mesh that is no finer than usual.
+/// Work that a test can do: two passes over a cable that is not long relative to its duct's depth, on a mesh that is no finer than usual.
 fn small(scene: &Scene) -> bool {
     let finest = scene.duct.depth / 12.0;
     let usual = |step: Option<f64>| step.is_none_or(|step| step >= finest);

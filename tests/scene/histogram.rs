@@ -145,7 +145,7 @@ fn a_scene_says_how_its_table_is_written() {
     }
 }
 
-/// A table, and what its message holds beside the place in the scene.
+/// A table, and what its message holds besides the place in the scene.
 const BAD: &str = "\
 ∅ | no rows | load, count
 load¶50 kN | axles.csv:1 | no column count
@@ -164,7 +164,7 @@ load,count¶20 kN,5,7 | axles.csv:2: 3 cells
 load [kg],count¶3000-3999,3 | axles.csv:2: load | found \"3000-3999\"
 class,load [kN],count¶1,50,3¶,,3 | axles.csv:3: load [kN]: found \"\"
 load from [kN],load to [kN],count¶40,50,3 | axles.csv:1: a second column load to
-load [kN];count¶50;75 %¶100;25 | axles.csv:3: count: found \"25\" | beside others in %
+load [kN];count¶50;75 %¶100;25 | axles.csv:3: count: found \"25\" | among others in %
 load [m],count¶40,3 | load [m]: found \"40\" | a force
 load,count,contact_radius¶5 kN,1,1 km | contact_radius: found \"1 km\"";
 

@@ -8,7 +8,7 @@ use ground_field::{Base, Modulus, Soil, SoilLayer};
 
 use crate::scenes::{assert_near, scene_of};
 
-/// A scene whose sections are presets where there is one.
+/// A scene whose sections are presets if there is one.
 const SCENE: &str = r#"duct = { length = "30 m", depth = "1.2 m" }
 ground = { preset = "n6-cbr6" }
 cable = { preset = "xlpe-800-single-core" }

@@ -11,7 +11,7 @@ fn years_are_whole_passes_of_an_average_year() {
     assert_eq!(passes(&years).unwrap(), 5_844_000);
     // 365.25 · 0.1 = 36.525, rounded.
     assert_eq!(passes(&["traffic.years=1", "traffic.per_day=0.1"]).unwrap(), 37);
-    // What was set later counts, and a rate beside passes changes none.
+    // What was set later counts, and a rate with passes changes none.
     assert_eq!(passes(&["traffic.years=20", "traffic.passes=7"]).unwrap(), 7);
     assert_eq!(passes(&["traffic.per_day=3"]).unwrap(), 60);
 }

@@ -19,7 +19,7 @@ const NEAR: f64 = 0.9;
 const LONGEST: Duration = Duration::from_secs(20);
 const QUICK: f64 = 0.95;
 
-/// One run of a mix beside that of every pass.
+/// One run of a mix compared with that of every pass.
 struct Judged {
     seed: u64,
     method: &'static str,

@@ -78,7 +78,7 @@ impl Mesh {
         matrix
     }
 
-    /// Displacements (u_r, u_z) node by node under `force`, `given` where `fixed`; none where the stiffness is not positive definite.
+    /// Displacements (u_r, u_z) node by node under `force`, `given` where `fixed`; none if the stiffness is not positive definite.
     pub fn solve(
         &self,
         fixed: &[bool],

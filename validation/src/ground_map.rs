@@ -8,7 +8,7 @@ use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
 use crate::Failure;
 use crate::map::{Cell, DEPTH, Grid, Outcome, WRONG};
 
-/// Two models beside each other: the crate is model 0.
+/// Two models side by side: the crate is model 0.
 pub struct GroundMap {
     pub models: [&'static str; 2],
     /// Error, as a share of the peak, up to which an answer is right.

@@ -22,7 +22,7 @@ pub enum Outcome {
     Off,
 }
 
-/// What came out beside the right force \[N\], or the error as a share; NaN where there is no answer.
+/// What came out and the right force \[N\], or the error as a share; NaN if there is no answer.
 #[derive(Debug, Clone, Copy)]
 pub struct Cell {
     pub outcome: Outcome,
@@ -89,7 +89,7 @@ impl<C: Send> Grid<C> {
     }
 }
 
-/// Two methods beside each other.
+/// Two methods side by side.
 impl Grid<[Cell; 2]> {
     /// How often a method ended so.
     pub fn count(&self, method: usize, outcome: Outcome) -> usize {

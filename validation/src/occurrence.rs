@@ -34,7 +34,7 @@ const LENGTHS: (f64, f64) = (50.0, 100.0);
 const NODES_PER_DEPTH: f64 = 24.0;
 /// Change of the force in a hundred passes at which nothing changes any more, as a share of q L.
 const SETTLED: f64 = 1e-5;
-const MOST_PASSES: u32 = 10_000;
+const MAX_PASSES: u32 = 10_000;
 /// Up to this Q the stiffer sheath is computed. Its shear acts over 0.09 m, which hardly shows on this mesh: near shakedown not
 /// well enough.
 const STIFF_TO: f64 = 2.0;
@@ -87,7 +87,7 @@ impl Case {
     pub fn saturated(&self, depths: f64, nodes_per_depth: f64) -> Result<(f64, f64), Failure> {
         let mut duct = self.duct(depths, nodes_per_depth, End::Fixed)?;
         let mut force = 0.0_f64;
-        for _ in 0..MOST_PASSES / 100 {
+        for _ in 0..MAX_PASSES / 100 {
             let before = force;
             for _ in 0..100 {
                 force = duct.solver.pass(&duct.passage, &mut duct.state)?.force.downstream;
@@ -100,7 +100,7 @@ impl Case {
                 return Ok((slope / self.limit, force / scale));
             }
         }
-        Err(format!("Q = {}: not saturated after {MOST_PASSES} passes", self.number).into())
+        Err(format!("Q = {}: not saturated after {MAX_PASSES} passes", self.number).into())
     }
 
     /// G(0)/D, the mean over the passes 2 to 6.

@@ -80,7 +80,7 @@ pub fn half_space_motion(scene: &Scene, accuracy: f64) -> Result<DuctMotion, Fai
 }
 
 /// `passes` passes of the first vehicle, with `density` nodes a depth of the duct and two steps of the vehicle a node spacing.
-/// `None` where the first passes show that all of them would take longer than `seconds`, about.
+/// `None` if the first passes show that all of them would take longer than `seconds`, about.
 pub fn simulate(
     scene: &Scene,
     motion: &DuctMotion,

@@ -15,7 +15,7 @@ pub struct Point {
     pub knob: f64,
     pub error: f64,
     pub seconds: f64,
-    /// Work that knows no machine; `None` where none is counted.
+    /// Work that knows no machine; `None` if none is counted.
     pub count: Option<f64>,
 }
 

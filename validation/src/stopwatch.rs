@@ -8,7 +8,7 @@ const BATCH: f64 = 0.12;
 const BATCHES: usize = 4;
 const PATIENCE: f64 = 1.0;
 
-/// Time \[s\] that this process has taken on all processors together, `None` where the system does not tell.
+/// Time \[s\] that this process has taken on all processors together, `None` if the system does not tell.
 fn processor_seconds() -> Option<f64> {
     // proc(5): utime and stime, in hundredths of a second, are the 14th and 15th field; the 2nd, in brackets, may hold blanks.
     let text = std::fs::read_to_string("/proc/self/stat").ok()?;

@@ -23,7 +23,7 @@ pub fn read(file: &Path) -> Result<csv::Reader<File>, csv::Error> {
     csv::ReaderBuilder::new().comment(Some(b'#')).from_path(file)
 }
 
-/// The last commit of the program's sources, and whether they have changed since; `None` where git does not say.
+/// The last commit of the program's sources, and whether they have changed since; `None` if git does not say.
 fn commit() -> Option<String> {
     const SOURCES: [&str; 4] = ["--", "src", "crates/*/src/*", "Cargo.lock"];
     let git = |arguments: &[&str]| {

@@ -27,7 +27,7 @@ pub(crate) struct Complete {
 const AGREEMENT: f64 = 1e-8;
 
 /// Never reached: the means halve their logarithmic distance first, then converge quadratically.
-const MOST_STEPS: usize = 40;
+const MAX_STEPS: usize = 40;
 
 /// B, D and J for 0 < `kc` ≤ 1 and `p` > 0. For `p` = 0, where J is infinite, J is given as 0: its factor is then 0 too.
 pub(crate) fn complete(kc: f64, p: f64) -> Complete {
@@ -42,7 +42,7 @@ pub(crate) fn complete(kc: f64, p: f64) -> Complete {
     } else {
         (0.0, 0.0, 1.0)
     };
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let inverse = 1.0 / arithmetic;
         (b_cos, b_sin) = (b_cos + b_sin * inverse, 2.0 * (b_sin + b_cos * geometric));
         (d_cos, d_sin) = (d_cos + d_sin * inverse, 2.0 * (d_sin + d_cos * geometric));

@@ -49,7 +49,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`GroundError::Singular`] where a point load acts.
+    /// [`GroundError::Singular`] if a point load acts.
     pub fn displacement(&self, load: SurfaceLoad, radius: f64) -> Result<Bounded, GroundError> {
         let value = self.half_space.displacement(load, radius, self.depth)? * self.weight;
         let size = ROUNDING * value.vertical.abs();

@@ -44,7 +44,7 @@ impl LayeredHalfSpace {
     ///
     /// # Errors
     ///
-    /// [`GroundError::Unsupported`] where a layer's modulus varies with depth.
+    /// [`GroundError::Unsupported`] if a layer's modulus varies with depth.
     pub fn new(profile: &SoilProfile) -> Result<Self, GroundError> {
         Ok(Self {
             ground: Ground::new(profile)?,
@@ -76,7 +76,7 @@ impl LayeredHalfSpace {
     /// # Errors
     ///
     /// [`GroundError::InvalidParameter`] unless radii and depth are finite and not negative; [`GroundError::Singular`] at a
-    /// point load; [`GroundError::Accuracy`] where the accuracy is not reached.
+    /// point load; [`GroundError::Accuracy`] if the accuracy is not reached.
     pub fn displacements_with_statistics(
         &self,
         load: SurfaceLoad,

@@ -16,7 +16,7 @@ use crate::panel::{Series, derivative_of};
 const MAX_ITERATIONS: usize = 40;
 
 /// Values at the nodes of p and q with (p J0 + q J1)' = f J0 + g J1 of argument m `radius`, over an interval of `half` the width with
-/// nodes at the `wavenumbers`, and a bound of the integral's error; `None` where the alternation does not reach `tolerance`.
+/// nodes at the `wavenumbers`, and a bound of the integral's error; `None` if the alternation does not reach `tolerance`.
 pub(crate) fn antiderivative(
     radius: f64,
     (half, wavenumbers): (f64, &Series),

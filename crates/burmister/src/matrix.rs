@@ -27,7 +27,7 @@ impl Matrix2 {
         Self::new(self.a, self.c, self.b, self.d)
     }
 
-    /// Inverse; not finite where the matrix is singular, which the caller's check of the result catches.
+    /// Inverse; not finite if the matrix is singular, which the caller's check of the result catches.
     pub fn inverse(self) -> Self {
         let scale = 1.0 / (self.a * self.d - self.b * self.c);
         Self::new(self.d, -self.b, -self.c, self.a) * scale

@@ -96,7 +96,7 @@ impl Remainder {
     ///
     /// # Errors
     ///
-    /// [`GroundError::Singular`] where it has no finite value.
+    /// [`GroundError::Singular`] if it has no finite value.
     pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> Result<Bounded, GroundError> {
         let (mut sum, mut rounding) = (Displacement::ZERO, Displacement::ZERO);
         for image in &self.images {

@@ -78,7 +78,7 @@ impl Ground {
         self.base_depth() * (stiffest / base).max((stiffest / softest).sqrt())
     }
 
-    /// The uppermost soil; infinitely thick where there is no other.
+    /// The uppermost soil; infinitely thick if there is no other.
     pub fn top(&self) -> Option<Lamina> {
         self.laminae.first().copied().or(self.base)
     }

@@ -41,7 +41,7 @@ impl Transform<'_> {
     ///
     /// # Errors
     ///
-    /// [`GroundError::Singular`] where the field has no finite value, [`GroundError::Accuracy`] where the estimate is not below
+    /// [`GroundError::Singular`] if the field has no finite value, [`GroundError::Accuracy`] if the estimate is not below
     /// the asked accuracy.
     pub fn run(&self, radii: &[f64]) -> Result<(Vec<Displacement>, Statistics), GroundError> {
         let closed = self.closed_forms(radii)?;
@@ -169,7 +169,7 @@ impl Transform<'_> {
     }
 
     /// Integral of the transform's decaying end beyond `wavenumber`, from its values just before: what is left after
-    /// rounding, over the decay length, with a factor 2 for the powers of m beside the exponential.
+    /// rounding, over the decay length, with a factor 2 for the powers of m with the exponential.
     fn tail(&self, wavenumber: f64) -> Displacement {
         // Three places, lest a zero of the disc's factor passes for decay.
         largest([1.0, 0.98, 0.95].map(|part| {

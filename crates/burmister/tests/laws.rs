@@ -1,4 +1,4 @@
-//! Laws on random grounds, beside the oracle of `random_grounds`: moduli over four decades, layers of 2 mm to 10 m, ν from 0 to 0.5, half-space or rock below.
+//! Laws on random grounds, in addition to the oracle of `random_grounds`: moduli over four decades, layers of 2 mm to 10 m, ν from 0 to 0.5, half-space or rock below.
 
 use std::f64::consts::PI;
 

@@ -48,7 +48,7 @@ fn kernels(criterion: &mut Criterion) {
     // The tridiagonal solve with its check: a window on the whole cable is solved at every step.
     for (name, law, stiffness) in [
         ("active set, nodes", SHEATH, 8.01e6),
-        // Half of its windows cycle: what remains beside the iteration is the exact step.
+        // Half of its windows cycle: what remains besides the iteration is the exact step.
         ("active set and exact step, nodes", FrictionLaw::Coulomb, 1e10),
     ] {
         let cable = cable(law, stiffness);

@@ -32,7 +32,7 @@ pub enum CableError {
         vehicle(*.vehicle_position)
     )]
     NoConvergence {
-        /// Position of the vehicle's origin along the duct \[m\]; infinite where none is near.
+        /// Position of the vehicle's origin along the duct \[m\]; infinite if none is near.
         vehicle_position: f64,
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,
@@ -144,7 +144,7 @@ pub enum CableError {
 }
 
 impl CableError {
-    /// That of a step with the vehicle at `vehicle_position` \[m\], infinite where none is near.
+    /// That of a step with the vehicle at `vehicle_position` \[m\], infinite if none is near.
     pub(crate) fn of_step(error: ChainError, vehicle_position: f64) -> Self {
         match error {
             ChainError::NoEquilibrium { violation } => Self::NoConvergence {

@@ -26,8 +26,8 @@ use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable
 ///
 /// # Errors
 ///
-/// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NothingHolds`] where p over the whole duct is no less than q and no end and
-/// no clamp holds the cable, [`CableError::NoConvergence`] where no equilibrium is found.
+/// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NothingHolds`] if p over the whole duct is no less than q and no end and
+/// no clamp holds the cable, [`CableError::NoConvergence`] if no equilibrium is found.
 pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> {
     let cable = &cable.clone().with_end_positions([0.0; 2])?;
     let mut state = CableState::at_rest(mesh);

@@ -6,7 +6,7 @@ use crate::error::{checked, positive};
 /// Most nodes a mesh may have: 1e7 nodes take about 1 GB.
 const MAX_NODES: f64 = 1e7;
 /// Fewest elements of a cable, however short, and steps of the vehicle per node spacing in [`Mesh::for_depth`].
-const FEWEST: f64 = 8.0;
+const MIN_ELEMENTS: f64 = 8.0;
 const STEPS_PER_SPACING: f64 = 2.0;
 
 /// Equally spaced nodes 0..=n along the cable, and the vehicle's advance per step.
@@ -90,7 +90,7 @@ impl Mesh {
         positive("length", length)?;
         positive("depth", depth)?;
         checked("nodes_per_depth", nodes_per_depth, "at least 3", |v| v >= 3.0)?;
-        let spacing = (depth / nodes_per_depth).min(length / FEWEST);
+        let spacing = (depth / nodes_per_depth).min(length / MIN_ELEMENTS);
         Self::new(length, spacing, spacing / STEPS_PER_SPACING)
     }
 

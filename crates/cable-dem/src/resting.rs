@@ -136,7 +136,7 @@ impl RestingCable {
             });
     }
 
-    /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, beside that which balances the body force, at every
+    /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, in addition to that which balances the body force, at every
     /// node that can move; the others are left.
     pub fn balance(&self, u: &[f64], friction: &mut [f64]) {
         for i in self.step.chain.free().nodes() {
@@ -185,7 +185,7 @@ impl RestingCable {
     /// # Errors
     ///
     /// [`CableError::StateMismatch`] and [`CableError::InvalidParameter`] for a state of another
-    /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
+    /// mesh; [`CableError::NoConvergence`] if no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
         self.step.chain.set_clamps(&self.clamps.stuck(&state.clamp_slips));

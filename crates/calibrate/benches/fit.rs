@@ -1,4 +1,4 @@
-//! What a fit costs beside the model: forces in closed form, so that nearly all of the time is the calibrator's own.
+//! What a fit costs besides the model: forces in closed form, so that nearly all of the time is the calibrator's own.
 
 use std::hint::black_box;
 

@@ -98,12 +98,13 @@ struct Surface<'a> {
 /// relative offset orthogonality convergence criterion", Technometrics 23, 1981).
 fn has_converged(state: &Iteration) -> bool {
     let factor = state.get_hessian().and_then(|hessian| hessian.clone().cholesky());
-    let both = state.get_gradient().zip(factor);
-    both.is_some_and(|(gradient, factor)| 0.5 * gradient.dot(&factor.solve(gradient)) < CONVERGED * CONVERGED)
+    let local = state.get_gradient().zip(factor);
+    local
+        .is_some_and(|(gradient, factor)| 0.5 * gradient.dot(&factor.solve(gradient)) < CONVERGED * CONVERGED)
 }
 
-/// How far beyond its bound a variable is, where nothing changes any more and a spring draws it back.
-fn beyond(z: f64) -> f64 {
+/// How far beyond its bound a variable is, if nothing changes any more and a spring draws it back.
+fn overshoot(z: f64) -> f64 {
     z - z.clamp(-FARTHEST, FARTHEST)
 }
 
@@ -112,7 +113,7 @@ impl CostFunction for Surface<'_> {
     type Output = f64;
 
     fn cost(&self, free: &DVector<f64>) -> Result<f64, Error> {
-        let springs: f64 = free.iter().map(|&z| beyond(z).powi(2)).sum();
+        let springs: f64 = free.iter().map(|&z| overshoot(z).powi(2)).sum();
         let residuals = self.likelihood.point(free.clone()).residuals;
         Ok(self.deviance.total(&residuals) + springs)
     }
@@ -129,7 +130,7 @@ impl Gradient for Surface<'_> {
             jacobian.column_mut(held).fill(0.0);
         }
         let weights = self.deviance.weights(&residuals);
-        let springs = free.map(|z| 2.0 * beyond(z));
+        let springs = free.map(|z| 2.0 * overshoot(z));
         let mut hessian = 2.0 * information(&jacobian, &weights);
         for (k, &spring) in springs.iter().enumerate() {
             hessian[(k, k)] += 2.0 * if spring == 0.0 { RIDGE } else { 1.0 };

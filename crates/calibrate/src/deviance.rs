@@ -16,7 +16,7 @@ use crate::Loss;
 /// Makes the median of |r| under Gaussian noise a standard deviation.
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// Least share of residuals that count fully in a robust fit; below, its own statistics mean nothing.
-const LEAST_CURVATURE: f64 = 0.1;
+const MIN_CURVATURE: f64 = 0.1;
 
 /// The function that is minimised.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +41,7 @@ impl Deviance {
         }
     }
 
-    /// D of the residuals; infinite where the model has no answer.
+    /// D of the residuals; infinite if the model has no answer.
     pub fn total(&self, residuals: &DVector<f64>) -> f64 {
         let (data, priors) = residuals.as_slice().split_at(self.data.min(residuals.len()));
         let data: f64 = data.iter().map(|r| self.loss.doubled(r / self.spread)).sum();
@@ -76,7 +76,7 @@ impl Deviance {
     fn mean_curvature(&self, residuals: &DVector<f64>) -> f64 {
         let data = residuals.iter().take(self.data);
         let sum: f64 = data.map(|r| self.loss.curvature(r / self.spread)).sum();
-        (sum / self.data as f64).max(LEAST_CURVATURE)
+        (sum / self.data as f64).max(MIN_CURVATURE)
     }
 
     /// The same with s, of a robust loss, and κ, of a noise that is not known, as these residuals have

@@ -122,7 +122,7 @@ impl Emulator {
         self.krigings = self.parts.iter().map(of_part).collect();
     }
 
-    /// Predictions at a place; nothing where the model should have no answer, because the nearest run has
+    /// Predictions at a place; nothing if the model should have no answer, because the nearest run has
     /// none.
     pub(crate) fn at(&self, place: &DVector<f64>) -> Option<DVector<f64>> {
         let distance = |run: &DVector<f64>| (run - place).norm_squared();

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// An interval; an end is `None` where the data do not close it.
+/// An interval; an end is `None` if the data do not close it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Interval {
     /// Lower end.
@@ -52,7 +52,7 @@ pub struct Estimate {
     /// Best value.
     pub value: f64,
     /// Standard error by the slopes of the model at the optimum, by the interval where these contradict it;
-    /// `None` where the data say nothing about the parameter there.
+    /// `None` if the data say nothing about the parameter there.
     pub standard_error: Option<f64>,
     /// Interval at the level of confidence asked.
     pub interval: Interval,

@@ -13,7 +13,7 @@ use crate::{Calibration, Emulator, Estimate, Warning};
 pub struct Fit {
     /// The parameters, in the order in which they were given.
     pub estimates: Vec<Estimate>,
-    /// Correlation of the parameters by the curvature at the optimum; `None` where one of them has no
+    /// Correlation of the parameters by the curvature at the optimum; `None` if one of them has no
     /// standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
     /// Predictions of the calibrated model.

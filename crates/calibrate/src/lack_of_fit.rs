@@ -8,7 +8,7 @@
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
 
 /// Fewest residuals that are judged.
-const FEWEST: f64 = 3.0;
+const MIN_FREEDOM: f64 = 3.0;
 
 /// Probability of so few changes of sign by chance, of residuals in the order in which they were
 /// measured; `series` are independent.
@@ -29,7 +29,7 @@ pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<
     let gain = (before - after).max(0.0);
     match known {
         Some(noise) => Some(1.0 - ChiSquared::new(1.0).ok()?.cdf(gain / (noise * noise))),
-        None if freedom < FEWEST => None,
+        None if freedom < MIN_FREEDOM => None,
         None => {
             let noise = (after / freedom).max(f64::MIN_POSITIVE);
             Some(1.0 - FisherSnedecor::new(1.0, freedom).ok()?.cdf(gain / noise))
@@ -47,7 +47,7 @@ pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
     let (pieces, rough) = squares(series.iter().flat_map(|residuals| residuals.windows(3)).map(off));
     // Neighbouring pieces share readings: they count as half as many.
     let (freedom, half) = (count - used, 0.5 * pieces);
-    if rough <= 0.0 || freedom < FEWEST || half < FEWEST {
+    if rough <= 0.0 || freedom < MIN_FREEDOM || half < MIN_FREEDOM {
         return None;
     }
     let ratio = square / freedom / (rough / pieces);

@@ -19,7 +19,7 @@ pub trait Model: Sync {
     /// any of its first places.
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError>;
 
-    /// Which parameters act on which predictions; nothing where all may act on all. Where each of several
+    /// Which parameters act on which predictions; nothing if all may act on all. Where each of several
     /// series has parameters of its own, the emulator follows each by itself, and takes fewer runs.
     fn parts(&self) -> Vec<Part> {
         Vec::new()

@@ -43,7 +43,7 @@ impl ProfilePoint {
 pub(crate) struct Profile {
     /// In the order of the parameter.
     pub points: Vec<ProfilePoint>,
-    /// Free variables at the lower and the upper end; `None` where the likelihood does not close.
+    /// Free variables at the lower and the upper end; `None` if the likelihood does not close.
     pub ends: [Option<f64>; 2],
     /// The points next to those ends.
     pub at_ends: Vec<ProfilePoint>,

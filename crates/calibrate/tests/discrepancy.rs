@@ -85,7 +85,7 @@ fn intervals_hold_where_the_model_is_off_by_the_given_size() {
 }
 
 /// Where there is none, a given discrepancy makes intervals wide and does not move the noise; one that does
-/// not show beside the noise changes nothing.
+/// not show above the noise changes nothing.
 #[test]
 fn a_size_is_taken_as_it_is_given() {
     for seed in 0..10 {

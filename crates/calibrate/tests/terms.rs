@@ -69,7 +69,7 @@ fn terms_fit_as_a_models_parameters_do() {
     assert!(runs.into_inner() <= 60, "{}", fit.evaluations);
 }
 
-/// What the parameters can make good, and what they cannot: a constant and a parabola beside a line, whose
+/// What the parameters can make good, and what they cannot: a constant and a parabola in addition to a line, whose
 /// distance from the nearest line is exact.
 #[test]
 fn what_the_parameters_make_good_is_told() {

@@ -1,4 +1,4 @@
-//! Time of days with heat and traffic: 60 m of cable, 480 vehicles of 20 tf a day, 20 K, 24 real passes a day beside all of them. Prints counts.
+//! Time of days with heat and traffic: 60 m of cable, 480 vehicles of 20 tf a day, 20 K, 24 real passes a day compared with all of them. Prints counts.
 
 use boussinesq::HalfSpace;
 use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};

@@ -23,7 +23,7 @@ const CHECKED: u64 = 2;
 ///
 /// # Errors
 ///
-/// Those of `pass`; [`JumpError`] where jumps make no progress, or the cable finds no rest.
+/// Those of `pass`; [`JumpError`] if jumps make no progress, or the cable finds no rest.
 pub fn evolve<E: From<JumpError>>(
     cable: &DuctedCable,
     mesh: &Mesh,
@@ -46,7 +46,7 @@ pub fn evolve<E: From<JumpError>>(
     let all = request.passes / length;
     let mut known = walk.start(all)?;
     if let Some(known) = &mut known {
-        if !walk.until(all, known, jumps.most_passes)? {
+        if !walk.until(all, known, jumps.max_passes)? {
             return Err(walk.no_progress(all).into());
         }
     }
@@ -193,7 +193,7 @@ where
             return Ok(Some(Beyond { records, period }));
         }
         self.simulation.tolerance *= TOLERANCE_BEYOND;
-        let most = self.simulation.simulated + self.jumps.most_passes.0 / 3;
+        let most = self.simulation.simulated + self.jumps.max_passes.0 / 3;
         let leads = self.until(last, &mut known, (most, most))?;
         let mut records = self.simulation.take_records();
         records.retain(|record| record.pass > request.passes);

@@ -20,7 +20,7 @@ pub struct Evolution {
     /// other simulated ones, and within jumps some of the vehicles that make the largest forces and
     /// movements: candidates for [`peaks`](crate::peaks).
     pub records: Vec<Record>,
-    /// What each pass of the last whole period did; empty where nothing was jumped.
+    /// What each pass of the last whole period did; empty if nothing was jumped.
     pub period: Vec<PassOutcome>,
     /// The cable after the last pass.
     pub state: CableState,
@@ -40,7 +40,7 @@ pub struct Evolution {
     pub missed: f64,
     /// The most that a jump has changed of the forces, as a share of the largest.
     pub changed: f64,
-    /// Where the forces lead; `None` where nothing beyond the last pass was wanted, or they do not
+    /// Where the forces lead; `None` if nothing beyond the last pass was wanted, or they do not
     /// become steady.
     pub beyond: Option<Beyond>,
 }

@@ -15,7 +15,7 @@ pub struct Jumps {
     pub(crate) least: Scale,
     pub(crate) first_periods: u64,
     pub(crate) first_jump: f64,
-    pub(crate) most_passes: (u64, u64),
+    pub(crate) max_passes: (u64, u64),
 }
 
 impl Jumps {
@@ -44,7 +44,7 @@ impl Jumps {
             },
             first_periods: 8,
             first_jump: 0.25,
-            most_passes: (1000, 10_000),
+            max_passes: (1000, 10_000),
         })
     }
 
@@ -70,9 +70,9 @@ impl Jumps {
     /// the number after which the run gives up; in [`evolve_days`](crate::days::evolve_days)
     /// numbers of simulated days.
     #[must_use]
-    pub fn with_most_passes(self, jumping: u64, simulated: u64) -> Self {
+    pub fn with_max_passes(self, jumping: u64, simulated: u64) -> Self {
         Self {
-            most_passes: (jumping, simulated),
+            max_passes: (jumping, simulated),
             ..self
         }
     }

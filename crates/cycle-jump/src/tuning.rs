@@ -1,6 +1,6 @@
 //! Numbers found by experiment.
 //!
-//! Where nothing else is said they were halved and doubled on sixty random cables of 5 to 80 m,
+//! If nothing else is said they were halved and doubled on sixty random cables of 5 to 80 m,
 //! with one to three vehicles in one or two directions in periods of up to five, springs, clamps
 //! and any friction. A hundred million passes with a tolerance of 1 % take 2320 simulated passes in
 //! all, at most 32 periods. Of the first 600 passes, against all of them simulated, the worst force

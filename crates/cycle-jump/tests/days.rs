@@ -35,7 +35,7 @@ struct Scene {
     coulomb: bool,
     days: u64,
     knots: u64,
-    most_days: (u64, u64),
+    max_days: (u64, u64),
 }
 
 impl Default for Scene {
@@ -54,7 +54,7 @@ impl Default for Scene {
             coulomb: false,
             days: 3,
             knots: 24,
-            most_days: (150, 1000),
+            max_days: (150, 1000),
         }
     }
 }
@@ -111,7 +111,7 @@ impl Scene {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
         };
         let jumps = Jumps::new(5e-3, 1.2, (0.01 * limit, 1e-6))?.with_start(3, 0.5)?;
-        let jumps = jumps.with_most_passes(self.most_days.0, self.most_days.1);
+        let jumps = jumps.with_max_passes(self.max_days.0, self.max_days.1);
         let days = evolve_days(&cable, &mesh, (&day, law), &jumps, &request, one_pass);
         Ok(days?)
     }
@@ -280,7 +280,7 @@ fn days_that_take_too_long_are_given_up() {
     let scene = Scene {
         length: 300.0,
         days: 400,
-        most_days: (0, 5),
+        max_days: (0, 5),
         ..Scene::default()
     };
     // 300 m do not settle in five days.

@@ -26,7 +26,7 @@ fn cable(upstream: End, downstream: End, limit: f64) -> Result<(DuctedCable, Mes
 
 fn jumps(tolerance: f64) -> Result<Jumps, JumpError> {
     let jumps = Jumps::new(tolerance, 1.2, (0.01 * LIMIT, 4e-6))?;
-    Ok(jumps.with_most_passes(1000, 1000))
+    Ok(jumps.with_max_passes(1000, 1000))
 }
 
 fn request<'a>(

@@ -14,7 +14,7 @@ const PADDING: f64 = 8.0;
 const TITLE_LINE: f64 = 22.0;
 const TITLE_PADDING: f64 = 10.0;
 
-/// What an entry shows beside its name.
+/// What an entry shows with its name.
 enum Sample<'a> {
     Series(&'a Series),
     /// A class by its index.

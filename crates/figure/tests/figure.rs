@@ -304,9 +304,9 @@ fn errors_of_maps() {
 /// No number, however large or small, makes the drawing panic.
 #[test]
 fn extreme_numbers_give_a_figure_or_an_error() {
-    const LEAST: f64 = f64::MIN_POSITIVE;
+    const MIN: f64 = f64::MIN_POSITIVE;
     #[rustfmt::skip]
-    let numbers = [-f64::MAX, -1.0, -LEAST, 0.0, LEAST, 1e-300, 1.0, 1.0 + f64::EPSILON, 1e300, f64::MAX];
+    let numbers = [-f64::MAX, -1.0, -MIN, 0.0, MIN, 1e-300, 1.0, 1.0 + f64::EPSILON, 1e300, f64::MAX];
     for a in numbers {
         for b in numbers {
             for axis in [

@@ -100,7 +100,7 @@ fn method(problem: &Problem<'_>, fit: &Fit) -> Result<FitMethod, Error> {
     };
     let error = options.discrepancy.map_or_else(String::new, |share| {
         let percent = four_digits(100.0 * share);
-        format!(", beside a smooth error of the model of {percent} % of the largest reading")
+        format!(", besides a smooth error of the model of {percent} % of the largest reading")
     });
     Ok(FitMethod {
         cable: models[0].method().to_string(),
@@ -141,7 +141,7 @@ fn readings(problem: &Problem<'_>, found: &Final) -> Vec<FittedReading> {
     problem.rows.iter().enumerate().map(fitted).collect()
 }
 
-/// The share of the variance of the readings that are kept which the model explains; `None` where
+/// The share of the variance of the readings that are kept which the model explains; `None` if
 /// they do not vary.
 fn explained(readings: &[FittedReading]) -> Option<f64> {
     let kept = || readings.iter().filter(|reading| reading.weight >= LEFT_OUT);

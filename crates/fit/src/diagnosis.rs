@@ -30,8 +30,8 @@ const CHANCE_OF_ERRORS: f64 = 0.03;
 const OUTLIER: f64 = 4.5;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
-/// Fewest readings that are judged beside the parameters.
-const FEWEST: f64 = 3.0;
+/// Minimum number of readings in excess of the parameters.
+const MIN_FREEDOM: f64 = 3.0;
 
 /// Judges the fit, which explains the share `r_squared` of the readings; `mistakes` are those of
 /// sign and unit that were found. Verdict and warnings.
@@ -48,7 +48,7 @@ pub fn diagnose(
     let sequences = sequences(rows, &noise, &judged);
     // An error of a cell is smooth as well: it becomes part of the discrepancy.
     let hidden = problem.options.discrepancy.is_some() || !mistakes.is_empty();
-    let is_stated = fit.degrees_of_freedom >= FEWEST && !hidden;
+    let is_stated = fit.degrees_of_freedom >= MIN_FREEDOM && !hidden;
     let of_cell = |quantity| {
         let error = is_stated.then(|| cell_error(problem, found, quantity, &judged));
         error.unwrap_or(Ok(None))

@@ -1,4 +1,4 @@
-//! A smooth error of the model beside the noise of the readings.
+//! A smooth error of the model in addition to the noise of the readings.
 //!
 //! At each instrument it is a Gaussian process over the logarithm of the passes since the cable was
 //! at rest, of mean 0. Its standard deviation is a given share of the instrument's largest reading,

@@ -28,7 +28,7 @@ fn end_but(scene: &Scene, held: End) -> Option<CableEnd> {
 ///
 /// # Errors
 ///
-/// [`Error`] where the scene does not hold that end, or has no such place.
+/// [`Error`] if the scene does not hold that end, or has no such place.
 pub fn located(scene: &Scene, measured: Measured) -> Result<Measured, Error> {
     let length = scene.duct.length;
     let x = |end: CableEnd| end.of([0.0, length]);

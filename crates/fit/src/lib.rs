@@ -25,7 +25,7 @@ pub use instrument::{held_end, located};
 pub use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use overload::within_reach;
-pub use problem::MOST_RUNS;
+pub use problem::MAX_RUNS;
 pub use result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, LackOfFit, ModelErrorEstimate, ProfilePoint,
     ResidualSize,

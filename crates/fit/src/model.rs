@@ -34,7 +34,7 @@ const JUMP: JumpSize = JumpSize {
     first_jump: 0.25,
 };
 /// Most passes that are simulated to find the jumps.
-const MOST_PASSES: u64 = 100_000;
+const MAX_PASSES: u64 = 100_000;
 
 /// Which mesh of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -190,7 +190,7 @@ fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
     Jumping {
         period,
         size: JUMP,
-        most_passes: MOST_PASSES,
+        max_passes: MAX_PASSES,
         guide,
         beyond: false,
     }

@@ -5,9 +5,9 @@ use crate::readings::Reading;
 /// Makes the median of |e| under Gaussian noise a standard deviation.
 pub const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// Least noise relative to the largest value: digits that an instrument shows.
-const LEAST: f64 = 1e-3;
+const MIN_SHARE: f64 = 1e-3;
 
-/// Standard deviations that weigh readings of several kinds against each other; `None` where all
+/// Standard deviations that weigh readings of several kinds against each other; `None` if all
 /// are of one kind.
 pub fn relative_sigmas(rows: &[Reading]) -> Option<Vec<f64>> {
     let kinds = || rows.iter().map(|row| row.measured.name());
@@ -27,7 +27,7 @@ fn noise(rows: &[Reading], kind: &str) -> f64 {
     let largest = sizes.fold(0.0, f64::max);
     let group = |row: &Reading| (row.instrument(), row.run);
     let threes = like.windows(3).filter(|three| group(three[0]) == group(three[2]));
-    let least = (LEAST * largest).max(f64::MIN_POSITIVE);
+    let least = (MIN_SHARE * largest).max(f64::MIN_POSITIVE);
     least.max(MEDIAN_TO_SIGMA * median(threes.map(off_line)))
 }
 

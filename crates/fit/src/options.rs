@@ -32,7 +32,7 @@ pub struct CalibrateOptions<'a> {
     pub unknowns: Vec<Unknown>,
     /// Prior knowledge of the ground's stiffness, which is then fitted as well.
     pub deflection: Option<Deflection>,
-    /// Standard deviation of a load cell's zero before the readings \[N\], where it is fitted; a
+    /// Standard deviation of a load cell's zero before the readings \[N\], if it is fitted; a
     /// quarter of the largest force if left out.
     pub zero_offset_sigma: Option<f64>,
     /// That of its drift \[N per pass\]; if left out, a quarter of that force over all passes.
@@ -42,7 +42,7 @@ pub struct CalibrateOptions<'a> {
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,
-    /// Called after each model run with its share of [`MOST_RUNS`](crate::MOST_RUNS); it may stop
+    /// Called after each model run with its share of [`MAX_RUNS`](crate::MAX_RUNS); it may stop
     /// the calibration.
     pub progress: Progress<'a>,
 }

@@ -13,7 +13,7 @@ use creepage_scene::{Scene, four_digits};
 /// Share of an instrument's forces beyond which they are no exceptions, but unit, sign or scene not
 /// what they seem; and the fewest forces of which that can be said.
 const FEW: f64 = 0.25;
-const FEWEST: usize = 6;
+const MIN_READINGS: usize = 6;
 
 /// Largest force that friction makes in the cable of `scene` \[N\].
 fn largest_force(scene: &Scene) -> f64 {
@@ -36,7 +36,7 @@ pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
         let cell = instrument(reading);
         let all: Vec<&Reading> = list().filter(|other| instrument(other) == cell).collect();
         let large = all.iter().filter(|other| is_large(other)).count();
-        cell.is_some() && all.len() >= FEWEST && large as f64 <= FEW * all.len() as f64
+        cell.is_some() && all.len() >= MIN_READINGS && large as f64 <= FEW * all.len() as f64
     };
     let is_beyond = |reading: &Reading| is_large(reading) && is_exception(reading);
     let mut kept = one.readings.clone();

@@ -1,4 +1,4 @@
-//! The parameters of a fit: friction and ground of the scenes, and what load cells read beside the
+//! The parameters of a fit: friction and ground of the scenes, and what load cells read besides the
 //! force, a zero that is off and a drift.
 //!
 //! A cell's error is the same in all runs, its drift grows with the passes.
@@ -36,7 +36,7 @@ fn unknowns(models: &[SeriesModel<'_>], options: &CalibrateOptions<'_>) -> Resul
     }
     if options.discrepancy.is_some() && options.loss != Loss::Squares {
         let reason = "it takes what is left of a reading for independent noise; leave one of them out";
-        return Err(Error::unfit("discrepancy", "a robust loss beside it", reason));
+        return Err(Error::unfit("discrepancy", "a robust loss with it", reason));
     }
     let mut unknowns = options.unknowns.clone();
     if unknowns.is_empty() {

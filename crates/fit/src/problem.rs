@@ -21,7 +21,7 @@ use creepage_run::Error;
 /// on four meshes.
 const RIPPLE: f64 = 0.02;
 /// Most model runs of a fit on one mesh: it takes some fifty.
-pub const MOST_RUNS: usize = 2000;
+pub const MAX_RUNS: usize = 2000;
 
 /// Scenes, their readings, and what is fitted to them.
 pub struct Problem<'a> {
@@ -117,7 +117,7 @@ impl Problem<'_> {
     fn count_run(&self) -> Result<(), Error> {
         self.check_stopped()?;
         let runs = self.runs.count.fetch_add(1, Ordering::Relaxed) + 1;
-        let share = (runs as f64 / MOST_RUNS as f64).min(1.0);
+        let share = (runs as f64 / MAX_RUNS as f64).min(1.0);
         let reported = self.options.progress.report(share);
         self.runs.stopped.fetch_or(reported.is_err(), Ordering::Relaxed);
         reported

@@ -9,13 +9,13 @@ pub struct Calibrated {
     pub titles: Vec<String>,
     /// The fitted parameters.
     pub parameters: Vec<FittedParameter>,
-    /// Their correlation; null where one of them has no standard error.
+    /// Their correlation; null if one of them has no standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
     /// Root of the mean square of the residuals of the forces that are kept \[N\]; 0 without any.
     pub residual_rms_n: f64,
     /// How large the residuals are, of each kind of reading.
     pub residuals: Vec<ResidualSize>,
-    /// Share of the forces' variance that the model explains; null where they do not vary.
+    /// Share of the forces' variance that the model explains; null if they do not vary.
     pub r_squared: Option<f64>,
     /// Runs of the model, all meshes together.
     pub evaluations: usize,
@@ -26,7 +26,7 @@ pub struct Calibrated {
     /// What the answer takes from the scene that these readings do not show, and what an error of
     /// it would do.
     pub assumptions: Vec<String>,
-    /// Standard deviation of the noise \[N\] as estimated; null where every reading has its own.
+    /// Standard deviation of the noise \[N\] as estimated; null if every reading has its own.
     pub noise_n: Option<f64>,
     /// Readings less the parameters that they determine.
     pub degrees_of_freedom: f64,
@@ -65,7 +65,7 @@ pub struct FittedParameter {
     pub unit: &'static str,
     /// Best value.
     pub value: f64,
-    /// Standard error; null where the readings say nothing about it.
+    /// Standard error; null if the readings say nothing about it.
     pub standard_error: Option<f64>,
     /// Interval that holds the true value in 95 % of all cases; null is an end that is not closed.
     pub interval_95: [Option<f64>; 2],
@@ -117,7 +117,7 @@ pub struct FittedReading {
     pub series: usize,
     /// Number of the pass, as the file has it.
     pub pass: u64,
-    /// Measured force \[N\]; null where something else was measured.
+    /// Measured force \[N\]; null if something else was measured.
     pub force_n: Option<f64>,
     /// Force of the calibrated model \[N\].
     pub fitted_n: Option<f64>,
@@ -125,7 +125,7 @@ pub struct FittedReading {
     pub residual_n: Option<f64>,
     /// How much the reading counts: 1, less for an outlier in a robust fit.
     pub weight: f64,
-    /// Name of its run; empty where there is one run.
+    /// Name of its run; empty if there is one run.
     pub run: String,
     /// Line of the file, from 1.
     pub line: u64,
@@ -148,14 +148,14 @@ pub struct FittedReading {
 pub struct LackOfFit {
     /// Probability of so few changes of sign by chance.
     pub p_runs: f64,
-    /// Probability that noise alone shows so much drift; null where it is fitted or not known.
+    /// Probability that noise alone shows so much drift; null if it is fitted or not known.
     pub p_trend: Option<f64>,
     /// Probability that noise alone shows a zero that is off by so much; null as before.
     pub p_offset: Option<f64>,
     /// Probability of residuals so much larger than neighbouring readings differ: of an R² below
     /// what the noise explains.
     pub p_noise: Option<f64>,
-    /// Probability of residuals so much larger than the sigmas of the readings; null where these
+    /// Probability of residuals so much larger than the sigmas of the readings; null if these
     /// have none.
     pub p_sigma: Option<f64>,
     /// Whether any of these is below 0.01 (0.03 of the second and third), readings are outliers, or

@@ -105,7 +105,7 @@ impl Quantity {
 pub struct Unknown {
     /// The quantity.
     pub quantity: Quantity,
-    /// Index of the series that it belongs to; `None` where all share one value.
+    /// Index of the series that it belongs to; `None` if all share one value.
     pub series: Option<usize>,
 }
 
@@ -146,7 +146,7 @@ impl FromStr for Unknown {
     }
 }
 
-/// The quantity's name, with the number of its series, from 1, where it has one.
+/// The quantity's name, with the number of its series, from 1, if it has one.
 impl fmt::Display for Unknown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.series {

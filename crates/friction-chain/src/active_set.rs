@@ -74,7 +74,7 @@ impl ImplicitStep {
     ///
     /// # Errors
     ///
-    /// [`ChainError::NoEquilibrium`] where none is found, and where a value of the load is not a number.
+    /// [`ChainError::NoEquilibrium`] if none is found, and where a value of the load is not a number.
     ///
     /// # Panics
     ///
@@ -124,7 +124,7 @@ impl ImplicitStep {
         self.work.node_updates += stretch.count();
     }
 
-    /// Where nothing but friction holds the chain and all of it may slip, it moves as a whole until the first node sticks. Fails where
+    /// If nothing but friction holds the chain and all of it may slip, it moves as a whole until the first node sticks. Fails where
     /// none would.
     fn stop(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
         let (chain, Trial { r, contact, .. }) = (&self.chain, &mut self.trial);

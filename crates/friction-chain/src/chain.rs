@@ -29,7 +29,7 @@ pub struct Chain {
 impl Chain {
     /// A chain of `axial_stiffness` EA \[N\] with nodes `spacing` h \[m\] apart, one for each of the friction `limits` q \[N/m\]. A length h
     /// of cable belongs to each, and h/2 to the ends. The contact shears by its `compliance` γ \[m²/N\] for each N/m of friction; 0 is
-    /// Coulomb's law. `ends` are springs to the ground \[N/m\], or `None` where an end is fixed.
+    /// Coulomb's law. `ends` are springs to the ground \[N/m\], or `None` if an end is fixed.
     ///
     /// # Errors
     ///

@@ -3,10 +3,10 @@
 //! A spring of stiffness s that has slipped by p bears F = s (u − p) while |F| is at most its holding force, and ± that force while it
 //! slips, u the displacement of its node. The first makes it a spring of the chain, the second a load.
 
-/// A holding force is exceeded from this share beyond it on: rounding is not.
-const ROUNDING: f64 = 1e-9;
+/// A clamp slips if its force exceeds the holding force by more than this share: rounding does not.
+const EXCEEDED: f64 = 1e-9;
 /// Rounding of a displacement that was solved for, as a share of it. The spring multiplies it: it may be all that a weak clamp holds.
-const ROUNDED: f64 = 64.0 * f64::EPSILON;
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A clamp on one node.
 #[derive(Debug, Clone, Copy)]
@@ -83,8 +83,8 @@ impl Clamp {
         let before = self.slides;
         if self.is_stuck() {
             let force = self.force(u);
-            let rounded = ROUNDED * self.stiffness * u.abs();
-            if force.abs() > (1.0 + ROUNDING) * self.holds + rounded {
+            let rounded = ROUNDING * self.stiffness * u.abs();
+            if force.abs() > (1.0 + EXCEEDED) * self.holds + rounded {
                 self.slides = force.signum();
             }
         } else if (self.slipped(u) - self.slip) * self.slides < 0.0 {
@@ -123,7 +123,7 @@ mod tests {
         };
         let borne = slip + holds / stiffness;
         let rounded = borne * (1.0 + 3.0 * f64::EPSILON);
-        assert!(clamp.force(rounded) > (1.0 + ROUNDING) * holds);
+        assert!(clamp.force(rounded) > (1.0 + EXCEEDED) * holds);
         assert!(!clamp.correct(rounded) && clamp.is_stuck());
         assert!(clamp.correct(slip + 1.001 * holds / stiffness) && !clamp.is_stuck());
     }

@@ -5,7 +5,7 @@ use crate::peaks;
 use crate::{Displacement, GroundError, GroundField, RadialProfile, SurfaceLoad, Vehicle};
 
 /// How far the ground is sampled at least, in the distance from a wheel to the duct.
-const LEAST_REACH: f64 = 8.0;
+const MIN_REACH: f64 = 8.0;
 /// Largest share of the peak that the outer half of the sampled range may hold, should the peak not lie beyond it.
 const FADED: f64 = 0.5;
 /// The curvature of D_l is read over so many depths to either side.
@@ -126,7 +126,7 @@ impl DuctMotion {
         let distance = |wheel: &WheelLine| line.depth.hypot(wheel.side);
         let mut motion = Self {
             profiles: Vec::new(),
-            reach: reach.max(LEAST_REACH * wheels.iter().map(distance).fold(0.0, f64::max)),
+            reach: reach.max(MIN_REACH * wheels.iter().map(distance).fold(0.0, f64::max)),
             wheels,
             velocity: vehicle.velocity(),
             samples: 0,

@@ -92,7 +92,7 @@ impl RadialProfile {
     ///
     /// # Errors
     ///
-    /// [`GroundError::InvalidParameter`] for an argument out of range, [`GroundError::Accuracy`] where the field is not
+    /// [`GroundError::InvalidParameter`] for an argument out of range, [`GroundError::Accuracy`] if the field is not
     /// smooth enough for the asked accuracy, and whatever the field returns.
     pub fn sample(
         field: &dyn GroundField,

@@ -137,7 +137,7 @@ impl SoilLayer {
         }
     }
 
-    /// The layer's soil where it is uniform; `None` where the modulus varies with depth.
+    /// The layer's soil where it is uniform; `None` if the modulus varies with depth.
     pub fn soil(&self) -> Option<Soil> {
         match self.modulus {
             Modulus::Linear { top, bottom } if top != bottom => None,
@@ -208,7 +208,7 @@ impl SoilProfile {
     ///
     /// # Errors
     ///
-    /// [`GroundError::InvalidParameter`] where a sublayer would have no thickness.
+    /// [`GroundError::InvalidParameter`] if a sublayer would have no thickness.
     pub fn sublayered(&self, count: usize, finest: f64) -> Result<Self, GroundError> {
         let mut layers = Vec::new();
         let mut top = 0.0;

@@ -39,7 +39,7 @@ struct Part {
 
 impl Factor {
     /// Factors the stiffness of `mesh`, whose elements have the `matrices`; `unknown` numbers the free degrees of freedom.
-    /// `None` where it is not positive definite.
+    /// `None` if it is not positive definite.
     pub(crate) fn new(mesh: &Mesh, matrices: &[ElementMatrix], unknown: &[usize]) -> Option<Self> {
         let mut touching = vec![0; unknown.len()];
         for dof in mesh.elements.iter().flat_map(dofs) {

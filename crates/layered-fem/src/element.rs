@@ -147,7 +147,7 @@ impl Shape {
 ///
 /// # Errors
 ///
-/// [`FemError::Degenerate`] where the Jacobian determinant is not positive.
+/// [`FemError::Degenerate`] if the Jacobian determinant is not positive.
 pub(crate) fn stiffness(
     nodes: &Corners,
     elasticity: impl Fn(f64, f64) -> Elasticity,

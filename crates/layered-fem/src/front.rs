@@ -14,7 +14,7 @@
 const BLOCK: usize = 48;
 const TILE: usize = 4;
 
-/// Replaces the first `count` columns of a matrix of order `order` by (L, W), and C by S; `None` where A is not positive
+/// Replaces the first `count` columns of a matrix of order `order` by (L, W), and C by S; `None` if A is not positive
 /// definite. Only the lower triangle, column by column, has a meaning.
 pub(crate) fn eliminate(matrix: &mut [f64], order: usize, count: usize) -> Option<()> {
     let mut packed = Vec::new();

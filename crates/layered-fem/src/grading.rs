@@ -14,7 +14,7 @@ use crate::FemError;
 /// Largest size of the block around the load \[m\].
 const LARGEST_BLOCK: f64 = 0.3;
 /// Least number of elements in a layer.
-const LEAST_ELEMENTS: usize = 2;
+const MIN_ELEMENTS: usize = 2;
 /// Least length over which the spacing is even \[m\]: a top layer still thinner is not resolved around the load, which is
 /// felt at depths of its own order only.
 const SMALLEST_SCALE: f64 = 0.002;
@@ -26,7 +26,7 @@ const REACH_HALF_SPACE: f64 = 50.0;
 const REACH_MEMBRANE: f64 = 15.0;
 const REACH_RIGID: f64 = 10.0;
 /// The ground's own length is taken at least this large \[m\].
-const LEAST_LENGTH: f64 = 5.0;
+const MIN_LENGTH: f64 = 5.0;
 
 /// Neighbouring rows of elements in one soil.
 #[derive(Debug, Clone)]
@@ -88,11 +88,11 @@ fn reach(profile: &SoilProfile) -> f64 {
             let plate = depth * (stiffest / base).max(1.0).cbrt();
             let stretch = |layer: &SoilLayer| layer.thickness() * ends(layer)[0].max(ends(layer)[1]) / base;
             let membrane: f64 = profile.layers().iter().map(stretch).sum();
-            (REACH_HALF_SPACE * plate.max(LEAST_LENGTH)).max(REACH_MEMBRANE * membrane)
+            (REACH_HALF_SPACE * plate.max(MIN_LENGTH)).max(REACH_MEMBRANE * membrane)
         }
         Base::Rigid => {
             let softest = moduli().fold(f64::INFINITY, f64::min);
-            REACH_RIGID * (depth * (stiffest / softest).sqrt()).max(LEAST_LENGTH)
+            REACH_RIGID * (depth * (stiffest / softest).sqrt()).max(MIN_LENGTH)
         }
     }
 }
@@ -149,7 +149,7 @@ impl Lines {
     }
 }
 
-/// |ln E| at `height` below the layer's top, from there; 0 where the layer is uniform.
+/// |ln E| at `height` below the layer's top, from there; 0 if the layer is uniform.
 fn steepness(layer: &SoilLayer, height: f64) -> f64 {
     if layer.soil().is_some() {
         return 0.0;
@@ -182,7 +182,7 @@ impl Grade {
         let stretched = |x: f64| (x / self.scale).asinh() + steepness(x);
         let (first, last) = (stretched(start), stretched(end));
         let count = (((last - first) / self.alpha).round() as usize)
-            .max(LEAST_ELEMENTS)
+            .max(MIN_ELEMENTS)
             .saturating_mul(self.parts);
         self.check(count.saturating_add(lines.len()))?;
         let uniform = steepness(start) == steepness(end);

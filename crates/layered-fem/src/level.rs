@@ -159,7 +159,7 @@ fn at_node(values: &[f64], node: usize) -> Displacement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::LEAST_CHANGE;
+    use crate::system::MIN_CHANGE;
     use ground_field::Soil;
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
         // Largest error of u_r over depths and radii, each depth by its own peak.
         let error = |parts: usize| {
             let lines = Lines::new(&profile, 0.4, parts, usize::MAX).unwrap();
-            let mut level = Level::new(&profile, LEAST_CHANGE, lines).unwrap();
+            let mut level = Level::new(&profile, MIN_CHANGE, lines).unwrap();
             let depths = (0..15).map(|k| 0.6 + 0.1 * f64::from(k));
             let shares = depths.map(|depth| {
                 let line = level.line(0.0, depth).unwrap();

@@ -54,7 +54,7 @@ impl HalfSpace {
             .unwrap_or(Displacement::ZERO * f64::NAN)
     }
 
-    /// Stress \[1/m²\], tension positive; zero at the load, where there is none.
+    /// Stress \[1/m²\], tension positive; zero at the load itself, which has none.
     pub(crate) fn stress(self, r: f64, z: f64) -> Stress {
         self.0.point_stress(1.0, r, z).unwrap_or_default()
     }

@@ -10,7 +10,7 @@ use crate::estimate::ErrorEstimate;
 use crate::grading::Lines;
 use crate::level::Level;
 use crate::line::DepthLine;
-use crate::system::LEAST_CHANGE;
+use crate::system::MIN_CHANGE;
 
 /// Name in errors.
 const MODEL: &str = "layered finite elements";
@@ -22,17 +22,17 @@ const ALPHA_RANGE: (f64, f64) = (0.1, 0.5);
 /// by the chance of where their lines fall.
 const RATIO: usize = 2;
 /// The error falls at least by this factor from one mesh to the next.
-const LEAST_GAIN: f64 = 3.0;
+const MIN_GAIN: f64 = 3.0;
 /// The same next to the edge of a disc, where the slope of `u_r` is infinite, and the depth in contact radii down to which it
 /// is taken.
-const LEAST_GAIN_AT_EDGE: f64 = 1.5;
+const MIN_GAIN_AT_EDGE: f64 = 1.5;
 const DEPTH_OF_EDGE: f64 = 0.2;
 /// Order beyond which it is not hoped to fall: where even that would need too large a mesh, none is tried.
 const BEST_ORDER: f64 = 4.0;
 /// Least share of the peak of `u_z` that the peak of `u_r` is taken for, where `u_r` vanishes (incompressible soil's surface).
-const LEAST_RADIAL: f64 = 0.01;
+const MIN_RADIAL: f64 = 0.01;
 /// Depth lines kept.
-const MOST_ANSWERS: usize = 512;
+const MAX_ANSWERS: usize = 512;
 
 /// Axisymmetric finite elements of a layered ground.
 ///
@@ -93,7 +93,7 @@ impl Mesher {
     /// Their mesh, factored. A last correction may change a solution by rounding alone, a thousandth of the accuracy: where λ is
     /// large relative to a stiff layer rounding is felt long before it matters.
     fn level(&self, parts: usize) -> Result<Level, GroundError> {
-        let rounding = (1e-3 * self.accuracy).max(LEAST_CHANGE);
+        let rounding = (1e-3 * self.accuracy).max(MIN_CHANGE);
         let lines = self.lines(parts);
         let level = lines.and_then(|lines| Level::new(&self.profile, rounding, lines));
         level.map_err(in_model)
@@ -104,7 +104,7 @@ impl LayeredFem {
     /// Unknowns allowed unless [`LayeredFem::with_max_unknowns`] says otherwise: within a gigabyte and a few seconds.
     pub const DEFAULT_MAX_UNKNOWNS: usize = 500_000;
     /// Most unknowns that can be allowed: some hundred gigabytes.
-    pub const MOST_UNKNOWNS: usize = 50_000_000;
+    pub const MAX_UNKNOWNS: usize = 50_000_000;
 
     /// A model of `profile` with an error of at most `accuracy`, as a share of the largest |`u_r`| and of the largest |`u_z`| at each
     /// depth. (The largest |`u_r`| counts as at least a hundredth of the largest |`u_z`|.)
@@ -117,7 +117,7 @@ impl LayeredFem {
         Self::with_max_unknowns(profile, accuracy, Self::DEFAULT_MAX_UNKNOWNS)
     }
 
-    /// The same with another limit on the unknowns of one mesh, [`MOST_UNKNOWNS`](Self::MOST_UNKNOWNS) at most.
+    /// The same with another limit on the unknowns of one mesh, [`MAX_UNKNOWNS`](Self::MAX_UNKNOWNS) at most.
     /// Where the accuracy would need more, the answer is [`GroundError::Accuracy`].
     ///
     /// # Errors
@@ -134,7 +134,7 @@ impl LayeredFem {
         let mut mesher = Mesher {
             profile: profile.clone(),
             accuracy,
-            max_unknowns: max_unknowns.min(Self::MOST_UNKNOWNS),
+            max_unknowns: max_unknowns.min(Self::MAX_UNKNOWNS),
             alpha: (ALPHA * (accuracy / ALPHA_ACCURACY).cbrt()).clamp(least, most),
         };
         // Where the mesh that is likely to be needed is too large, a larger spacing may still prove accurate enough.
@@ -170,7 +170,7 @@ impl LayeredFem {
             return Ok(Arc::clone(found));
         }
         let at_edge = depth < DEPTH_OF_EDGE * contact_radius;
-        let gain = if at_edge { LEAST_GAIN_AT_EDGE } else { LEAST_GAIN };
+        let gain = if at_edge { MIN_GAIN_AT_EDGE } else { MIN_GAIN };
         let mut meshes = locked(&self.meshes);
         loop {
             let [coarse, fine] = &mut *meshes;
@@ -180,7 +180,7 @@ impl LayeredFem {
             if estimate.largest() <= self.mesher.accuracy {
                 let answer = Arc::new(Answer { line, estimate });
                 let mut answers = locked(&self.answers);
-                if answers.len() >= MOST_ANSWERS {
+                if answers.len() >= MAX_ANSWERS {
                     answers.clear();
                 }
                 answers.insert(key, Arc::clone(&answer));
@@ -263,7 +263,7 @@ fn compare(coarse: &DepthLine, fine: &DepthLine, radii: &[f64], gain: f64) -> Er
         _ => difference / peak / (gain - 1.0),
     };
     let ((peak_r, gap_r, at_r), (peak_z, gap_z, at_z)) = (largest(|u| u.radial), largest(|u| u.vertical));
-    let radial = share(gap_r, peak_r.max(LEAST_RADIAL * peak_z));
+    let radial = share(gap_r, peak_r.max(MIN_RADIAL * peak_z));
     let vertical = share(gap_z, peak_z);
     ErrorEstimate {
         radial,

@@ -11,7 +11,7 @@ use crate::material::Elasticity;
 use crate::mesh::Mesh;
 
 /// Least change K⁻¹(f − K u) of a solution u, relative to it (largest components), that may be asked for.
-pub(crate) const LEAST_CHANGE: f64 = 1e-7;
+pub(crate) const MIN_CHANGE: f64 = 1e-7;
 const CORRECTIONS: usize = 2;
 
 /// A factored stiffness matrix with some degrees of freedom prescribed.
@@ -30,7 +30,7 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`FemError::Degenerate`], or [`FemError::Factorisation`] where the mesh is not held or the numbers do not suffice.
+    /// [`FemError::Degenerate`], or [`FemError::Factorisation`] if the mesh is not held or the numbers do not suffice.
     pub(crate) fn new(
         mesh: Mesh,
         prescribed: &[bool],
@@ -176,7 +176,7 @@ mod tests {
         assert!(fixed.iter().filter(|&&f| !f).count() >= 10);
         let system = System::new(mesh, &fixed, |_, _, _| soil(10.0, 0.3)).unwrap();
         let force = vec![0.0; displacement.len()];
-        let found = system.solve(&force, &displacement, LEAST_CHANGE).unwrap();
+        let found = system.solve(&force, &displacement, MIN_CHANGE).unwrap();
         for (u, &node) in found.chunks_exact(2).zip(&system.mesh.nodes) {
             let truth = exact(node);
             assert!(
@@ -263,7 +263,7 @@ mod tests {
             .collect();
         let system = System::new(mesh, &fixed, |_, _, _| soil(1.0, nu)).unwrap();
         let force = vec![0.0; displacement.len()];
-        let found = system.solve(&force, &displacement, LEAST_CHANGE).unwrap();
+        let found = system.solve(&force, &displacement, MIN_CHANGE).unwrap();
         let errors = found.chunks_exact(2).zip(&system.mesh.nodes).map(|(u, &node)| {
             let truth = exact(node);
             (u[0] - truth[0]).abs().max((u[1] - truth[1]).abs())
@@ -303,12 +303,12 @@ mod tests {
         force[1] = 1.0;
         assert!(
             system
-                .and_then(|system| system.solve(&force, &[0.0; 18], LEAST_CHANGE))
+                .and_then(|system| system.solve(&force, &[0.0; 18], MIN_CHANGE))
                 .is_err()
         );
         // All of it held, or no element at all: nothing is left to solve.
         let system = System::new(square, &[true; 18], |_, _, _| soil(1.0, 0.3)).unwrap();
-        assert_eq!(system.solve(&force, &[1.0; 18], LEAST_CHANGE), Ok(vec![1.0; 18]));
+        assert_eq!(system.solve(&force, &[1.0; 18], MIN_CHANGE), Ok(vec![1.0; 18]));
         for lines in [&[][..], &[0.0]] {
             let mesh = Mesh::rectangular(lines, &[0.0, 1.0]);
             let held = vec![true; mesh.dofs()];

@@ -24,7 +24,7 @@ fn radii() -> Vec<f64> {
     (0..=60).map(|k| 0.15 * f64::from(k)).collect()
 }
 
-/// The line under `load`; `None` where the model says that the accuracy is out of its reach, which it may on a ground
+/// The line under `load`; `None` if the model says that the accuracy is out of its reach, which it may on a ground
 /// drawn at random (the largest `u_r` at a depth can be tiny).
 fn line(profile: &SoilProfile, load: SurfaceLoad, depth: f64) -> Option<Vec<Displacement>> {
     let ground = LayeredFem::new(profile, ACCURACY).unwrap();

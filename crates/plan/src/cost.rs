@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::mesh::Levels;
 use crate::period::Period;
 use crate::tuning::methods::{
-    DAYS, EVERY_PASS_MESHES, EXPLICIT_SECONDS, JUMP_MESHES, MOST_PERIODS, PERIODS_A_DAY,
-    QUASI_STATIC_SECONDS, TYPICAL_PERIODS,
+    DAYS, EVERY_PASS_MESHES, EXPLICIT_SECONDS, JUMP_MESHES, MAX_PERIODS, PERIODS_A_DAY, QUASI_STATIC_SECONDS,
+    TYPICAL_PERIODS,
 };
 use creepage_scene::{Scene, SolverMethod};
 
@@ -47,7 +47,7 @@ impl Estimates {
         Ok(Self {
             inertia: inertia_ratio(&cable, cable::mass(scene), speeds.fold(0.0, f64::max))?,
             typical: simulated(TYPICAL_PERIODS),
-            most: simulated(MOST_PERIODS),
+            most: simulated(MAX_PERIODS),
             passes,
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(levels.first),
             explicit: explicit_seconds * levels.whole_cable_updates(levels.first),

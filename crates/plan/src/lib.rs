@@ -31,7 +31,7 @@ pub use cost::Estimates;
 pub use error::{Error, with_causes};
 pub use error_source::ErrorSource;
 pub use mesh::Levels;
-pub use method::MOST_PASSES;
+pub use method::MAX_PASSES;
 pub use period::Period;
 #[doc(hidden)]
 pub use plan::plan_over;

@@ -20,7 +20,7 @@ pub const LONGEST_EVERY_PASS: f64 = 60.0;
 /// Most vehicles in a period that jumps go over: what every pass of it leaves is kept.
 const LONGEST_PERIOD: usize = 5000;
 /// Most passes that are simulated one by one.
-pub const MOST_PASSES: u64 = 1_000_000;
+pub const MAX_PASSES: u64 = 1_000_000;
 
 pub const NO_REST: &str = "the sigmoid law has no state of rest: its friction depends on the time step";
 
@@ -73,7 +73,7 @@ fn automatic(scene: &Scene, period: &Period, estimates: &Estimates) -> (SolverMe
 /// Refuses more passes than `method` computes, and a run of many hours that nobody has asked for.
 fn check_length(scene: &Scene, period: &Period, method: SolverMethod, seconds: f64) -> Result<(), Error> {
     let has_rest = scene.friction.law().has_memory();
-    if method != SolverMethod::PassLaw && scene.traffic.passes > MOST_PASSES {
+    if method != SolverMethod::PassLaw && scene.traffic.passes > MAX_PASSES {
         let why = if !has_rest {
             format!("jumps over passes need a state of rest: {NO_REST}")
         } else if period.len() > LONGEST_PERIOD {

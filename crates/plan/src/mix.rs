@@ -3,7 +3,7 @@
 use cable_dem::{Order, Traffic};
 
 use crate::error::Error;
-use crate::tuning::periods::{EXACT, LEAST, LONGER, NEAR, SHORT};
+use crate::tuning::periods::{EXACT, LONGER, MIN_VEHICLES, NEAR, SHORT};
 
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
@@ -39,7 +39,7 @@ impl Mix {
     pub fn best(shares: &[f64], most: usize) -> Self {
         let all = (1..=most).map(|length| Self::nearest(shares, length));
         let all = all.filter(|mix| mix.len() <= most);
-        let is_near = |mix: &Self| mix.distance() <= NEAR && mix.len() >= LEAST;
+        let is_near = |mix: &Self| mix.distance() <= NEAR && mix.len() >= MIN_VEHICLES;
         let (shortest, longest) = all
             .clone()
             .find(is_near)

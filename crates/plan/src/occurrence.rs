@@ -95,7 +95,7 @@ pub struct Occurrence {
     /// Q = q z²/(EA D), D the largest max|D_l| of all vehicles.
     pub q_number: f64,
     /// f*/q: the share of the largest friction that stays locked in along the duct once nothing
-    /// changes any more; 0 where nothing creeps.
+    /// changes any more; 0 if nothing creeps.
     pub locked_share: f64,
     /// How far one of the first passes moves a cable that nothing holds \[m\].
     pub first_advance_m: f64,
@@ -107,7 +107,7 @@ pub struct Occurrence {
 }
 
 impl Occurrence {
-    /// `None` where nothing moves the duct.
+    /// `None` if nothing moves the duct.
     pub fn new(scene: &Scene, motions: &[DuctMotion]) -> Option<Self> {
         let displacement = peak(motions);
         let limit = scene.friction_limit();

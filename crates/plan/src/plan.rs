@@ -13,7 +13,7 @@ use crate::cost::Estimates;
 use crate::error::Error;
 use crate::ground::{Ground, road};
 use crate::mesh::Levels;
-use crate::method::{self, LONGEST_EVERY_PASS, MOST_PASSES};
+use crate::method::{self, LONGEST_EVERY_PASS, MAX_PASSES};
 use crate::period::Period;
 use crate::saved_state::SavedState;
 use crate::warnings;
@@ -92,7 +92,7 @@ impl Plan<'_> {
     /// Whether every pass may be simulated where jumps do not get on.
     pub fn may_simulate_all(&self) -> bool {
         self.method == SolverMethod::PassLaw
-            && self.scene.traffic.passes <= MOST_PASSES
+            && self.scene.traffic.passes <= MAX_PASSES
             && self.estimates.every_pass(self.method) <= LONGEST_EVERY_PASS
     }
 }

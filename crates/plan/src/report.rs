@@ -70,7 +70,7 @@ pub struct PlanReport {
     /// Rough time of the whole run \[s\] on one core of about 3 GHz, from counted work: within a
     /// factor of five in about half of all scenes, far more where finer meshes prove necessary.
     pub estimated_seconds: f64,
-    /// Whether the cable creeps, and how much force there can be, by one number; `None` where
+    /// Whether the cable creeps, and how much force there can be, by one number; `None` if
     /// nothing moves the duct.
     pub occurrence: Option<Occurrence>,
     /// Everything that was considered.

@@ -25,7 +25,7 @@ pub fn advances(scene: &Scene, motions: &[DuctMotion]) -> Option<Vec<f64>> {
     let number = scene.friction_limit() * scene.duct.depth.powi(2) / scene.cable.axial_stiffness;
     let advance = |peak: f64| peak * occurrence::at(number / peak).advance_share;
     let advances: Vec<f64> = peaks.clone().map(advance).collect();
-    // Where nothing creeps it makes no difference.
+    // If nothing creeps it makes no difference.
     let creeps = advances.iter().any(|&advance| advance > 0.0);
     Some(if creeps { advances } else { peaks.collect() })
 }

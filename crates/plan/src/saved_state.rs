@@ -221,7 +221,7 @@ impl SavedState {
     ///
     /// # Errors
     ///
-    /// [`CableError`] where the scene is none.
+    /// [`CableError`] if the scene is none.
     pub fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
         let positions = CableEnd::ALL.map(|end| {
             let saved = end.of(self.ends);
@@ -240,7 +240,7 @@ impl SavedState {
     ///
     /// # Errors
     ///
-    /// [`CableError`] where the state is not one of this cable.
+    /// [`CableError`] if the state is not one of this cable.
     pub fn on(&self, scene: &Scene, mesh: &Mesh) -> Result<CableState, CableError> {
         let cable = self.cable(scene)?;
         let mut state = carried(&self.cable, mesh)?;

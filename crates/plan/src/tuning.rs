@@ -43,7 +43,7 @@ pub mod methods {
     /// Periods that are simulated at the start, and then for every factor e of periods: half of all
     /// scenes need fewer, and nearly all.
     pub const TYPICAL_PERIODS: (f64, f64) = (12.0, 2.2);
-    pub const MOST_PERIODS: (f64, f64) = (20.0, 8.0);
+    pub const MAX_PERIODS: (f64, f64) = (20.0, 8.0);
     /// Periods of a day that are simulated where the cable is heated every day, and days with them
     /// until one is like the one before.
     pub const PERIODS_A_DAY: f64 = 24.0;
@@ -73,7 +73,7 @@ pub mod periods {
     pub const LONGER: f64 = 1.25;
     /// It has at least so many vehicles: in shorter ones too few of those follow each other that do
     /// in the traffic, and its largest forces are missed.
-    pub const LEAST: usize = 100;
+    pub const MIN_VEHICLES: usize = 100;
     /// A mix that has the shares exactly is taken where it is at most so many times as long as a
     /// near one, or so short: a near one is compared with another, and hardly shows which vehicles
     /// follow each other in the traffic.

@@ -5,7 +5,7 @@ use creepage_fit::{Series, held_end, located, of_forces, within_reach};
 use creepage_run::{Error, PassRecord, Run};
 use creepage_scene::{CableEnd, Scene};
 
-/// Readings beside the force computed at the same passes.
+/// Readings and the force computed at the same passes.
 #[derive(Debug)]
 pub struct Agreement {
     /// The end that pressed on the load cell.
@@ -28,7 +28,7 @@ impl Agreement {
     ///
     /// # Errors
     ///
-    /// [`Error`] where no end of the cable is held.
+    /// [`Error`] if no end of the cable is held.
     pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
         let (readings, beyond) = within_reach(&Series { scene, readings });
         // One cell is drawn: of two, the one that the scene holds.

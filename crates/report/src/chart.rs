@@ -19,8 +19,8 @@ pub const OTHER: usize = 2;
 pub const MILLI: f64 = 1e3;
 pub const MICRO: f64 = 1e6;
 
-/// Least part beside the end of the duct, as a share of the others.
-const LEAST_PART: f64 = 0.7;
+/// Shortest part next to an end of the duct, relative to the others.
+const MIN_PART: f64 = 0.7;
 
 /// Writes charts of this height below each other with a caption, or why they could not be drawn.
 pub fn figure(html: &mut Html, height: f64, charts: impl IntoIterator<Item = Chart>, caption: &str) {
@@ -35,7 +35,7 @@ pub fn figure(html: &mut Html, height: f64, charts: impl IntoIterator<Item = Cha
 pub fn ticks(length: f64) -> Vec<(f64, String)> {
     let part = round_below(length / 3.0);
     let places = (0..).map(|k| part * f64::from(k));
-    let places = places.take_while(|place| *place <= length - LEAST_PART * part);
+    let places = places.take_while(|place| *place <= length - MIN_PART * part);
     let labelled = |place| (place, significant(place));
     places.chain([length]).map(labelled).collect()
 }

@@ -95,15 +95,15 @@ fn force_after_passes(report: &Report) -> Chart {
     if readings.is_empty() {
         return chart;
     }
-    let seen = || readings.iter().step_by(readings.len().div_ceil(READINGS));
-    for reading in seen() {
+    let thinned = || readings.iter().step_by(readings.len().div_ceil(READINGS));
+    for reading in thinned() {
         let place = along.place(reading.passes);
         if let Some(sigma) = reading.sigma {
             let bar = [-sigma, sigma].map(|sigma| (place, in_unit(reading.value + sigma)));
             chart = chart.with(Series::line("", bar).colour(OTHER).solid());
         }
     }
-    let points = seen().map(|reading| (along.place(reading.passes), in_unit(reading.value)));
+    let points = thinned().map(|reading| (along.place(reading.passes), in_unit(reading.value)));
     chart.with(Series::points("measured", points).look(OTHER).marker(0))
 }
 

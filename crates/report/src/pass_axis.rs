@@ -12,7 +12,7 @@ const MANY: u64 = 2000;
 const ALL_DRAWN: usize = 1000;
 /// Units of time \[days\] of an axis that is not logarithmic, and how many of one there are at least.
 const UNITS: [(f64, &str); 3] = [(DAYS_PER_YEAR, "years"), (1.0, "days"), (1.0 / 24.0, "hours")];
-const FEWEST: f64 = 2.0;
+const MIN_UNITS: f64 = 2.0;
 /// Share of a logarithmic axis that a label needs.
 const LABEL: f64 = 0.2;
 /// Ticks of one that is \[days\].
@@ -60,7 +60,7 @@ impl<'r> PassAxis<'r> {
         };
         let begin = before.and_then(|past| past.days).unwrap_or(0.0);
         let days = begin + last as f64 / per_day;
-        let is_many = |(unit, _): &(f64, &str)| days >= FEWEST * unit;
+        let is_many = |(unit, _): &(f64, &str)| days >= MIN_UNITS * unit;
         let (unit, name) = if is_linear {
             UNITS.into_iter().find(is_many).unwrap_or(UNITS[2])
         } else {

@@ -18,7 +18,7 @@ const AXIS: f64 = DEEP + 34.0;
 /// Half the duct's height \[px\].
 const DUCT: f64 = 6.0;
 /// Clamps that are numbered at most, and the least distance of their numbers \[px\].
-const MOST: usize = 8;
+const MAX_NUMBERED: usize = 8;
 const APART: f64 = 14.0;
 
 /// The drawing, and its caption.
@@ -123,7 +123,7 @@ fn clamps(drawing: &mut Drawing, report: &Report) {
             let jaw = [(x - 4.0, far), (x + 4.0, far), (x + 2.0, near), (x - 2.0, near)];
             drawing.area(&jaw, Ink::Series(1), 1.0);
         }
-        if clamps.len() > 1 && k <= MOST && (x - numbered).abs() > APART {
+        if clamps.len() > 1 && k <= MAX_NUMBERED && (x - numbered).abs() > APART {
             numbered = x;
             drawing.text(&k.to_string(), (x, DEEP - 20.0), Anchor::Middle);
         }

@@ -153,7 +153,7 @@ fn answer(
     Ok(())
 }
 
-/// A sheet with a row for each record; none where there are no records.
+/// A sheet with a row for each record; none if there are no records.
 fn table(book: &mut Book, name: &str, records: &Value, units: &Units) -> Result<(), XlsxError> {
     let records = records.as_array().into_iter().flatten();
     let records: Vec<Vec<Entry>> = records.map(|record| entries("", "", record, units)).collect();

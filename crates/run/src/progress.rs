@@ -52,7 +52,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The next part of it, this `share` of what is left: where nobody knows how many there will be.
+    /// The next part of it, this `share` of what is left, if nobody knows how many there will be.
     pub(crate) fn next(&mut self, share: f64) -> Self {
         let now = self.part(0.0, share);
         *self = self.part(share, 1.0);
@@ -69,7 +69,7 @@ impl<'a> Progress<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Stopped`] where the callback stops the computation.
+    /// [`Error::Stopped`] if the callback stops the computation.
     pub fn report(self, share: f64) -> Result<(), Error> {
         let share = self.start + self.size * share;
         match self.callback.map(|callback| callback(share)) {

@@ -8,7 +8,7 @@ pub mod meshes {
     pub const REFINEMENT_COST: usize = 4;
     /// What is left to the mesh at least, as a share of the tolerance, or of the largest other
     /// error if that is beyond it.
-    pub const LEAST_SHARE: f64 = 0.5;
+    pub const MIN_SHARE: f64 = 0.5;
     /// Share of the work that finding jumps is taken for.
     pub const FINDING: f64 = 0.3;
     /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
@@ -37,11 +37,11 @@ pub mod jumps {
     /// The error of jumps grows at most so many times from the mesh they were found on to the last:
     /// if as many as they missed, forces are stated up to five times as far off as they are, and if
     /// not at all, movements of two in thirty random scenes are twice as far off as stated.
-    pub const MOST_GROWN: f64 = 2.0;
+    pub const MAX_GROWTH: f64 = 2.0;
     /// Passes simulated at the start, about, and fewest and most periods of them.
     pub const FIRST_PASSES: usize = 120;
-    pub const FEWEST_FIRST_PERIODS: u64 = 2;
-    pub const MOST_FIRST_PERIODS: u64 = 8;
+    pub const MIN_FIRST_PERIODS: u64 = 2;
+    pub const MAX_FIRST_PERIODS: u64 = 8;
     /// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct
     /// is so many depths short.
     pub const SHORT: f64 = 20.0;
@@ -75,7 +75,7 @@ pub mod days {
     pub const WEIGHT: f64 = 0.4;
     pub const WEIGHT_UNRESOLVED: f64 = 2.0;
     /// The most that jumps over days may take: slow two-way creep adds up what larger ones miss.
-    pub const MOST: f64 = 5e-3;
+    pub const MAX_JUMP_ERROR: f64 = 5e-3;
     /// Up to so many passes a day all are simulated on a day with real ones; and where a day has no
     /// whole sequence.
     pub const FEW: u64 = 100;

@@ -56,7 +56,7 @@ impl Arrangement {
     /// use creepage_scene::Arrangement;
     ///
     /// let factor = |arrangement: Arrangement| arrangement.normal_load_factor(0.2, 0.067);
-    /// // Triangular, and cradled: all three on the duct beside three times the weight of one.
+    /// // Triangular, and cradled: all three on the duct relative to three times the weight of one.
     /// assert!((2.0 * factor(Arrangement::TrefoilLower) / 3.0 - 1.158).abs() < 5e-4);
     /// let cradled = 2.0 * factor(Arrangement::CradledOuter) + factor(Arrangement::CradledMiddle);
     /// assert!((cradled / 3.0 - 1.338).abs() < 5e-4);

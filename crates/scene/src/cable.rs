@@ -14,7 +14,7 @@ keys! {
     #[derive(Copy)]
     #[non_exhaustive]
     pub struct Cable {
-        preset "A cable by its name; keys beside it override its values.";
+        preset "A cable by its name; other keys override its values.";
         /// Weight of the cable per length; a mass per length is multiplied by g.
         weight: f64 = Number(range::WEIGHT);
         /// Young's modulus times cross-section, EA.
@@ -27,7 +27,7 @@ keys! {
         normal_load_factor: Option<f64> = Number(range::LOAD_FACTOR), "1";
         /// Diameter of the cable; of several in a duct it sets the normal load factor.
         diameter: Option<f64> = Number(range::DIAMETER), "none";
-        /// How it lies beside others in its duct.
+        /// How it lies among others in its duct.
         arrangement: Arrangement = Arrangement::FORM, "\"single\"";
     }
 }
@@ -57,7 +57,7 @@ keys! {
     /// Friction between cable and duct, in SI.
     #[derive(Copy)]
     pub struct Friction {
-        preset "A pair of surfaces by its name; keys beside it override its values.";
+        preset "A pair of surfaces by its name; other keys override its values.";
         /// How friction follows slip.
         law: Law = Law::FORM, "\"elastic-plastic\"";
         /// Friction of the slipping cable in normal forces, μ_d.

@@ -43,7 +43,7 @@ impl SceneFile {
     ///
     /// # Errors
     ///
-    /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
+    /// [`SceneError`] if the file cannot be read, is not TOML, or names a preset that is not known.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let name = path.as_ref().display().to_string();
         let bytes = match bytes_of(path.as_ref()) {
@@ -78,7 +78,7 @@ impl SceneFile {
     ///
     /// # Errors
     ///
-    /// [`SceneError`] where an override is not `KEY=VALUE`, or there is nothing at its key.
+    /// [`SceneError`] if an override is not `KEY=VALUE`, or there is nothing at its key.
     pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self> {
         let mut file = self.clone();
         for text in overrides {

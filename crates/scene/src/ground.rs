@@ -14,7 +14,7 @@ keys! {
     /// The ground and how to model it, in SI.
     #[derive(Default)]
     pub struct Ground {
-        preset "A pavement by its name; keys beside it override its values.";
+        preset "A pavement by its name; other keys override its values.";
         /// Model of the ground.
         model: GroundModel = GroundModel::FORM, "\"auto\"";
         /// Depth of rock that does not move.
@@ -96,7 +96,7 @@ impl Ground {
     ///
     /// # Errors
     ///
-    /// [`GroundError`] where a valid scene has none: a number out of its range, a layer without thickness above another.
+    /// [`GroundError`] if a valid scene has none: a number out of its range, a layer without thickness above another.
     pub fn profile(&self) -> Result<SoilProfile, GroundError> {
         let Some((last, upper)) = self.layers.split_last() else {
             return SoilProfile::new(Vec::new(), Base::Rigid);

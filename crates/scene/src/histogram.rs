@@ -50,9 +50,9 @@ const NAME_OR_TABLE: &str = "the name of a table, such as \"axles.csv\", with th
                              \"axles.csv\", decimal = \"comma\" }";
 
 /// Most classes of axles.
-const MOST: usize = 1000;
+const MAX_CLASSES: usize = 1000;
 const COUNT: Kind = Kind("count counts number axles anzahl nombre numero número 台数");
-/// Where nobody counted.
+/// If nobody counted.
 const SHARE: Kind =
     Kind("share percent percentage frequency anteil häufigkeit fréquence frequenza frecuencia");
 const LOAD: Kind = Kind("load achslast last charge carico carga 軸重");
@@ -172,8 +172,8 @@ fn classes(mut table: Table, speed: f64) -> Result<Vec<TrafficVehicle>, TableErr
     let Some((force, row)) = heaviest else {
         return Err(table.wrong(table.line, "no row with axles below the names", LAYOUT.allowed));
     };
-    if axles.len() > MOST {
-        let allowed = format!("at most {MOST} classes of axles");
+    if axles.len() > MAX_CLASSES {
+        let allowed = format!("at most {MAX_CLASSES} classes of axles");
         return Err(table.wrong(table.line, format!("{} classes", axles.len()), allowed));
     }
     match table.quantity(row, load, load)? {
@@ -196,7 +196,7 @@ fn rows(table: &Table, count: usize) -> Result<Vec<&Row>, TableError> {
     let is_bare = |row: &&&Row| !row.cell(count).contains('%');
     match rows.iter().find(is_bare) {
         Some(row) if !rows.iter().all(|row| is_bare(&row)) => {
-            let found = format!("count: found \"{}\" beside others in %", row.cell(count));
+            let found = format!("count: found \"{}\" among others in %", row.cell(count));
             Err(table.wrong(row.line, found, "all in %, or none"))
         }
         _ => Ok(rows),

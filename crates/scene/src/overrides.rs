@@ -74,7 +74,7 @@ fn parsed(source: &Arc<Source>, start: usize) -> Node {
     Node::new(Location::new(source, start..start + value.len()), content)
 }
 
-/// Sets what stands at these `keys` below the node at `path`, or removes it where there is no value.
+/// Sets what stands at these `keys` below the node at `path`, or removes it if there is no value.
 fn set(node: &mut Node, path: &str, keys: &[&str], value: Option<Node>) -> Result<(), Refused> {
     let Some((key, below)) = keys.split_first() else {
         let key = node.key.clone();

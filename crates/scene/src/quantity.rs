@@ -9,7 +9,7 @@ use crate::units::{Dimension, UNITS, Unit, normalised};
 impl Dimension {
     /// The SI value of `text`, a number followed by one of this dimension's [units](Dimension::units).
     ///
-    /// The value may be infinite or NaN where the text says so or is too large for a number: check its range.
+    /// The value may be infinite or NaN if the text says so or the number is too large: check its range.
     ///
     /// # Errors
     ///
@@ -57,7 +57,7 @@ impl Dimension {
     }
 }
 
-/// The number that a text begins with, and its unit, which may be empty. `None` where digits or points follow the number.
+/// The number that a text begins with, and its unit, which may be empty. `None` if digits or points follow the number.
 pub fn leading_number(text: &str) -> Option<(f64, &str)> {
     let (number, unit) = split(text)?;
     let value: f64 = number.parse().ok()?;

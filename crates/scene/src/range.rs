@@ -34,7 +34,7 @@ macro_rules! quantities {
 use Dimension as D;
 
 /// The smallest number greater than 0, and the last moment of a day \[s\].
-const LEAST: f64 = 5e-324;
+const MIN: f64 = 5e-324;
 const MIDNIGHT: f64 = 86_400.0_f64.next_down();
 const MAX: f64 = f64::MAX;
 
@@ -54,7 +54,7 @@ quantities! {
     LONGITUDINAL_PEAK: Some(D::Length), 1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m", "\"35.7 um\"";
     VERTICAL_PEAK: Some(D::Length), 1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m", "\"90 um\"";
     POSITION: Some(D::Length), -MAX, MAX, "of any sign", "\"20 m\"";
-    STEP: Some(D::Length), LEAST, MAX, "greater than 0", "\"0.1 m\"";
+    STEP: Some(D::Length), MIN, MAX, "greater than 0", "\"0.1 m\"";
     APPROACH: Some(D::Length), 0.1, 1e5, "greater than 0, from 0.1 m to 100 km", "\"15 m\"";
     MODULUS: Some(D::Pressure), 1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa",
         "\"800 MPa\", or { top = \"60 MPa\", bottom = \"200 MPa\" } if it varies with depth";
@@ -71,15 +71,15 @@ quantities! {
     BEND_RADIUS: Some(D::Length), 0.01, 1e12, "greater than 0, from 1 cm to 1e12 m", "\"10 m\"";
     LOAD: Some(D::Force), 0.0, 1e9, "of at least 0 and at most 1000 MN", "\"20 tf\"";
     WHEEL_LOAD: Some(D::Force), 0.0, 1e9, "of at least 0 and at most 1000 MN", "\"50 kN\"";
-    AXLE_LOAD: Some(D::Force), LEAST, 1e9, "greater than 0 and at most 1000 MN", "\"100 kN\"";
+    AXLE_LOAD: Some(D::Force), MIN, 1e9, "greater than 0 and at most 1000 MN", "\"100 kN\"";
     SPEED: Some(D::Speed), 1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s", "\"40 km/h\"";
     EXPANSION: Some(D::InverseTemperature), 0.0, 1e-3, "of at least 0 and at most 1e-3 1/K", "\"17e-6 1/K\"";
     SWING: Some(D::Temperature), 0.0, 500.0, "of at least 0 and at most 500 K", "\"20 K\"";
     TEMPERATURE: Some(D::Temperature), -500.0, 500.0, "of any sign, from -500 to 500 K", "\"20 K\"";
     OFFSET: Some(D::Temperature), -500.0, 500.0, "of any sign, from -500 to 500 K", "\"-5 K\"";
     TIME_OF_DAY: Some(D::Time), 0.0, MIDNIGHT, "from 0 h on and before 24 h", "\"15 h\"";
-    TIME_STEP: Some(D::Time), LEAST, MAX, "greater than 0", "\"0.1 ms\"";
-    TOLERANCE: Some(D::Ratio), LEAST, 0.5, "greater than 0 and at most 0.5", "0.01 or \"1 %\"";
+    TIME_STEP: Some(D::Time), MIN, MAX, "greater than 0", "\"0.1 ms\"";
+    TOLERANCE: Some(D::Ratio), MIN, 0.5, "greater than 0 and at most 0.5", "0.01 or \"1 %\"";
     SHARE: Some(D::Ratio), 1e-12, 1e12, "greater than 0, from 1e-12 to 1e12", "3 or \"20 %\"";
     POISSON: None, 0.0, 0.5, "from 0 to 0.5", "";
     COEFFICIENT: None, 0.0, 10.0, "from 0 to 10", "";

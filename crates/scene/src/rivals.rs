@@ -1,4 +1,4 @@
-//! Keys that exclude each other: what an override sets drops what has no meaning beside it; what a file gives together is an error.
+//! Keys that exclude each other: what an override sets drops what has no meaning with it; what a file gives together is an error.
 
 use crate::content::{Content, Node, joined, without_numbers};
 use crate::error::{Result, SceneError};
@@ -62,7 +62,7 @@ fn holds((_, _, values, ..): &Rule, value: Option<&Content>) -> bool {
     }
 }
 
-/// Whether the entry `present` of the table at `path` has no meaning beside `set`, which is given later.
+/// Whether the entry `present` of the table at `path` has no meaning with `set`, which is given later.
 pub fn gives_way(path: &str, present: &Node, set: &Node) -> bool {
     rules(&without_numbers(path)).any(|rule| {
         let (_, key, _, other, allowed) = rule;

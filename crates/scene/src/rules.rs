@@ -140,7 +140,7 @@ fn route(scene: &Scene) -> Result<()> {
     let Some((last, others)) = scene.route.split_last() else {
         return Ok(());
     };
-    rule(scene.duct.slope == 0.0, "duct.slope", "a slope beside [[route]]", "the slopes of the sections in [[route]]")?;
+    rule(scene.duct.slope == 0.0, "duct.slope", "a slope with [[route]]", "the slopes of the sections in [[route]]")?;
     for (index, section) in scene.route.iter().enumerate() {
         let key = |name: &str| format!("route.{index}.{name}");
         let is_long = section.length.is_some() || index == others.len();
@@ -221,11 +221,11 @@ fn heat(scene: &Scene) -> Result<()> {
     rule(heat.daily_swing.is_some() || heat.profile.is_some(), "heat", "neither `daily_swing` nor `profile`",
         "one of the two: daily_swing = \"20 K\" or profile = [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]]")?;
     rule(scene.traffic.per_day.is_some(), "heat", "no `traffic.per_day`",
-        "`per_day` in [traffic] beside [heat]: how many vehicles meet each hour's temperature")?;
+        "`per_day` in [traffic] with [heat]: how many vehicles meet each hour's temperature")?;
     rule(cold || law.has_memory(), "heat", format!("[heat] with `friction.law` = \"{}\"", law.name()),
-        "\"coulomb\" or \"elastic-plastic\" beside [heat]: temperature steps need a state of rest")?;
+        "\"coulomb\" or \"elastic-plastic\" with [heat]: temperature steps need a state of rest")?;
     rule(cold || scene.friction_limit() > 0.0, "heat", "[heat] without friction",
-        "a `friction.dynamic_coefficient` greater than 0 beside [heat]")?;
+        "a `friction.dynamic_coefficient` greater than 0 with [heat]")?;
     rule(cold || !is_explicit, "heat", "[heat] with `solver.method` = \"explicit\"",
-        "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia")
+        "\"auto\", \"quasi-static\" or \"pass-law\" with [heat]: it is computed without inertia")
 }

@@ -168,7 +168,7 @@ impl Measure {
 
 impl Scene {
     /// Normal force on the duct as a multiple of the cable's weight: as it is given, or as the cable's arrangement and the diameters make
-    /// it; 1 where none of them is known.
+    /// it; 1 if none of them is known.
     pub fn normal_load_factor(&self) -> f64 {
         let follows = || {
             let (inner, outer) = (self.duct.inner_diameter?, self.cable.diameter?);

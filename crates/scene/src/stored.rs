@@ -1,4 +1,4 @@
-//! Types whose values stand in a file. Each is read beside the form of its key: an error says what is allowed.
+//! Types whose values stand in a file. Each is read together with the form of its key: an error says what is allowed.
 
 use crate::content::{Content, Node, joined};
 use crate::error::{Result, SceneError, did_you_mean};

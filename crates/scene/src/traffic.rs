@@ -58,7 +58,7 @@ impl Traffic {
         let Some(years) = self.years.take() else {
             return Ok(());
         };
-        let allowed = || format!("vehicles a day beside `years`, {}", PER_DAY.allowed());
+        let allowed = || format!("vehicles a day with `years`, {}", PER_DAY.allowed());
         let missing = || SceneError::missing("traffic.per_day", allowed());
         let per_day = self.per_day.ok_or_else(missing)?;
         let passes = (years * DAYS_PER_YEAR * per_day).round();

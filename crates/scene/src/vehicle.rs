@@ -13,7 +13,7 @@ use crate::stored::{Given, Stored};
 keys! {
     /// A vehicle and how often it drives, in SI. It has a load or wheels.
     pub struct TrafficVehicle {
-        preset "A vehicle by its name; keys beside it override its values.";
+        preset "A vehicle by its name; other keys override its values.";
         /// Name of the vehicle.
         name: String = Name("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
         /// Speed of the vehicle.
@@ -95,7 +95,7 @@ impl TrafficVehicle {
     ///
     /// # Errors
     ///
-    /// [`GroundError`] where a valid scene has none: no wheels, or a number out of its range.
+    /// [`GroundError`] if a valid scene has none: no wheels, or a number out of its range.
     pub fn vehicle(&self) -> Result<Vehicle, GroundError> {
         let mut wheels = Vec::new();
         for wheel in self.wheels() {

@@ -42,7 +42,7 @@ impl Book {
         Ok(Self { workbook, row: 0 })
     }
 
-    /// Begins a sheet with the names of its columns, below them their units where there are any.
+    /// Begins a sheet with the names of its columns, below them their units if there are any.
     pub fn sheet(&mut self, name: &str, columns: &[(&str, &str)]) -> Result<(), XlsxError> {
         let (bold, lined) = (
             Format::new().set_bold(),

@@ -38,7 +38,7 @@ mod tests {
             let pressed = read(&levels, k, Limited::Force, |level| force(levels[level]));
             assert!((pressed / force(k) - 1.0).abs() < 1e-12, "{k}");
         }
-        // Beside none and beside a fixed end the spring itself is read.
+        // Next to none and next to a fixed end the spring itself is read.
         let index = |k| read(&levels, k, Limited::Force, |level| level as f64);
         assert_eq!([5e3, 2e6, f64::INFINITY].map(index), [1.0, 4.0, 4.0]);
     }

@@ -13,7 +13,7 @@ pub fn is_no_value(text: &str) -> bool {
 }
 
 /// The number at the beginning of `text`, where this sign stands before the decimals: its digits as
-/// a program writes them, and what follows, a unit or nothing. `None` where none is there or finite.
+/// a program writes them, and what follows, a unit or nothing. `None` if none is there or finite.
 pub fn number(text: &str, decimal: char) -> Option<(String, &str)> {
     let text = text.trim_start_matches('\'');
     let part = |c: char| c.is_ascii_digit() || "+-−.,'’eE".contains(c) || c.is_whitespace();
@@ -45,7 +45,7 @@ fn plain(digits: &str, decimal: char) -> Option<String> {
 }
 
 /// The cell read with a decimal point and with a decimal comma: where they differ, it may be either.
-pub fn both(cell: &str) -> [Option<f64>; 2] {
+pub fn by_either_sign(cell: &str) -> [Option<f64>; 2] {
     ['.', ','].map(|decimal| number(cell, decimal)?.0.parse().ok())
 }
 
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn a_cell_tells_the_decimal_sign_or_is_doubtful() {
-        let says = |cell: &str| match both(cell) {
+        let says = |cell: &str| match by_either_sign(cell) {
             [Some(_), None] => "point",
             [None, Some(_)] => "comma",
             [Some(point), Some(comma)] if point != comma => "doubtful",

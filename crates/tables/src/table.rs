@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::column::{Kind, Layout, Name, is_same};
 use crate::error::{Result, TableError};
-use crate::number::{both, number};
+use crate::number::{by_either_sign, number};
 use crate::options::{Options, word};
 use crate::rows::{self, Row};
 use crate::{LONGEST, PREAMBLE, shortened, text};
@@ -157,7 +157,7 @@ impl Table {
         let said = said.or(self.separator.is_none().then_some('.'));
         for (column, name) in self.names.iter_mut().enumerate() {
             let is_number = (self.layout.is_number)(name);
-            let certain = |row: &Row| match both(row.cell(column)) {
+            let certain = |row: &Row| match by_either_sign(row.cell(column)) {
                 [Some(_), None] => Some('.'),
                 [None, Some(_)] => Some(','),
                 _ => None,
@@ -202,7 +202,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`TableError::Line`] where there are two.
+    /// [`TableError::Line`] if there are two.
     pub fn one(&self, kind: Kind) -> Result<Option<usize>> {
         let columns = self.of(kind);
         let Some(&second) = columns.get(1) else {
@@ -214,7 +214,7 @@ impl Table {
     }
 
     /// The digits of the number in a cell, with a decimal point, and its unit, or that of the column
-    /// `like` if it has none. `None` where there is no number.
+    /// `like` if it has none. `None` if there is no number.
     ///
     /// # Errors
     ///
@@ -228,7 +228,7 @@ impl Table {
         let (cell, name) = (row.cell(column), &self.names[column]);
         // Between commas a point stands before decimals.
         let is_point = self.separator == Some(',') && cell.contains('.');
-        if let (None, false, [Some(a), Some(b)]) = (name.decimal, is_point, both(cell))
+        if let (None, false, [Some(a), Some(b)]) = (name.decimal, is_point, by_either_sign(cell))
             && a != b
         {
             let (cell, least, most) = (shortened(cell, LONGEST), a.min(b), a.max(b));

@@ -85,7 +85,7 @@ pub fn film(
         "length_m": mesh.length(),
         "depth_m": depth,
         "spacing_m": mesh.spacing() * every as f64,
-        "motion": around(motion, SEEN * depth),
+        "motion": motion_around(motion, SEEN * depth),
         "before_decinewtons": camera.forces(&camera.begin, 0, usize::MAX)?,
         "after_decinewtons": camera.forces(&state, 0, usize::MAX)?,
         "pictures": pictures.into_iter().collect::<Result<Vec<_>, _>>()?,
@@ -93,7 +93,7 @@ pub fn film(
 }
 
 /// The motion of the duct so far on either side of the vehicle \[m\].
-fn around(motion: &DuctMotion, half: f64) -> Value {
+fn motion_around(motion: &DuctMotion, half: f64) -> Value {
     let place = |k: i32| half * f64::from(k) / f64::from(PLACES);
     let ahead: Vec<f64> = (-PLACES..=PLACES).map(place).collect();
     let along = ahead.iter().map(|place| 1e6 * motion.longitudinal(*place));

@@ -77,7 +77,7 @@ impl Question {
         let limits = LimitArguments::typed(typed("force"), typed("movement"));
         let refused = |(option, why)| Refusal::new(422, Some(option), &format!("{option}: {why}"));
         let (scene, limits) = (asked.scene()?, limits.map_err(refused)?);
-        let given = limits.are_given().then(|| limits.limits_beside(&scene, &[]));
+        let given = limits.are_given().then(|| limits.limits_with(&scene, &[]));
         Ok(Asked {
             limits: given.transpose()?,
             // A slider's unit says nothing about those of answers.

@@ -1,7 +1,7 @@
 //! Table of aims: what each kind of answer is meant to cost, what it costs, and how far that is from the least it could cost.
 //!
 //! *Least.* The nodes that a run eliminates, each at the price of a node in a bare tridiagonal solve (Thomas) of a system in the cache: no
-//! motion of the duct, no contact states, no corrections, no records. The price is measured beside the runs.
+//! motion of the duct, no contact states, no corrections, no records. The price is measured together with the runs.
 
 use std::fmt::Write as _;
 use std::hint::black_box;

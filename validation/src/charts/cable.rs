@@ -80,7 +80,7 @@ impl Case {
         })
     }
 
-    /// Forces after the last half of `passes` passes, `None` where they take too long, and the count of the work.
+    /// Forces after the last half of `passes` passes, `None` if they take too long, and the count of the work.
     fn answer(&self, method: Method, knob: f64, passes: usize) -> Result<Option<Found>, Failure> {
         let mut scene = self.scene.clone();
         let (solver, density) = match method {
@@ -105,7 +105,7 @@ impl Case {
         let passage = solver.passage(&self.motion, APPROACH)?;
         let motion = self.motion.peak_longitudinal();
         let least = (0.01 * cable.friction().limit(), 0.1 * motion);
-        let jumps = Jumps::new(JUMP, depth, least)?.with_most_passes(passes as u64, passes as u64);
+        let jumps = Jumps::new(JUMP, depth, least)?.with_max_passes(passes as u64, passes as u64);
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
         let mut request = Request::new(passes as u64, &[0])?;
         request.wanted = &wanted;

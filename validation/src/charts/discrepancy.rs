@@ -56,7 +56,7 @@ const CASES: [Wrong; 3] = [
     },
     Wrong {
         name: "ground too stiff",
-        axis: "true stiffness beside the model's",
+        axis: "true stiffness relative to the model's",
         logarithmic: false,
         truths: [1.0, 0.95, 0.9, 0.8],
         change: |truth| format!("ground.layers.0.young_modulus={} MPa", 800.0 * truth),

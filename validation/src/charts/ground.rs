@@ -214,7 +214,7 @@ fn error(values: &[f64], exact: &[f64]) -> f64 {
     })
 }
 
-/// The profile's error, cost and count; `None` where the method refuses.
+/// The profile's error, cost and count; `None` if the method refuses.
 fn measure(method: &Method, profile: &SoilProfile, knob: f64, exact: &[f64]) -> Option<(f64, f64, usize)> {
     let positions = positions();
     let mut times = Vec::new();

@@ -140,7 +140,7 @@ fn planned(scene: &Scene, tolerance: f64) -> Result<Found, Failure> {
     })
 }
 
-/// The chain of Kashiro et al.; `None` where that takes too long.
+/// The chain of Kashiro et al.; `None` if that takes too long.
 fn forced(scene: &Scene, density: f64) -> Result<Option<Found>, Failure> {
     let field = LayeredFem::new(&scene.ground.profile()?, ELEMENTS)?;
     let motion = motion(scene, &field, ELEMENTS)?;

@@ -1,4 +1,4 @@
-//! Map 4: the crate `burmister` over the contrast of moduli and the thickness of a layer, beside the textbook's transfer matrices.
+//! Map 4: the crate `burmister` over the contrast of moduli and the thickness of a layer, compared with the textbook's transfer matrices.
 //!
 //! A layer lies on a half-space of 100 MPa; the duct 1.2 m deep is below a thin layer and within a thick one. The transfer matrix
 //! carries displacement and traction through the layer by both growing and decaying exponentials (D. M. Burmister,

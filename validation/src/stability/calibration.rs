@@ -37,8 +37,8 @@ const NEAR: f64 = 0.1;
 /// Rise of the deviance up to which true values lie inside of every 95 % interval: the square of Student's t is 4.2 with 28 degrees of freedom.
 const FITS: f64 = 4.0;
 /// Shares of the draws from which, and up to which, b counts as identified and as not identifiable.
-const MOST: f64 = 0.9;
-const FEWEST: f64 = 0.1;
+const MAX_SHARE: f64 = 0.9;
+const MIN_SHARE: f64 = 0.1;
 
 /// Forces over the logarithms of μ_d and b.
 pub struct Table {
@@ -169,9 +169,9 @@ impl Cell {
             Outcome::Wrong
         } else if self.count(Draw::Failed) > 0 {
             Outcome::Failed
-        } else if share >= MOST {
+        } else if share >= MAX_SHARE {
             Outcome::Identified
-        } else if share > FEWEST {
+        } else if share > MIN_SHARE {
             Outcome::Sometimes
         } else {
             Outcome::NotIdentifiable

@@ -1,4 +1,4 @@
-//! Map 3: the finite elements of `layered-fem` where finite elements are known to fail, beside an element that does.
+//! Map 3: the finite elements of `layered-fem` where finite elements are known to fail, compared with an element that does.
 //!
 //! A layer lies on a half-space of 100 MPa, the duct at 1.2 m. Over ν → 0.5 of both soils and the contrast of their moduli (a layer of
 //! 0.3 m), and over the layer's thickness and the contrast (ν = 0.35 and 0.4). The other element is the textbook's: four nodes, bilinear,
@@ -75,7 +75,7 @@ fn cell(thickness: f64, upper: Soil, base: Soil) -> Result<[Cell; 2], GroundErro
     Ok([own, judge(Ok(found), &exact, TOLERANCE)])
 }
 
-/// Displacements along the duct's depth at the nodes to 15 m, by bilinear elements with full integration; none where the system
+/// Displacements along the duct's depth at the nodes to 15 m, by bilinear elements with full integration; none if the system
 /// cannot be solved.
 fn textbook(thickness: f64, upper: Soil, base: Soil, load: SurfaceLoad) -> Vec<(f64, Displacement)> {
     const REACH: f64 = 400.0;

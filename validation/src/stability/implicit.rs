@@ -177,7 +177,7 @@ fn outcomes(shape_factor: f64, step: f64, motion: &DuctMotion) -> Result<[Cell; 
             violation: f64::NAN,
         });
     };
-    // Where nothing slips nothing is left: forces below what friction holds on a centimetre count as nothing.
+    // If nothing slips nothing is left: forces below what friction holds on a centimetre count as nothing.
     let scale = expected.abs().max(0.01 * LIMIT);
     let judge = |force: f64| judge(force, expected, scale, false);
     let library = || {

@@ -94,7 +94,7 @@ impl Case {
     fn jumped(&self, number: f64, guide: Guide<'_>) -> Result<Vec<f64>, JumpError> {
         let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
         let motion = number * LIMIT * DEPTH * DEPTH / EA;
-        let jumps = Jumps::new(TOLERANCE, DEPTH, (0.01 * LIMIT, 0.1 * motion))?.with_most_passes(1000, 1000);
+        let jumps = Jumps::new(TOLERANCE, DEPTH, (0.01 * LIMIT, 0.1 * motion))?.with_max_passes(1000, 1000);
         let mut request = Request::new(PASSES[PASSES.len() - 1], self.mix)?;
         (request.wanted, request.guide) = (&PASSES, guide);
         let evolution = evolve(
@@ -113,7 +113,7 @@ impl Case {
     }
 }
 
-/// The worst of `found` beside what is `right`.
+/// The worst of `found` relative to what is `right`.
 fn worst(found: &[f64], right: &[f64], warned: bool) -> Cell {
     let largest = right.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
     let scale = |right: f64| right.abs().max(0.1 * largest).max(0.01 * LIMIT);

@@ -51,7 +51,7 @@ impl Outcome {
     }
 }
 
-/// What comes of the scene `text`, and its answer where there is one.
+/// What comes of the scene `text`, and its answer if there is one.
 pub fn judged(text: &str) -> (Outcome, Option<Run>) {
     match catch_unwind(AssertUnwindSafe(|| outcome(text))) {
         Ok(judged) => judged,

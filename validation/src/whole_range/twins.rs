@@ -19,7 +19,7 @@ pub const LENGTH: f64 = 4.0;
 const TIME: f64 = 2.0;
 const FORCE: f64 = 64.0;
 
-/// How far the answer of a scene lies from those of other runs; infinitely far where the other has no answer though it has one. `None` where
+/// How far the answer of a scene lies from those of other runs; infinitely far where the other has no answer though it has one. `None` if
 /// that takes too long, or where the other scene is out of range.
 pub struct Twins {
     /// What the answer states.

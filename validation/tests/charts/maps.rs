@@ -139,7 +139,7 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
     Ok(())
 }
 
-/// What a bend costs that presses with the force of the step before: nothing where it is wide, and the more the tighter it is.
+/// What a bend costs that presses with the force of the step before: nothing if it is wide, and the more the tighter it is.
 #[test]
 fn wide_bends_cost_nothing() -> Tested {
     let mut reader = table::read(&folder().join("stability-bends.csv"))?;

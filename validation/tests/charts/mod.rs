@@ -127,7 +127,7 @@ fn of<'a>(rows: &'a [Row], panel: &'a str, method: &'a str) -> impl Iterator<Ite
         .filter(move |row| row.panel == panel && row.method == method)
 }
 
-/// The least time in which a method is at most so wrong; infinite where it never is.
+/// The least time in which a method is at most so wrong; infinite if it never is.
 fn seconds(rows: &[Row], panel: &str, method: &str, error: f64) -> f64 {
     of(rows, panel, method)
         .filter(|row| row.error <= error)

@@ -26,7 +26,7 @@ use crate::shape::Shape;
 const NEGLIGIBLE: f64 = 1e-17;
 
 /// Enough for R ≥ 4a, where (1/16)^14 is below the bound.
-const MOST_TERMS: usize = 16;
+const MAX_TERMS: usize = 16;
 
 /// Factors of one term's step, all of them known beforehand.
 struct Step {
@@ -41,9 +41,9 @@ struct Step {
     half: f64,
 }
 
-const STEPS: [Step; MOST_TERMS] = steps();
+const STEPS: [Step; MAX_TERMS] = steps();
 
-const fn steps() -> [Step; MOST_TERMS] {
+const fn steps() -> [Step; MAX_TERMS] {
     const FIRST: Step = Step {
         beta: 1.0,
         even: (0.0, 0.0),
@@ -51,9 +51,9 @@ const fn steps() -> [Step; MOST_TERMS] {
         twice: 0.0,
         half: 0.0,
     };
-    let mut table = [FIRST; MOST_TERMS];
+    let mut table = [FIRST; MAX_TERMS];
     let mut k = 1;
-    while k < MOST_TERMS {
+    while k < MAX_TERMS {
         let n = 2.0 * k as f64;
         table[k] = Step {
             beta: -(n - 1.0) / (n + 2.0),

@@ -197,10 +197,10 @@ impl Explicit {
     /// # Errors
     ///
     /// [`CableError::StateMismatch`] and [`CableError::PassageMismatch`] for a state and a duct of another mesh,
-    /// [`CableError::Precision`] where rounding would
-    /// blur the answer, [`CableError::TooManySteps`] where the pass would take more work than allowed,
-    /// [`CableError::EnergyNotConserved`] where the energy balance shows that the step was too long,
-    /// [`CableError::NoConvergence`] where the cable found no rest.
+    /// [`CableError::Precision`] if rounding would
+    /// blur the answer, [`CableError::TooManySteps`] if the pass would take more work than allowed,
+    /// [`CableError::EnergyNotConserved`] if the energy balance shows that the step was too long,
+    /// [`CableError::NoConvergence`] if the cable found no rest.
     pub fn pass(&mut self, duct: &MovingDuct, state: &mut CableState) -> Result<ExplicitOutcome, CableError> {
         self.pass_observed(duct, state, |_, _| {})
     }

@@ -157,8 +157,8 @@ impl QuasiStatic {
     /// # Errors
     ///
     /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::PassageMismatch`] for a passage computed for
-    /// another mesh, axial stiffness or friction, [`CableError::Precision`] where rounding would blur
-    /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium, [`CableError::InvalidParameter`] for a cable without friction that
+    /// another mesh, axial stiffness or friction, [`CableError::Precision`] if rounding would blur
+    /// the answer, [`CableError::NoConvergence`] if a step found no equilibrium, [`CableError::InvalidParameter`] for a cable without friction that
     /// is not as warm as it was laid.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
         self.pass_observed(passage, state, |_, _| {})

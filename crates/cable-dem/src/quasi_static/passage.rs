@@ -76,7 +76,7 @@ impl Passage {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, [`CableError::OutOfReach`] where the motion
+    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, [`CableError::OutOfReach`] if the motion
     /// is not known as far as the duct's length and the approach together, [`CableError::CoarseMesh`] for a mesh that leaves out
     /// more than 65 % of the duct's peak: about 1.5 nodes per depth or fewer.
     pub fn new(

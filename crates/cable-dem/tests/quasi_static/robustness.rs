@@ -63,7 +63,7 @@ fn survivor(
 
 const MESH: (f64, f64) = (0.2, 0.1);
 
-/// Elements and vehicle steps of any length, also beside the other; three nodes; ducts just below the road and far below it.
+/// Elements and vehicle steps of any length, also relative to each other; three nodes; ducts just below the road and far below it.
 #[test]
 fn every_mesh_and_depth_is_solved() {
     let ground = HalfSpace::new(testkit::soil(800e6, 0.4));

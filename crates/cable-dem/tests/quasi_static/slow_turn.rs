@@ -11,7 +11,7 @@ const LENGTH: f64 = 1.0;
 /// forward once more.
 const SWING: f64 = 2e-7;
 const WAVE: f64 = 160.0;
-/// All of it at a millimetre from its place at rest, beside which a step's slip is a ten-millionth.
+/// All of it at a millimetre from its place at rest, relative to which a step's slip is a ten-millionth.
 const OFFSET: f64 = 1e-3;
 
 #[test]

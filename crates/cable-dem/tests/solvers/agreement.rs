@@ -8,7 +8,7 @@ use super::random_scenes::{Drawn, Scene};
 /// Of the largest force that the cable meets, at the worst place.
 const AGREEMENT: f64 = 5e-3;
 
-/// Inertia of the cable beside friction.
+/// Inertia of the cable relative to friction.
 const INERTIA: f64 = 1e-4;
 
 fn any_scene() -> impl Strategy<Value = Scene> {
@@ -24,7 +24,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         let Scene { width, peak, .. } = scene;
         let friction = scene.friction.limit();
         Scene {
-            // So slow that the cable's own inertia, m′ D v²/width², is next to nothing beside friction.
+            // So slow that the cable's own inertia, m′ D v²/width², is next to nothing relative to friction.
             speed: (width * (INERTIA * friction / (MASS * peak)).sqrt()).min(1.5),
             // Steps so fine that the time between two of them does not count.
             mesh: (0.1 * width, 0.005 * width),

@@ -156,7 +156,7 @@ impl Problem {
 
     /// [`Problem::forces`] by the quasi-static solver after vehicles of these indices, and the largest force met in the cable at any time.
     pub fn without_inertia(&self, traffic: &[usize]) -> (Vec<f64>, f64) {
-        // Where nothing moves nothing is left but rounding.
+        // If nothing moves nothing is left but rounding.
         let mut most = 1e-6 * self.largest_force();
         let mut run = Run::new(Kind::QuasiStatic, self).expect("a valid problem");
         for &drive in traffic {

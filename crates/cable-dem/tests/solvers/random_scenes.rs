@@ -17,7 +17,7 @@ pub struct Scene {
     pub steepness: f64,
     pub ends: (End, End),
     pub clamps: Vec<Restraint>,
-    /// Displacement and length of the duct's motion, and what it is pushed forward beside.
+    /// Displacement and length of the duct's motion, and the part that pushes it forward.
     pub peak: f64,
     pub width: f64,
     pub pushed: f64,

@@ -27,7 +27,7 @@ fn stiff_springs_read_what_a_fixed_end_reads() -> Outcome {
         for stiffness in [1e8, 1e9, 1e10, 1e12] {
             let end = End::Spring(stiffness);
             let reference = force_and_peak(Kind::QuasiStatic, end)?;
-            // What the spring yields beside a metre of cable.
+            // What the spring yields relative to a metre of cable.
             let yielding = AXIAL_STIFFNESS / stiffness;
             for kind in Kind::ALL {
                 // An explicit step of a microsecond is no use.

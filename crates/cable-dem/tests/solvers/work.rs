@@ -1,7 +1,7 @@
 //! How much work the solvers do, in counts that do not depend on the machine: a change that makes one of them slower shows
 //! here, where times would only flicker.
 //!
-//! Every bound is what the method must need on the scene, with a margin of a tenth to a quarter, and the reason beside it.
+//! Every bound is what the method must need on the scene, with a margin of a tenth to a quarter, and with the reason.
 
 use std::cell::Cell;
 

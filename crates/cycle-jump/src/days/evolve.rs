@@ -310,8 +310,8 @@ where
         }
         let wanted_days = request.wanted_days.iter().filter(|day| **day > 1);
         let wanted_days: Vec<u64> = wanted_days.map(|day| day - 1).collect();
-        let (jumping, most) = jumps.most_passes;
-        let mut jumps = jumps.with_most_passes(jumping.saturating_mul(length), most.saturating_mul(length));
+        let (jumping, most) = jumps.max_passes;
+        let mut jumps = jumps.with_max_passes(jumping.saturating_mul(length), most.saturating_mul(length));
         if request.every_day {
             jumps.first_periods = u64::MAX;
         }

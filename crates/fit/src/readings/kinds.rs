@@ -32,7 +32,7 @@ const ENDS: [(CableEnd, Kind); 2] = [
 ];
 
 /// Most vehicles of a pass or a count.
-const MOST: f64 = 1e15;
+const MAX_COUNT: f64 = 1e15;
 
 /// A table of readings.
 pub const LAYOUT: Layout = Layout {
@@ -81,7 +81,7 @@ pub fn si(kind: Kind, digits: &str, unit: &str) -> Result<f64, String> {
     // A length per metre is a length in metres.
     let value = match (kind, &*unit.replace(['µ', 'μ'], "u")) {
         (PASS | VEHICLES, "") => {
-            bare().filter(|value: &f64| value.fract() == 0.0 && (0.0..=MOST).contains(value))
+            bare().filter(|value: &f64| value.fract() == 0.0 && (0.0..=MAX_COUNT).contains(value))
         }
         (PASS | VEHICLES, _) => None,
         (STRAIN, "-" | "1" | "m/m") | (_, "") => bare(),

@@ -7,7 +7,7 @@ use super::kinds::{DEFLECTION, FORCE, LAYOUT, measured};
 use super::{DataError, Place, Reading, Readings, runs};
 
 /// Most lines that a note names.
-const MOST_LINES: usize = 8;
+const MAX_LINES: usize = 8;
 
 /// The column, if the row has anything there.
 fn given(row: &Row, column: Option<usize>) -> Option<usize> {
@@ -66,7 +66,7 @@ impl Columns<'_> {
             None => values.end.map_or(Place::Natural, Place::End),
             Some(_) if values.kind == DEFLECTION => {
                 let allowed = "deflections without one: they are those of the duct under the first vehicle, wherever it is";
-                return Err(table.wrong(row.line, "a place beside a deflection", allowed));
+                return Err(table.wrong(row.line, "a place together with a deflection", allowed));
             }
             Some(position) => Place::At(value(position)?),
         };
@@ -116,8 +116,8 @@ fn left_out(what: &str, cells: &[(u64, &str)]) -> Option<String> {
         "" => format!("line {line}"),
         text => format!("line {line} (\"{text}\")"),
     };
-    let lines: Vec<String> = cells.iter().take(MOST_LINES).map(shown).collect();
+    let lines: Vec<String> = cells.iter().take(MAX_LINES).map(shown).collect();
     let (count, lines) = (cells.len(), lines.join(", "));
-    let more = if count > MOST_LINES { ", …" } else { "" };
+    let more = if count > MAX_LINES { ", …" } else { "" };
     (count > 0).then(|| format!("{count} {what} were left out: {lines}{more}"))
 }

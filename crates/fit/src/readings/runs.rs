@@ -34,7 +34,7 @@ pub fn split_where_passes_begin_anew(readings: &mut Readings) {
     }
 }
 
-/// Counts the passes of every reading from a cable at rest. Where nobody says how runs begin, their
+/// Counts the passes of every reading from a cable at rest. If nobody says how runs begin, their
 /// passes do: those that begin anew are a cable's that does.
 pub fn count_from_rest(readings: &mut Readings, start: Option<RunStart>) {
     // Lowest and highest pass of each run.

@@ -22,8 +22,8 @@ const TRANSFORM_ACCURACY: f64 = 1e-7;
 /// The same for a model of unknown smoothness.
 const OWN_ACCURACY: f64 = 1e-6;
 /// Sublayers of a layer whose modulus varies, to begin with, and the most of all layers together.
-const FEWEST_SUBLAYERS: usize = 16;
-const MOST_LAYERS: usize = 1000;
+const MIN_SUBLAYERS: usize = 16;
+const MAX_LAYERS: usize = 1000;
 /// Share of the tolerance that cutting a layer into sublayers may take.
 const SUBLAYERS_SHARE: f64 = 0.05;
 /// Midpoint moduli are of second order: the finer of two motions is off by a third of their
@@ -92,7 +92,7 @@ impl Ground {
             let field = layered(&profile.sublayered(count, scene.duct.depth)?)?;
             motions(scene, &field, TRANSFORM_ACCURACY, reach)
         };
-        let mut count = FEWEST_SUBLAYERS;
+        let mut count = MIN_SUBLAYERS;
         let mut motions = sliced(count)?;
         loop {
             count *= 2;
@@ -100,7 +100,7 @@ impl Ground {
             let error = difference(&motions, &finer, scene.duct.depth) / SECOND_ORDER;
             motions = finer;
             let most = 2 * count * profile.layers().len();
-            if error <= SUBLAYERS_SHARE * scene.solver.tolerance || most > MOST_LAYERS {
+            if error <= SUBLAYERS_SHARE * scene.solver.tolerance || most > MAX_LAYERS {
                 return Ok(Self {
                     name: "burmister",
                     reason: "the Hankel transform on uniform sublayers, twice as many until the motion is steady",

@@ -35,7 +35,7 @@ pub fn motions(
     scale(scene, motions)
 }
 
-/// How many times as heavy a vehicle is as one that is like it but for its load; `None` where they
+/// How many times as heavy a vehicle is as one that is like it but for its load; `None` if they
 /// differ in more.
 pub fn load_ratio(vehicle: &TrafficVehicle, base: &TrafficVehicle) -> Option<f64> {
     let drives = |vehicle: &TrafficVehicle| (vehicle.lateral_offset, vehicle.speed, vehicle.direction);

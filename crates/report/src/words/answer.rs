@@ -29,7 +29,7 @@ fn fact(name: &'static str, value: String, note: impl Into<String>) -> Fact {
     Fact { name, value, note }
 }
 
-/// A force on an end, or within the cable where there is none, and when it acts.
+/// A force on an end, or within the cable if there is none, and when it acts.
 struct Load {
     newtons: f64,
     end: Option<CableEnd>,
@@ -62,7 +62,7 @@ impl Load {
     }
 }
 
-/// The held end on which such a force is larger in size; `None` where both are free.
+/// The held end on which such a force is larger in size; `None` if both are free.
 fn pressed_end(scene: &Scene, force: impl Fn(CableEnd) -> f64) -> Option<CableEnd> {
     let all = CableEnd::ALL.into_iter();
     let held = all.filter(|end| end.held_in(scene) != End::Free);
@@ -70,7 +70,7 @@ fn pressed_end(scene: &Scene, force: impl Fn(CableEnd) -> f64) -> Option<CableEn
 }
 
 impl Answer<'_> {
-    /// The most important numbers: six, one of the cable where it bears more than its ends, and one of clamps where there are any.
+    /// The most important numbers: six, one of the cable where it bears more than its ends, and one of clamps if there are any.
     pub fn facts(&self) -> Vec<Fact> {
         let Some(last) = self.run.passes.last() else {
             return Vec::new();

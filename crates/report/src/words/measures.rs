@@ -85,7 +85,7 @@ pub fn holds_for(measure: &MeasureAnswer, combinations: usize) -> String {
     }
 }
 
-/// The row of a measure: the names of its columns, and what stands in them; nothing where it is not known.
+/// The row of a measure: the names of its columns, and what stands in them; nothing if it is not known.
 fn row(
     measure: &MeasureAnswer,
     comparison: &Comparison,

@@ -11,7 +11,7 @@ use creepage_run::answer::after;
 use creepage_scene::{Arrangement, End, FrictionLaw, Order, RouteSection, TrafficVehicle};
 
 /// Vehicles that differ by their load alone have one row where there are more than this.
-const MOST_ROWS: usize = 12;
+const MAX_ROWS: usize = 12;
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;
 
@@ -230,7 +230,7 @@ impl Answer<'_> {
             ]
         };
         let mut rows: Vec<Vec<String>> = scene.vehicles.iter().zip(scene.shares()).map(row).collect();
-        if rows.len() > MOST_ROWS && scene.vehicles.iter().all(alike) {
+        if rows.len() > MAX_ROWS && scene.vehicles.iter().all(alike) {
             let name = format!("{} classes of axles", rows.len());
             rows = vec![vec![name, rows[0][1].clone(), self.loads(), "100 %".to_owned()]];
         }
@@ -247,7 +247,7 @@ impl Answer<'_> {
         format!("{least} to {most}, in the mean {mean}")
     }
 
-    /// Where a vehicle drives beside the duct, seen toward growing x.
+    /// Where a vehicle drives relative to the duct, seen toward growing x.
     fn lane(&self, vehicle: &TrafficVehicle) -> String {
         let left = middle(vehicle) - self.scene.duct.lateral_offset;
         if left.abs() < 5e-4 {

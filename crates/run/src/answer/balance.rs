@@ -1,6 +1,6 @@
 //! Whether an answer can be true: the balance of forces.
 //!
-//! In equilibrium friction carries at most q = μ_d N′ per metre, beside the cable's own weight
+//! In equilibrium friction carries at most q = μ_d N′ per metre, besides the cable's own weight
 //! along the duct, p. So the force differs between any two points of the cable by at most q + |p|
 //! times their distance and what clamps between them carry; at an end that is free it is at most
 //! (q + |p|) L and the clamps. No solver, law or mesh may break that.

@@ -130,7 +130,7 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
             MOVEMENT.. => whole.places[place],
             _ => largest(&a[place]).max(whole.force),
         };
-        Some(apart(&a, &b, own))
+        Some(shares_between(&a, &b, own))
     });
     of_both.collect()
 }
@@ -145,8 +145,8 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
 pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
     let whole = Whole::of(a, scale);
     let at = |place: usize| whole.places[place];
-    let least = apart(&extremes(a, f64::min), &extremes(b, f64::min), at);
-    least.max(apart(&extremes(a, f64::max), &extremes(b, f64::max), at))
+    let least = shares_between(&extremes(a, f64::min), &extremes(b, f64::min), at);
+    least.max(shares_between(&extremes(a, f64::max), &extremes(b, f64::max), at))
 }
 
 /// Largest force on an end during a pass or in the cable after it, in size \[N\].
@@ -185,7 +185,7 @@ fn places(outcome: &PassOutcome) -> Vec<Values> {
 
 /// The largest difference at any place, as a share of what `whole` gives for it: a clamp moves with
 /// its force.
-fn apart(a: &[Values], b: &[Values], whole: impl Fn(usize) -> f64) -> Shares {
+fn shares_between(a: &[Values], b: &[Values], whole: impl Fn(usize) -> f64) -> Shares {
     let of_place = |(place, (a, b)): (usize, (&Values, &Values))| {
         let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let share = if apart == 0.0 { 0.0 } else { apart / whole(place) };

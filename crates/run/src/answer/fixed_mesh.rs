@@ -16,7 +16,7 @@ pub struct FixedMesh {
 pub struct JumpSize {
     /// Error of a single jump.
     pub tolerance: f64,
-    /// Periods simulated at the start, and length of the first jump beside them.
+    /// Periods simulated at the start, and length of the first jump relative to them.
     pub first_periods: u64,
     pub first_jump: f64,
 }

@@ -72,7 +72,7 @@ pub struct HeatRecord {
     pub all_days: DayExtremes,
     /// Passes of a day.
     pub passes_per_day: u64,
-    /// The day from which on every day is like the one before but for a drift, where there is one.
+    /// The day from which on every day is like the one before but for a drift, if there is one.
     pub periodic_from_day: Option<u64>,
     /// How far the cable moves from one such day to the next \[m\].
     pub drift_per_day_m: Option<f64>,

@@ -48,7 +48,7 @@ pub struct Reached {
     pub years: Option<f64>,
 }
 
-/// One limit beside what a run reaches.
+/// One limit and what a run reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// The end or clamp.
@@ -63,7 +63,7 @@ pub struct Verdict {
     pub pulled: bool,
     /// Whether it is larger than all that passes and heat leave: while a vehicle is above the duct.
     pub during_a_pass: bool,
-    /// The first pass that exceeds the limit; `None` where none does.
+    /// The first pass that exceeds the limit; `None` if none does.
     pub reached_after: Option<Reached>,
     /// Where no pass exceeds the limit: the force after a pass \[N\] at which more passes level
     /// off, if that is above the limit.

@@ -35,7 +35,7 @@ pub fn listed(count: u64) -> Vec<u64> {
 }
 
 /// Passes beyond `count`, evenly growing, until nothing that creeps at all still does.
-pub fn beyond(count: u64) -> Vec<u64> {
+pub fn passes_beyond(count: u64) -> Vec<u64> {
     let far = FAR.max(count.saturating_mul(TIMES));
     listed(far).into_iter().filter(|&pass| pass > count).collect()
 }

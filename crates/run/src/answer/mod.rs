@@ -22,7 +22,7 @@ pub use error_estimate::{ErrorEstimate, ErrorShares};
 pub use fixed_mesh::{FixedMesh, JumpSize};
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
-pub use listed::{beyond, listed, listed_passes};
+pub use listed::{listed, listed_passes, passes_beyond};
 pub use place::{Limited, Place, largest_movement_in_duct};
 pub use record::*;
 pub use saturation::saturation;

@@ -32,7 +32,7 @@ pub enum Place {
     Upstream,
     /// At the downstream end, in place of what holds it in the scene.
     Downstream,
-    /// A clamp at this position along the duct \[m\], beside what is in the scene.
+    /// A clamp at this position along the duct \[m\], in addition to those of the scene.
     Clamp(f64),
 }
 
@@ -104,7 +104,7 @@ impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all
     /// days: also the force during passes, and the movement of an end's spring or of a clamp then;
     /// in random order, where passes between jumps are means, with the scatter of single ones. Zero
-    /// where there is no such clamp.
+    /// if there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         self.farthest(place.into(), quantity).abs()
     }
@@ -183,7 +183,7 @@ impl Run {
         on_clamps.chain(inside).fold(on_ends, f64::max)
     }
 
-    /// What there is at `place` in all listed passes, on all days, and in the passes beside them.
+    /// What there is at `place` in all listed passes, on all days, and in the other passes that show more.
     pub(super) fn values(&self, place: Place, quantity: Limited) -> impl Iterator<Item = Value> {
         let last = self.passes.last().map_or(u64::MAX, |record| record.pass);
         let listed = self.passes.iter().enumerate().map(move |(index, record)| {

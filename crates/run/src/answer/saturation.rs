@@ -18,7 +18,7 @@ use creepage_plan::Period;
 use creepage_scene::{CableEnd, End, Scene};
 
 /// Fewest passes from which anything can be said.
-const FEWEST_PASSES: usize = 12;
+const MIN_PASSES: usize = 12;
 /// One in so many of the passes, the last of them, shows the largest force now, and what
 /// vehicles in random order do.
 const WINDOW: usize = 12;
@@ -177,7 +177,7 @@ fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
 /// `scale` \[N\] is a force that counts as large here.
 fn extrapolate(forces: &[f64], period: usize, scale: f64) -> Option<Range> {
     let count = forces.len();
-    if count < FEWEST_PASSES.max(3 * period) {
+    if count < MIN_PASSES.max(3 * period) {
         return None;
     }
     // The largest of a few passes: of vehicles that alternate, each leaves another force.

@@ -27,8 +27,8 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
     shown.map(|(_, record)| record).collect()
 }
 
-/// In what `rows` differ beside the number of the pass, and what that is in each: the hour of the
-/// day where the cable is heated and there are `a_day` passes, else the vehicle. `None` where they
+/// In what `rows` differ besides the number of the pass, and what that is in each: the hour of the
+/// day where the cable is heated and there are `a_day` passes, else the vehicle. `None` if they
 /// do not.
 pub fn in_rows(
     rows: &[&PassRecord],

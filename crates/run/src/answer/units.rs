@@ -102,7 +102,7 @@ impl Units {
     }
 
     /// The name of a field of an answer without the unit at its end, and the unit in which it is
-    /// shown: `downstream_force_n` is `downstream_force` in N or kip. None where the name has no
+    /// shown: `downstream_force_n` is `downstream_force` in N or kip. None if the name has no
     /// unit.
     pub fn of_field<'f>(&self, field: &'f str) -> Option<(&'f str, Unit)> {
         let (name, si) = si_of_field(field)?;

@@ -10,14 +10,14 @@ use crate::answer::differences::{Scale, Shares};
 use crate::answer::{listed, listed_passes};
 use crate::passes::{Passes, Simulation, Task};
 use crate::refine::{OnMeshes, Work};
-use crate::tuning::days::{FEW, MOST, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
+use crate::tuning::days::{FEW, MAX_JUMP_ERROR, RESOLVED, SHARE, TYPICAL, WEIGHT, WEIGHT_UNRESOLVED};
 use creepage_plan::{Error, Plan, cable::traffic};
 use creepage_scene::{Heat, Scene};
 
 /// Days simulated after the first one, before any is jumped over.
 const FIRST_DAYS: u64 = 3;
 /// Days simulated after which no more are jumped over, and after which the run gives up.
-const MOST_DAYS: (u64, u64) = (150, 1000);
+const MAX_DAYS: (u64, u64) = (150, 1000);
 
 const SECONDS_A_DAY: f64 = 86_400.0;
 
@@ -98,14 +98,14 @@ impl DaySimulator<'_> {
     /// The jumps of cycle-jump.
     fn jumps(&self) -> Result<Jumps, Error> {
         let (scale, levels) = (self.scale(), &self.plan.levels);
-        let tolerance = (SHARE * self.plan.scene.solver.tolerance).min(MOST);
+        let tolerance = (SHARE * self.plan.scene.solver.tolerance).min(MAX_JUMP_ERROR);
         let (finer, first_jump) = if self.finer { (0.25, 0.25) } else { (1.0, 0.5) };
         let least = (scale.force, scale.movement);
         let jumps =
             Jumps::new(finer * tolerance, levels.length_scale, least)?.with_start(FIRST_DAYS, first_jump)?;
-        let (jumping, all) = MOST_DAYS;
+        let (jumping, all) = MAX_DAYS;
         let most = if self.gives_up_early { jumping } else { all };
-        Ok(jumps.with_most_passes(jumping, most))
+        Ok(jumps.with_max_passes(jumping, most))
     }
 
     /// Largest difference on any listed day.

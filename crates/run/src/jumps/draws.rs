@@ -21,7 +21,7 @@ use crate::passes::{Passes, mean};
 /// Standard errors that are stated as the error.
 const STATED: f64 = 2.0;
 
-/// What random orders of a period's vehicles change in the mean, beside an even one.
+/// What random orders of a period's vehicles change in the mean, relative to an even one.
 pub struct Draws {
     changes: Vec<Record>,
     /// Error of the mean.

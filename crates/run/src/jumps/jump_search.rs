@@ -4,27 +4,24 @@
 //! about the error of either. Each is compared with one whose jumps are half as large, and where
 //! both begin with the same jump, with one that begins later.
 
-use cycle_jump::{Record, STEADY};
+use cycle_jump::STEADY;
 
 use super::PassSimulator;
 use super::draws::Draws;
-use super::scatter::scatter;
+use super::stand_ins::StandIns;
 use crate::Progress;
 use crate::answer::JumpSize;
-use crate::answer::differences::{Shares, difference, extremes_difference};
+use crate::answer::differences::Shares;
 use crate::passes::{Jumping, Passes};
 use crate::refine::{OnMeshes, on_coarse_level};
 use crate::tuning::jumps::{
-    FEWEST_FIRST_PERIODS, FIRST, FIRST_PASSES, LARGEST, MOST_FIRST_PERIODS, MOST_GROWN, SHARE, SHORT,
+    FIRST, FIRST_PASSES, LARGEST, MAX_FIRST_PERIODS, MAX_GROWTH, MIN_FIRST_PERIODS, SHARE, SHORT,
 };
 use crate::tuning::meshes::REFINEMENT_COST;
 use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Period, Plan};
 
 const FINEST: usize = 8;
-/// Draws of a random order at least, at most, and as long as they take no more nodes than this.
-const FEWEST_DRAWS: usize = 4;
-const MOST_DRAWS: usize = 24;
 
 /// Jumps that are good enough, where they were found.
 pub struct Found {
@@ -46,7 +43,7 @@ impl Found {
     pub fn error_of(&self, passes: &Passes) -> Shares {
         // Jumps that missed less than their error say nothing of it.
         let least = self.passes.missed.max(self.jumps.worse());
-        let times = (passes.missed / least.max(f64::MIN_POSITIVE)).clamp(1.0, MOST_GROWN);
+        let times = (passes.missed / least.max(f64::MIN_POSITIVE)).clamp(1.0, MAX_GROWTH);
         self.jumps.times(times) + self.stand_ins
     }
 }
@@ -56,17 +53,18 @@ impl Found {
 pub fn find<'a>(simulator: PassSimulator<'a>, progress: Progress<'a>) -> Result<Found, Error> {
     let mut search = Search {
         allowed: Shares::both(SHARE * simulator.plan.scene.solver.tolerance),
-        first: first_passes(simulator.plan),
         simulator,
         progress,
     };
     let mut found = search.jumps()?;
-    found.stand_ins = search.mix_error(&found)?;
+    let mut stand_ins = StandIns::new(search, &found);
+    let mut error = stand_ins.mix_error()?;
     if simulator.plan.period.is_drawn {
-        let draws = search.draws(&found)?;
-        found.stand_ins = found.stand_ins + draws.error;
+        let draws = stand_ins.draws()?;
+        error = error + draws.error;
         found.draws = Some(draws);
     }
+    found.stand_ins = error;
     Ok(found)
 }
 
@@ -76,7 +74,7 @@ impl JumpSize {
         let periods = (FIRST_PASSES / plan.period.len()) as u64;
         Self {
             tolerance: (FIRST.0 * plan.scene.solver.tolerance).min(LARGEST),
-            first_periods: periods.clamp(FEWEST_FIRST_PERIODS, MOST_FIRST_PERIODS),
+            first_periods: periods.clamp(MIN_FIRST_PERIODS, MAX_FIRST_PERIODS),
             first_jump: FIRST.1,
         }
     }
@@ -97,26 +95,22 @@ fn first_jump(passes: &Passes) -> Option<(usize, u64)> {
     lengths.find(|(_, length)| *length > 0)
 }
 
-/// The first passes, by which periods that stand in for the traffic are not compared: those of a
-/// random order are a draw that no mix foretells, and means over periods of other lengths hold
-/// other passes. They are two periods, or half of the traffic if that is less.
-fn first_passes(plan: &Plan<'_>) -> u64 {
-    (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2)
-}
-
 /// Runs with jumps of one plan, each compared with others.
-struct Search<'a> {
-    simulator: PassSimulator<'a>,
+pub(super) struct Search<'a> {
+    pub(super) simulator: PassSimulator<'a>,
     /// Error that jumps may leave.
-    allowed: Shares,
-    /// Passes by which periods are not compared.
-    first: u64,
+    pub(super) allowed: Shares,
     progress: Progress<'a>,
 }
 
 impl Search<'_> {
     /// The passes by jumps of this `size` over `period`.
-    fn simulate(&mut self, level: usize, size: JumpSize, period: &Period) -> Result<Passes, Error> {
+    pub(super) fn simulate(
+        &mut self,
+        level: usize,
+        size: JumpSize,
+        period: &Period,
+    ) -> Result<Passes, Error> {
         let simulator = PassSimulator {
             jumping: Some(Jumping::new(period, size)),
             ..self.simulator
@@ -203,68 +197,6 @@ impl Search<'_> {
             stand_ins: Shares::default(),
             draws: None,
         })
-    }
-
-    /// The passes of `vehicles` in place of the period of the plan, by jumps as good as those that
-    /// were found.
-    fn in_place(&mut self, found: &Found, vehicles: Vec<usize>) -> Result<Passes, Error> {
-        let (mut size, period) = (found.size, &self.simulator.plan.period);
-        let first = size.first_periods * period.len() as u64;
-        size.first_periods = first.div_ceil(vehicles.len() as u64).max(FEWEST_FIRST_PERIODS);
-        let period = Period {
-            vehicles,
-            ..period.clone()
-        };
-        self.simulate(found.level, size, &period)
-    }
-
-    /// What random orders of the period leave in the mean, from as many draws as the tolerance
-    /// needs or as are affordable.
-    fn draws(&mut self, found: &Found) -> Result<Draws, Error> {
-        let (mut all, mut work) = (Vec::new(), 0);
-        loop {
-            let order = self.simulator.plan.period.shuffled(all.len() as u64);
-            let passes = self.in_place(found, order)?;
-            work += passes.statistics.work();
-            all.push(passes.records);
-            if all.len() >= FEWEST_DRAWS {
-                let draws = Draws::new(&found.passes.records, &all, self.first, self.simulator.scale);
-                let is_enough = work > MAX_NODE_UPDATES / 4 || all.len() >= MOST_DRAWS;
-                if is_enough || draws.error.is_within(self.allowed) {
-                    return Ok(draws);
-                }
-            }
-        }
-    }
-
-    /// What a period that stands in for the traffic changes: its share of what each other one does,
-    /// forces and movements on the passes that both show, and the largest of all.
-    fn mix_error(&mut self, found: &Found) -> Result<Shares, Error> {
-        let (period, scale) = (&self.simulator.plan.period, self.simulator.scale);
-        let mut error = Shares::default();
-        if !period.is_own() && !period.reordered {
-            error = scatter(&found.passes.period, scale);
-        }
-        for (vehicles, share) in &period.others {
-            let other = self.in_place(found, vehicles.clone())?;
-            let [rows, other_rows] = [&found.passes, &other].map(|passes| self.later(passes));
-            // Later rows may be means: the largest of a single pass may stand among the first rows.
-            let [all, all_other] =
-                [&found.passes, &other].map(|passes| [&passes.records[..], &passes.peaks].concat());
-            // The largest of all passes are not between those of two mixes; of absent vehicles
-            // single passes show them.
-            let is_absent = vehicles.iter().any(|vehicle| period.absent.contains(vehicle));
-            let weight = if is_absent { *share } else { 1.0 };
-            let extremes = extremes_difference(&all, &all_other, scale).times(weight);
-            error = error + difference(rows, other_rows, scale).times(*share).max(extremes);
-        }
-        Ok(error)
-    }
-
-    /// The passes by which periods are compared.
-    fn later<'p>(&self, passes: &'p Passes) -> &'p [Record] {
-        let records = &passes.records;
-        &records[records.partition_point(|record| record.pass <= self.first)..]
     }
 }
 

@@ -5,6 +5,7 @@ mod draws;
 mod jump_search;
 mod random_spread;
 mod scatter;
+mod stand_ins;
 
 use cycle_jump::Guide;
 
@@ -25,7 +26,7 @@ struct PassSimulator<'a> {
     plan: &'a Plan<'a>,
     scale: Scale,
     stages: &'a [u64],
-    /// How jumps are taken on any level; none where every pass is simulated.
+    /// How jumps are taken on any level; none if every pass is simulated.
     jumping: Option<Jumping<'a>>,
     /// Where they were found: passes that are not simulated again.
     found: Option<&'a Found>,
@@ -113,7 +114,7 @@ impl OnMeshes for PassSimulator<'_> {
         task.progress = progress;
         let passes = match self.jumping {
             Some(mut jumping) => {
-                jumping.most_passes = levels.affordable_passes(level);
+                jumping.max_passes = levels.affordable_passes(level);
                 jumping.beyond = answer;
                 task.with_jumps(&jumping, &listed_passes(scene, jumping.period))
             }

@@ -10,7 +10,7 @@ use super::listing::Listing;
 use super::solver::PassSolver;
 use super::task::{Jumping, Task};
 use crate::answer::differences::{Scale, largest_force};
-use crate::answer::{ForceProfile, Stage, balance, beyond};
+use crate::answer::{ForceProfile, Stage, balance, passes_beyond};
 use crate::tuning::jumps::PATIENCE;
 use creepage_plan::{Error, cable::traffic, ground::length_scale};
 
@@ -27,7 +27,7 @@ pub struct Passes {
     pub statistics: Statistics,
     /// Passes simulated.
     pub simulated: u64,
-    /// The jumps that were taken; empty where every pass was simulated.
+    /// The jumps that were taken; empty if every pass was simulated.
     pub schedule: Vec<u64>,
     /// Whether a jump was taken back, so that passes which follow the schedule are not these.
     pub has_rejected: bool,
@@ -39,7 +39,7 @@ pub struct Passes {
     pub period: Vec<PassOutcome>,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
-    /// Passes of the period beside the records that show more.
+    /// Passes of the period that are not listed and show more than the records.
     pub peaks: Vec<Record>,
     /// The days, of a cable that is heated every day.
     pub days: Option<Days>,
@@ -170,7 +170,7 @@ impl Task<'_> {
         let length = jumping.period.len() as u64;
         let (passes, fewest, most) = PATIENCE;
         let patience = length * (passes / length).clamp(fewest, most);
-        let jumps = jumps.with_most_passes(patience, jumping.most_passes.max(patience));
+        let jumps = jumps.with_max_passes(patience, jumping.max_passes.max(patience));
         Ok(jumps.with_start(size.first_periods, size.first_jump)?)
     }
 
@@ -187,7 +187,11 @@ impl Task<'_> {
         let listing = Listing::new(period, listed, count);
         let wanted: BTreeSet<u64> = listing.wanted().chain(stages.copied()).collect();
         let wanted = Vec::from_iter(wanted);
-        let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
+        let beyond = if jumping.beyond {
+            passes_beyond(count)
+        } else {
+            Vec::new()
+        };
         let begin = simulation.passes.state.clone();
         let mut request = Request::new(count, &period.vehicles)?;
         (request.wanted, request.beyond) = (&wanted, &beyond);

@@ -78,7 +78,7 @@ pub struct Jumping<'a> {
     pub period: &'a Period,
     pub size: JumpSize,
     /// Passes after which it is given up.
-    pub most_passes: u64,
+    pub max_passes: u64,
     pub guide: Guide<'a>,
     /// Whether it is followed where the forces lead.
     pub beyond: bool,
@@ -90,7 +90,7 @@ impl<'a> Jumping<'a> {
         Self {
             period,
             size,
-            most_passes: u64::MAX,
+            max_passes: u64::MAX,
             guide: Guide::Free,
             beyond: false,
         }

@@ -7,13 +7,13 @@ use crate::answer::differences::{Scale, Shares};
 use crate::answer::error_estimate::{ErrorParts, is_doubtful};
 use crate::passes::Passes;
 use creepage_plan::{
-    Error, ErrorSource, MOST_PASSES, Plan,
+    Error, ErrorSource, MAX_PASSES, Plan,
     shown::{exact_percent, percent},
 };
 use creepage_scene::four_digits;
 
 /// Friction on this share of the duct's depth holds a force whose error does not matter, as a rule a
-/// few newtons: where nothing creeps only ends slip, on less cable than any mesh resolves.
+/// few newtons: if nothing creeps only ends slip, on less cable than any mesh resolves.
 const SLIGHT: f64 = 0.1;
 
 /// The force that an error may have whatever share of the forces it is \[N\].
@@ -59,7 +59,7 @@ pub fn judge(
         let cause = error.largest(|_| true, Shares::worse);
         let has_remedy = match cause {
             ErrorSource::Inertia => scene.warming().is_none(),
-            _ => !cause.is_skipping() || scene.traffic.passes <= MOST_PASSES,
+            _ => !cause.is_skipping() || scene.traffic.passes <= MAX_PASSES,
         };
         let none = "no finer mesh makes it much smaller";
         let remedy = if has_remedy { cause.remedy() } else { none };

@@ -16,12 +16,12 @@ use crate::answer::differences::{Scale, Shares};
 use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{HeatRecord, RandomSpread};
 use crate::passes::{Passes, RunOptions};
-use crate::tuning::meshes::{LEAST_SHARE, REFINEMENT_COST, SHARP};
+use crate::tuning::meshes::{MIN_SHARE, REFINEMENT_COST, SHARP};
 use creepage_plan::tuning::meshes::MAX_NODE_UPDATES;
 use creepage_plan::{Error, Levels, Plan, ground::road};
 use creepage_scene::Scene;
 
-/// What the error is beside the difference to a mesh twice as fine, at second order.
+/// The error relative to the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 
 /// Below this tolerance a finer mesh may cost three times as much.
@@ -75,7 +75,7 @@ pub struct Solved {
 }
 
 impl Solved {
-    /// Passes on the mesh of `level`, and nothing beside them as yet.
+    /// Passes on the mesh of `level`, and nothing else as yet.
     pub fn new(level: usize, mesh: Mesh, passes: Passes, error: ErrorParts, reason: String) -> Self {
         Self {
             level,
@@ -174,7 +174,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
     /// Whether the passes on all `meshes` up to `level` leave an `error` of the last that the
     /// tolerance allows.
     fn is_good_enough(&self, level: usize, meshes: &[Passes], error: &ErrorParts) -> bool {
-        // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct
+        // If nothing slips coarse meshes agree, but they see too little of how sharply the duct
         // bends.
         let scale = Scale::new(self.plan.scene, &self.plan.ground.motions);
         let still = meshes
@@ -184,7 +184,7 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let of_mesh = error.total().less(others);
         // What these, which no finer mesh takes away, leave of the tolerance.
         let tolerance = self.plan.scene.solver.tolerance;
-        let least = Shares::both(LEAST_SHARE * tolerance.max(others.worse()));
+        let least = Shares::both(MIN_SHARE * tolerance.max(others.worse()));
         let allowed = Shares::both(tolerance).less(others).max(least);
         self.error_is_known(meshes) && (!still || level >= SHARP) && of_mesh.is_within(allowed)
     }
@@ -224,7 +224,7 @@ pub fn on_coarse_level(
     Ok((first, simulate(first)?))
 }
 
-/// `None` where a mesh that `may_fail` is too coarse for the duct's motion.
+/// `None` if a mesh that `may_fail` is too coarse for the duct's motion.
 fn unless_coarse(passes: Result<Passes, Error>, may_fail: bool) -> Result<Option<Passes>, Error> {
     match passes {
         Err(Error::Cable(CableError::CoarseMesh { .. })) if may_fail => Ok(None),

@@ -212,7 +212,7 @@ fn restraints(
     Ok(cable.restraints().iter().enumerate().map(of_clamp).collect())
 }
 
-/// The passes that are listed; where they are the traffic's own, those beside them that show more
+/// The passes that are listed; where they are the traffic's own, the others of the period that show more
 /// too.
 fn shown(plan: &Plan<'_>, passes: &Passes) -> Vec<Record> {
     let listed = listed_passes(plan.scene, &plan.period);

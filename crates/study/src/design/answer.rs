@@ -23,12 +23,12 @@ pub struct Design {
     /// The limits.
     pub limits: Limits,
     /// The stiffnesses within all limits \[N/m\], from and to; no upper one where a
-    /// fixed end is within them too. `None` where only a fixed end or no stiffness is.
+    /// fixed end is within them too. `None` if only a fixed end or no stiffness is.
     pub range_n_per_m: Option<(f64, Option<f64>)>,
-    /// What to take: within the limits, with margins to them. `None` where nothing stays within
+    /// What to take: within the limits, with margins to them. `None` if nothing stays within
     /// them.
     pub answer: Option<TradeOff>,
-    /// Where nothing stays within the limits, what comes nearest to them.
+    /// If nothing stays within the limits, what comes nearest to them.
     pub nearest: Option<TradeOff>,
     /// The limits that bind: those at the ends of the range, else those that the nearest is nearest to
     /// or exceeds most.
@@ -56,7 +56,7 @@ impl Design {
         found.map_or(f64::INFINITY, |found| found.excess(&self.limits))
     }
 
-    /// Where none was found within the limits though there may be one: by how much less than this
+    /// If none was found within the limits though there may be one: by how much less than this
     /// share the nearest exceeds them, the larger of its estimated error and of the step in which
     /// stiffnesses were tried.
     pub fn doubt(&self) -> Option<f64> {

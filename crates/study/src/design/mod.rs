@@ -8,7 +8,7 @@
 //!
 //! Force is the largest on an end or a clamp, during and after the passes; movement is the largest
 //! displacement of an end, or at a clamp. Where the cable is heated, both count at all hours of all
-//! days: the force of the hottest, the movement of the coldest. Where nothing keeps the limits, the
+//! days: the force of the hottest, the movement of the coldest. If nothing keeps the limits, the
 //! nearest is that whose worst limit is exceeded by the smallest factor.
 //!
 //! Two springs at once have the same stiffness, as a product has.

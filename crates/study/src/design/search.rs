@@ -34,7 +34,7 @@ const HALVINGS: usize = 14;
 ///
 /// # Errors
 ///
-/// [`DesignError`] where limits or places have no meaning, a run fails, or the limits are kept in
+/// [`DesignError`] if limits or places have no meaning, a run fails, or the limits are kept in
 /// several ranges of stiffness.
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
     options.check(scene)?;
@@ -82,9 +82,9 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     })
 }
 
-/// The runs of the scene, the rough ones, and what to take of those within all limits. Where the
-/// curve shows none, the stiffness is halved in on at which the worst limit of softer springs is as
-/// far exceeded as that of stiffer ones.
+/// The runs of the scene, the rough ones, and what to take of those within all limits. If the
+/// curve shows none, bisection finds the stiffness at which the worst limit of softer springs is
+/// exceeded by as much as that of stiffer ones.
 fn search<'a>(
     scene: &Scene,
     ground: &Arc<Ground>,
@@ -92,18 +92,18 @@ fn search<'a>(
 ) -> Result<(Runs<'a>, Vec<TradeOff>, Option<TradeOff>), DesignError> {
     let limits = &options.limits;
     let mut tried = stiffnesses(scene, options);
-    let mut seen = Vec::new();
+    let mut rough_runs = Vec::new();
     let mut progress = options.progress;
     if scene.solver.tolerance < ROUGH {
         let part = progress.part(0.0, ROUGH_SHARE);
-        seen = Runs::new(&rough(scene), ground, options, part, tried.len())?.run_all(&tried)?;
-        tried = decisive(&seen, limits);
+        rough_runs = Runs::new(&rough(scene), ground, options, part, tried.len())?.run_all(&tried)?;
+        tried = decisive(&rough_runs, limits);
         progress = progress.part(ROUGH_SHARE, 1.0);
     }
     let runs = Runs::new(scene, ground, options, progress, tried.len() + HALVINGS)?;
     let curve = runs.run_all(&tried)?;
-    if !out_of_reach(&seen, limits).is_empty() {
-        return Ok((runs, seen, None));
+    if !out_of_reach(&rough_runs, limits).is_empty() {
+        return Ok((runs, rough_runs, None));
     }
     let pieces = curve.chunk_by(|a, b| a.within_limits == b.within_limits);
     match pieces.filter(|piece| piece[0].within_limits).count() {
@@ -122,7 +122,7 @@ fn search<'a>(
     let stiffest = points.last().map_or(f64::INFINITY, TradeOff::stiffness);
     let chosen = kept(&points).map(|kept| choice(&options.places, range(&points, kept)));
     let chosen = chosen.map(|chosen| runs.run(chosen.min(stiffest))).transpose()?;
-    Ok((runs, seen, chosen))
+    Ok((runs, rough_runs, chosen))
 }
 
 /// The place of the point that exceeds limits least.
@@ -131,8 +131,8 @@ fn nearest(points: &[TradeOff], excess: impl Fn(&TradeOff) -> f64) -> usize {
     (0..points.len()).min_by(by_excess).unwrap_or_default()
 }
 
-/// Stiffnesses that a curve of rough runs leaves open: those near a limit, or beside one on its other
-/// side, the best and those beside it, and both ends of the curve; the best one alone where a limit is
+/// Stiffnesses that a curve of rough runs leaves open: those near a limit, those whose neighbour is on the
+/// other side of one, the best and its neighbours, and both ends of the curve; the best one alone where a limit is
 /// out of reach.
 fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<f64> {
     let best = nearest(curve, |point| point.excess(limits));
@@ -142,15 +142,15 @@ fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<f64> {
         let is_within = curve[*at].within_limits;
         let turns = around.iter().any(|other| other.within_limits != is_within);
         let is_near = (1.0 / NEAR..NEAR).contains(&curve[*at].excess(limits));
-        // The search halves in beside the best, which may be the next one on a finer mesh.
+        // The search bisects next to the best, which may be the next one on a finer mesh.
         around.len() < 3 || turns || is_near || at.abs_diff(best) <= 2
     };
     let open = (0..curve.len()).filter(|at| if is_hopeless { *at == best } else { is_open(at) });
     open.map(|at| curve[at].stiffness()).collect()
 }
 
-/// Halves in, beside the best point of a curve that keeps no limits, on the stiffness at which the
-/// worst limit of softer springs is as far exceeded as that of stiffer ones.
+/// Bisects, next to the best point of a curve that keeps no limits, for the stiffness at which the
+/// worst limit of softer springs is exceeded by as much as that of stiffer ones.
 fn approach(runs: &Runs<'_>, curve: &[TradeOff], limits: &[Limit]) -> Result<(), DesignError> {
     let by_share = |point: &TradeOff, a: &Limit, b: &Limit| point.share(*a).total_cmp(&point.share(*b));
     let worst = |point: &TradeOff| limits.iter().copied().max_by(|a, b| by_share(point, a, b));
@@ -197,7 +197,7 @@ fn range(curve: &[TradeOff], [first, last]: [usize; 2]) -> (f64, f64) {
     (curve[first].stiffness(), to)
 }
 
-/// The limits that springs beside those that are kept exceed.
+/// The limits that the neighbours of the range exceed.
 fn binding(answer: &TradeOff, curve: &[TradeOff], kept: [usize; 2], limits: &[Limit]) -> Vec<Binding> {
     let softer = curve[..kept[0]].last().map(|point| (point, Side::Softer));
     let stiffer = curve.get(kept[1] + 1).map(|point| (point, Side::Stiffer));

@@ -17,7 +17,7 @@ const BINDS: f64 = 0.95;
 pub struct Spring {
     /// Where it is.
     pub place: Place,
-    /// Its stiffness \[N/m\]: 0 where the end is free or there is no clamp; `None` where the end is
+    /// Its stiffness \[N/m\]: 0 where the end is free or there is no clamp; `None` if the end is
     /// fixed.
     pub stiffness_n_per_m: Option<f64>,
 }
@@ -41,7 +41,7 @@ pub struct ClampPeak {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TradeOff {
-    /// Stiffness of the springs \[N/m\]; `None` where the end is fixed.
+    /// Stiffness of the springs \[N/m\]; `None` if the end is fixed.
     pub stiffness_n_per_m: Option<f64>,
     /// Where they are.
     pub springs: Vec<Spring>,
@@ -57,7 +57,7 @@ pub struct TradeOff {
     pub upstream_movement_m: f64,
     /// Largest displacement of the downstream end \[m\].
     pub downstream_movement_m: f64,
-    /// Force on the last clamp that was varied after the last pass \[N\], where there is one.
+    /// Force on the last clamp that was varied after the last pass \[N\], if there is one.
     pub clamp_force_n: Option<f64>,
     /// All clamps.
     pub clamps: Vec<ClampPeak>,
@@ -93,7 +93,7 @@ pub struct Binding {
     pub exceeded_by: Option<Side>,
 }
 
-/// Springs beside a range of stiffness.
+/// Springs outside a range of stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
@@ -129,7 +129,7 @@ pub(super) fn out_of_reach(points: &[TradeOff], limits: &Limits) -> Vec<Binding>
 ///
 /// # Errors
 ///
-/// [`Error`] where that has no meaning there.
+/// [`Error`] if that has no meaning there.
 pub fn held(scene: &Scene, places: &[Place], stiffness: f64) -> Result<Scene, Error> {
     let mut scene = scene.clone();
     let held = match stiffness {
@@ -204,12 +204,12 @@ impl TradeOff {
         point
     }
 
-    /// The same stiffness, infinite where the end is fixed.
+    /// The same stiffness, infinite if the end is fixed.
     pub(super) fn stiffness(&self) -> f64 {
         self.stiffness_n_per_m.unwrap_or(f64::INFINITY)
     }
 
-    /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the
+    /// The largest of what is limited, as a share of its limit; infinite if the cable leaves the
     /// duct, which no limit allows.
     pub fn excess(&self, limits: &Limits) -> f64 {
         let shares = limits.all().map(|limit| self.share(limit));
@@ -234,7 +234,7 @@ impl TradeOff {
         clamps.find(|clamp| place.is_clamp_at(clamp.position_m))
     }
 
-    /// What of it is beside a limit, at most 1 within the limit.
+    /// Its value relative to a limit: at most 1 within the limit.
     pub(super) fn share(&self, (place, quantity, limit): Limit) -> f64 {
         self.value(place, quantity) / limit
     }

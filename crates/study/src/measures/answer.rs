@@ -76,7 +76,7 @@ impl Outcome {
         self.verdicts.iter().all(is_kept)
     }
 
-    /// The same beside its nearest limit.
+    /// The same with its nearest limit.
     pub(super) fn nearest(&self) -> Option<Nearest> {
         let mut outcome = self.clone();
         outcome.verdicts.sort_by(|a, b| share(b).total_cmp(&share(a)));
@@ -112,7 +112,7 @@ pub struct MeasureAnswer {
     pub within_limits: bool,
     /// In how many of the combinations it keeps them.
     pub kept: usize,
-    /// The worst combination; null where every run failed.
+    /// The worst combination; null if every run failed.
     pub worst: Option<Nearest>,
     /// The middle of all intervals, on the coarse mesh unless it is near a limit.
     pub nominal: Option<Nearest>,
@@ -151,9 +151,9 @@ pub struct Comparison {
     pub runs: usize,
     /// The scene as it is first.
     pub measures: Vec<MeasureAnswer>,
-    /// The measure to take: the cheapest that holds, without costs the one with the fewest parts; null where none holds.
+    /// The measure to take: the cheapest that holds, without costs the one with the fewest parts; null if none holds.
     pub recommended: Option<String>,
-    /// Where none holds, the measure that comes nearest.
+    /// If none holds, the measure that comes nearest.
     pub nearest: Option<String>,
     /// The unknown that decides whether that one holds.
     pub decides: Option<String>,

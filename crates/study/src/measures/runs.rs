@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::answer::{Failure, Outcome};
-use super::unknown::{Combination, MOST_COMBINATIONS};
+use super::unknown::{Combination, MAX_COMBINATIONS};
 use crate::shared_mesh::{SharedMesh, rough};
 use creepage_plan::ground::KnownGrounds;
 use creepage_plan::{plan_over, with_causes};
@@ -80,7 +80,7 @@ impl<'a> Runs<'a> {
         progress: Progress<'a>,
         expected: [usize; 2],
     ) -> Result<Self, Error> {
-        let grounds = KnownGrounds::new(MOST_COMBINATIONS);
+        let grounds = KnownGrounds::new(MAX_COMBINATIONS);
         let mut scene = rough(&with_values(file, middle)?);
         let ground = grounds.of(&with_values(file, middle)?)?;
         let levels = plan_over(&scene, Arc::clone(&ground))?.levels;
@@ -108,7 +108,7 @@ impl<'a> Runs<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Stopped`] where the progress stops it. A run that fails is stated.
+    /// [`Error::Stopped`] if the progress stops it. A run that fails is stated.
     pub fn tried(&self, measure: &Measure, all: &[Combination]) -> Result<Tried, Error> {
         let run = |at| self.run(measure, at, true);
         let runs: Vec<Ran> = all.par_iter().map(run).collect::<Result<_, _>>()?;

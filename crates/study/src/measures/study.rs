@@ -39,7 +39,7 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`DesignError`] where the scene is wrong, or has more unknowns than can be combined.
+    /// [`DesignError`] if the scene is wrong, or has more unknowns than can be combined.
     pub fn new(file: &SceneFile) -> Result<Self, DesignError> {
         let scene = file.scene().map_err(Error::from)?;
         let (unknowns, assumed) = unknowns(&scene)?;
@@ -75,7 +75,7 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`Error`] where the middle of all intervals is no valid scene, or `progress` stops it. Every other run that fails is stated.
+    /// [`Error`] if the middle of all intervals is no valid scene, or `progress` stops it. Every other run that fails is stated.
     pub fn compare(&self, limits: LimitsOf<'_>, progress: Progress<'_>) -> Result<Comparison, Error> {
         let is_sought = |way: &Way| way.len() > 1;
         let usual = |way: &Way| self.combinations.len() + if is_sought(way) { 2 * way.len() + 1 } else { 1 };

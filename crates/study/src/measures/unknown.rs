@@ -12,7 +12,7 @@ const FRICTION: [f64; 2] = [0.2, 0.5];
 /// Factor of the ground's deflection to either side that is assumed then: that of moduli from tables.
 const DEFLECTION: f64 = 2.0;
 /// Combinations at most: friction and four other keys.
-pub const MOST_COMBINATIONS: usize = 405;
+pub const MAX_COMBINATIONS: usize = 405;
 /// The key whose values make a hill.
 pub const FRICTION_KEY: &str = "friction.dynamic_coefficient";
 
@@ -32,13 +32,13 @@ pub fn unknowns(scene: &Scene) -> Result<(Vec<Uncertain>, bool), Error> {
         ("ground.vertical_peak", ground.motions[0].peak_vertical())
     };
     let [low, high] = FRICTION;
-    let both = [
+    let assumed = [
         (FRICTION_KEY, friction, low.min(friction), high.max(friction)),
         (key, peak, peak / DEFLECTION, DEFLECTION * peak),
     ];
-    let there = both.into_iter().filter(|(_, own, ..)| *own > 0.0);
+    let present = assumed.into_iter().filter(|(_, own, ..)| *own > 0.0);
     let unknown = |(key, _, low, high): (&str, f64, f64, f64)| Uncertain::new(key, low, high);
-    Ok((there.map(unknown).collect(), true))
+    Ok((present.map(unknown).collect(), true))
 }
 
 /// The values of an unknown, the middle one among them.
@@ -54,7 +54,7 @@ fn levels(unknown: &Uncertain) -> Vec<f64> {
 pub fn combinations(unknowns: &[Uncertain]) -> Result<Vec<Combination>, DesignError> {
     let counts = unknowns.iter().map(|unknown| levels(unknown).len());
     let count = counts.fold(1, usize::saturating_mul);
-    if count > MOST_COMBINATIONS {
+    if count > MAX_COMBINATIONS {
         return Err(DesignError::Invalid {
             name: "number of combinations of what is uncertain",
             found: count as f64,

@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// More links than that lead round in a circle.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 /// Number of the descriptor of standard output.
 const STANDARD_OUTPUT: u32 = 1;
 
@@ -25,7 +25,7 @@ impl Place {
     pub fn of(path: &Path) -> io::Result<Self> {
         let refused = |reason: &str| Err(io::Error::new(ErrorKind::InvalidInput, reason));
         let mut at = path.to_owned();
-        for _ in 0..MOST_LINKS {
+        for _ in 0..MAX_LINKS {
             match descriptor(&at) {
                 Some(STANDARD_OUTPUT) => return Ok(Self::StandardOutput),
                 Some(_) => return Ok(Self::Stream(path.to_owned())),

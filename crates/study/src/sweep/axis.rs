@@ -6,7 +6,7 @@ use super::numbers::{number, numbers, unit};
 use creepage_scene::Unit;
 
 /// Most values of a range.
-const MOST_VALUES: f64 = 1e6;
+const MAX_VALUES: f64 = 1e6;
 /// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
 const DIGITS: usize = 12;
 
@@ -58,7 +58,7 @@ impl Axis {
         Ok(Self { key, values })
     }
 
-    /// The unit of all its values, where they have one.
+    /// The unit of all its values, if they have one.
     pub(super) fn unit(&self) -> Option<Unit> {
         let of = |value: &String| match drawn(&self.key, value) {
             Some(distribution) => unit(&distribution.ok()?.quantile(0.5).1),
@@ -143,7 +143,7 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
     let steps = (last - first) / step;
     let is_bare = |part: &&str| number(part).is_some_and(|(_, unit)| unit.is_empty());
     let counts = parts.iter().map(is_bare).eq([false, false, true]);
-    if !(0.0..=MOST_VALUES).contains(&steps) || counts || (steps < 1.0 - 1e-9 && first != last) {
+    if !(0.0..=MAX_VALUES).contains(&steps) || counts || (steps < 1.0 - 1e-9 && first != last) {
         return Some(Err(
             "A:B:STEP with a STEP that leads from A to B, a distance in their unit and no number of values, to a million values at most",
         ));
@@ -211,8 +211,8 @@ mod tests {
         for text in no_axes.into_iter().chain(may_be_two) {
             assert!(Axis::parse(text).is_err(), "{text}");
         }
-        let told = |text: &str| Axis::parse(text).expect_err(text).to_string();
-        assert!(told("duct.depth=1,5m").contains("1 and 5m, or 1.5m?"));
+        let message = |text: &str| Axis::parse(text).expect_err(text).to_string();
+        assert!(message("duct.depth=1,5m").contains("1 and 5m, or 1.5m?"));
     }
 
     #[test]

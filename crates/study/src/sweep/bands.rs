@@ -18,7 +18,7 @@ pub struct Band {
     pub samples: usize,
     /// Samples that failed, which the quantiles leave out.
     pub failed: usize,
-    /// Force on the downstream end \[N\]; `None` where fewer than two samples have an answer.
+    /// Force on the downstream end \[N\]; `None` if fewer than two samples have an answer.
     pub downstream_force_n: Option<Quantiles>,
     /// Force on the upstream end \[N\].
     pub upstream_force_n: Option<Quantiles>,
@@ -47,7 +47,7 @@ pub struct Quantiles {
 }
 
 impl Sweep {
-    /// What the samples at each point of the grid say; nothing where nothing is drawn.
+    /// What the samples at each point of the grid say; nothing if nothing is drawn.
     pub(super) fn bands(&self, columns: &[AnswerColumn], rows: &[Row]) -> Vec<Band> {
         let is_listed = |axis: &Axis, value: &str| !value.is_empty() && drawn(&axis.key, value).is_none();
         let band = |(group, rows): (usize, &[Row])| {

@@ -9,7 +9,7 @@ use super::numbers::si;
 use creepage_run::{DayExtremes, PassRecord, Run, Units, Verdict};
 use creepage_scene::Unit;
 
-/// A row of the table, as it stands in CSV: numbers in SI, and nothing where there is none.
+/// A row of the table, as it stands in CSV: numbers in SI, and nothing if there is none.
 pub type Row = StringRecord;
 
 /// What there is to say of a point.
@@ -21,7 +21,7 @@ pub struct Answer<'a> {
     pub verdicts: &'a [Verdict],
 }
 
-/// A column of the answer: its name, what it holds, and the text of its cell, `None` where that is
+/// A column of the answer: its name, what it holds, and the text of its cell, `None` if that is
 /// empty.
 type Field = (
     &'static str,
@@ -89,7 +89,7 @@ pub struct AnswerColumn {
     pub(super) unit: Option<Unit>,
 }
 
-/// The values of a column; `None` where a row has none.
+/// The values of a column; `None` if a row has none.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AnswerValues {
     /// Numbers in SI.
@@ -138,7 +138,7 @@ impl Sweep {
         };
         let varied = self.axes.iter().map(|axis| {
             let mut values = axis.values.iter().filter(|value| !value.is_empty());
-            // What is drawn is a number: a text beside it fails in its row.
+            // What is drawn is a number: a text among them fails in its row.
             let is_drawn = self.drawn_keys.contains(&axis.key);
             if axis.key != ID && (is_drawn || values.all(|value| si(value).is_some())) {
                 column(&axis.key, NUMBERS, axis.unit())

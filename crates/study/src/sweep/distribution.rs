@@ -24,7 +24,7 @@ const BOUNDS: &str = "min=LOW and max=HIGH behind the parameters, in their unit,
 
 /// Share of a law that lies between its bounds at least: of what lies farther out the distribution
 /// function has too few digits.
-const LEAST_SHARE: f64 = 1e-3;
+const MIN_SHARE: f64 = 1e-3;
 
 impl Distribution {
     /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the standard deviation SIGMA of
@@ -58,7 +58,7 @@ impl Distribution {
             *bound = value;
         }
         let [below, upto] = bounds.map(|bound| law.cdf(bound));
-        if !(LEAST_SHARE..=1.0).contains(&(upto - below)) {
+        if !(MIN_SHARE..=1.0).contains(&(upto - below)) {
             return Err(BOUNDS);
         }
         Ok(Self { law, bounds, unit })

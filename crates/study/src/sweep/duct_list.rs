@@ -51,12 +51,12 @@ impl Sweep {
 }
 
 /// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, read as `options` say, each with
-/// a value a row; empty where the row has none. Numbers have a decimal point, and the unit of their
+/// a value a row; empty if the row has none. Numbers have a decimal point, and the unit of their
 /// column if they have none.
 ///
 /// # Errors
 ///
-/// [`SweepError::Rows`] where there is no such table, [`SweepError::Invalid`] where the name ends
+/// [`SweepError::Rows`] if there is no such table, [`SweepError::Invalid`] if the name ends
 /// otherwise.
 pub fn read(file: &Path, options: &Options) -> Result<Columns> {
     table::ending(file)?;

@@ -13,7 +13,7 @@ use creepage_plan::{hash::fnv1a, shown::words_if};
 use creepage_scene::{Scene, SceneError, SceneFile, Wrong, did_you_mean, key_meanings, nearest_key};
 
 /// Most points of a sweep.
-const MOST_POINTS: usize = 100_000_000;
+const MAX_POINTS: usize = 100_000_000;
 
 /// Tolerance of samples, whose scatter is far larger.
 pub const SAMPLE_TOLERANCE: f64 = 0.02;
@@ -42,7 +42,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Invalid`] where there is nothing to vary, a key stands twice or has no value, a
+    /// [`SweepError::Invalid`] if there is nothing to vary, a key stands twice or has no value, a
     /// distribution is not written as it has to be, samples are asked without a distribution or the
     /// other way round, or there are more than a hundred million points; [`SweepError::Scene`]
     /// where a scene has no such key.
@@ -56,7 +56,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// As for [`Sweep::new`], and [`SweepError::Invalid`] where columns have different lengths.
+    /// As for [`Sweep::new`], and [`SweepError::Invalid`] if columns have different lengths.
     pub fn of_table(file: SceneFile, columns: Columns, samples: Samples) -> Result<Self, SweepError> {
         Self::of(file, axes(columns), samples, true, None)
     }
@@ -121,7 +121,7 @@ impl Sweep {
             drawn_keys,
             limits: None,
         };
-        let is_small = sweep.count() <= MOST_POINTS;
+        let is_small = sweep.count() <= MAX_POINTS;
         fits(is_small, "too many points", "at most a hundred million")?;
         sweep.check_keys()?;
         Ok(sweep)
@@ -141,7 +141,7 @@ impl Sweep {
         Ok(())
     }
 
-    /// The error of a key that no scene has: that of its column, where it has one.
+    /// The error of a key that no scene has: that of its column, if it has one.
     fn unknown(&self, wrong: Box<Wrong>) -> SweepError {
         let inside = format!("{}.", wrong.key);
         let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
@@ -205,7 +205,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SceneError`] where its values are not valid.
+    /// [`SceneError`] if its values are not valid.
     pub fn scene(&self, index: usize) -> Result<Scene, SceneError> {
         let file = self.file_at(index)?;
         let mut scene = file.scene()?;
@@ -219,7 +219,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SceneError`] where there is nothing at a varied key.
+    /// [`SceneError`] if there is nothing at a varied key.
     pub fn file_at(&self, index: usize) -> Result<SceneFile, SceneError> {
         let values = self.axes.iter().zip(self.values(index));
         let set = values.filter(|(axis, value)| !value.is_empty() && axis.key != ID);
@@ -227,7 +227,7 @@ impl Sweep {
         self.file.with(&overrides)
     }
 
-    /// The files that its scenes read beside their own: tables of axle loads.
+    /// The files that its scenes read besides their own: tables of axle loads.
     pub fn files(&self) -> BTreeSet<PathBuf> {
         let mut files = BTreeSet::from_iter(self.file.histogram());
         let named = |axis: &&Axis| matches!(&*axis.key, "traffic" | "traffic.histogram");

@@ -9,7 +9,7 @@ use creepage_scene::{si_unit, words};
 use plain_figure::{Axis as Scale, Chart};
 
 /// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
-const MOST_CELLS: usize = 500;
+const MAX_CELLS: usize = 500;
 
 /// The quantity shown by a map's colour, after the last pass: force \[N\] or movement \[mm\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Sweep {
     ///
     /// [`SweepError::Invalid`] unless two keys are varied, by lists of at most 500 values.
     pub fn map(&self, rows: &[Row], value: MapValue) -> Result<Chart, SweepError> {
-        let is_small = |axis: &Axis| axis.values.len() <= MOST_CELLS;
+        let is_small = |axis: &Axis| axis.values.len() <= MAX_CELLS;
         let (x, y) = match &self.axes[..] {
             [x, y] if is_small(x) && is_small(y) && self.samples.count == 0 => (x, y),
             axes => {

@@ -67,7 +67,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Stopped`] where the progress stopped it. What fails at a point is a row of the
+    /// [`SweepError::Stopped`] if the progress stopped it. What fails at a point is a row of the
     /// table.
     pub fn answers(&self, options: &SweepOptions<'_>) -> Result<Vec<AnswerColumn>, SweepError> {
         let mut columns = self.columns();

@@ -8,7 +8,7 @@ use creepage_plan::hash::fnv1a;
 /// number of the sample alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Samples {
-    /// Samples at every point of the grid, or of every row; 0 where nothing is drawn.
+    /// Samples at every point of the grid, or of every row; 0 if nothing is drawn.
     pub count: usize,
     /// Another seed gives other samples.
     pub seed: u64,

@@ -17,7 +17,7 @@ const XLSX: &str = "xlsx";
 const ALLOWED: &str = "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of \
                        creepage.sweep";
 /// Most rows of a workbook's table: a sheet has two more, for the names and the units of its columns.
-const MOST_ROWS: usize = 1_048_574;
+const MAX_ROWS: usize = 1_048_574;
 
 /// What the name of a `table` ends in, which is its format.
 ///
@@ -34,12 +34,12 @@ pub fn ending(table: &Path) -> Result<&'static str, SweepError> {
 
 /// Refuses more rows than the `table` can hold.
 pub fn check_count(rows: usize, table: &Path) -> Result<(), SweepError> {
-    if ending(table)? != XLSX || rows <= MOST_ROWS {
+    if ending(table)? != XLSX || rows <= MAX_ROWS {
         return Ok(());
     }
     Err(SweepError::unfit(
         format!("{rows} points for {}", table.display()),
-        format!("at most {MOST_ROWS}, as many as Excel has rows; more in .csv"),
+        format!("at most {MAX_ROWS}, as many as Excel has rows; more in .csv"),
     ))
 }
 
