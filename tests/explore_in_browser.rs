@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Whether the last full answer and its pass are there.
 const RESTS: &str = "settled && !under && film !== null && !/…/.test(get('state').textContent)";
 /// Of all words that are seen, the least contrast with what is behind them.
-const LEAST_CONTRAST: &str = r"
+const WORST_CONTRAST: &str = r"
   const behind = (node) => {
     const colour = getComputedStyle(node).backgroundColor;
     return (channels(colour)[3] ?? 1) > 0 || !node.parentElement ? colour : behind(node.parentElement);
@@ -122,7 +122,7 @@ impl Page {
             self.browser.media("prefers-color-scheme", colours);
             let contrast = self
                 .browser
-                .value(&format!("(() => {{{CONTRAST_OF}{LEAST_CONTRAST}}})()"));
+                .value(&format!("(() => {{{CONTRAST_OF}{WORST_CONTRAST}}})()"));
             assert!(
                 contrast[0].as_f64() >= Some(MIN_CONTRAST),
                 "{when}, {colours}: {contrast}"

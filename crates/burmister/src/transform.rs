@@ -169,7 +169,7 @@ impl Transform<'_> {
     }
 
     /// Integral of the transform's decaying end beyond `wavenumber`, from its values just before: what is left after
-    /// rounding, over the decay length, with a factor 2 for the powers of m with the exponential.
+    /// rounding, over the decay length, with a factor 2 for the powers of m before the exponential.
     fn tail(&self, wavenumber: f64) -> Displacement {
         // Three places, lest a zero of the disc's factor passes for decay.
         largest([1.0, 0.98, 0.95].map(|part| {

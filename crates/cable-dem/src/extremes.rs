@@ -5,7 +5,7 @@ use crate::{CableState, DuctedCable};
 /// A clamp nearer to a node than this share of the spacing counts as on it.
 const AT_NODE: f64 = 1e-6;
 
-/// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
+/// Minimum and maximum force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
 /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both
 /// sides: the force beside the clamp follows from its neighbours.
 pub(crate) fn extremes(state: &CableState, cable: &DuctedCable) -> (f64, f64) {

@@ -3,11 +3,8 @@
 use crate::CableError;
 use crate::error::{checked, positive};
 
-/// Most nodes a mesh may have: 1e7 nodes take about 1 GB.
+/// Maximum number of nodes of a mesh: 1e7 nodes take about 1 GB.
 const MAX_NODES: f64 = 1e7;
-/// Fewest elements of a cable, however short, and steps of the vehicle per node spacing in [`Mesh::for_depth`].
-const MIN_ELEMENTS: f64 = 8.0;
-const STEPS_PER_SPACING: f64 = 2.0;
 
 /// Equally spaced nodes 0..=n along the cable, and the vehicle's advance per step.
 ///
@@ -33,6 +30,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Minimum number of elements of a cable, however short, of a mesh that is chosen for it.
+    pub const MIN_ELEMENTS: f64 = 8.0;
+    /// Steps of the vehicle per node spacing of such a mesh.
+    pub const STEPS_PER_SPACING: f64 = 2.0;
+
     /// A mesh of a cable of `length` \[m\] with nodes at most `node_spacing` \[m\] and vehicle positions at most
     /// `vehicle_step` \[m\] apart.
     ///
@@ -90,8 +92,8 @@ impl Mesh {
         positive("length", length)?;
         positive("depth", depth)?;
         checked("nodes_per_depth", nodes_per_depth, "at least 3", |v| v >= 3.0)?;
-        let spacing = (depth / nodes_per_depth).min(length / MIN_ELEMENTS);
-        Self::new(length, spacing, spacing / STEPS_PER_SPACING)
+        let spacing = (depth / nodes_per_depth).min(length / Self::MIN_ELEMENTS);
+        Self::new(length, spacing, spacing / Self::STEPS_PER_SPACING)
     }
 
     /// `elements` of length `spacing` \[m\], as a stored state names them.

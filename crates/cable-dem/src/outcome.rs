@@ -24,7 +24,7 @@ pub struct PassOutcome {
     /// Force of the cable on each of its clamps after the pass \[N\], positive toward growing x, in the order of
     /// [`DuctedCable::restraints`].
     pub restraints: Vec<f64>,
-    /// Least and largest force on each of them during the pass and after it \[N\].
+    /// Minimum and maximum force on each of them during the pass and after it \[N\].
     pub restraint_ranges: Vec<[f64; 2]>,
     /// How far each of them has slipped after the pass \[m\].
     pub restraint_slips: Vec<f64>,

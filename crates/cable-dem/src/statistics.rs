@@ -18,7 +18,7 @@ pub struct Statistics {
     pub watched: usize,
     /// Windows in which the iteration cycled, so that the contact states were found by bisection of the chain.
     pub cycles: usize,
-    /// Most nodes in one window, apart from the steps from rest and to it.
+    /// Maximum number of nodes in one window, apart from the steps from rest and to it.
     pub widest_window: usize,
 }
 

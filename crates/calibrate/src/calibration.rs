@@ -6,7 +6,7 @@ use crate::{CalibrationError, Emulator, Loss, Model, Parameter, Prior};
 
 /// Bounds of a coefficient of the discrepancy, in its standard deviations.
 const FARTHEST: f64 = 10.0;
-/// Least noise of the model itself, as a share of its predictions: what an emulator resolves.
+/// Minimum noise of the model itself, as a share of its predictions: what an emulator resolves.
 const RESOLUTION: f64 = 1e-7;
 
 /// A model to be fitted to observations.

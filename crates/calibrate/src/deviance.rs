@@ -15,7 +15,7 @@ use crate::Loss;
 
 /// Makes the median of |r| under Gaussian noise a standard deviation.
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
-/// Least share of residuals that count fully in a robust fit; below, its own statistics mean nothing.
+/// Minimum share of residuals that count fully in a robust fit; below, its own statistics mean nothing.
 const MIN_CURVATURE: f64 = 0.1;
 
 /// The function that is minimised.

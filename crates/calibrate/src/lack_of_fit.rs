@@ -7,7 +7,7 @@
 
 use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
 
-/// Fewest residuals that are judged.
+/// Minimum number of residuals that are judged.
 const MIN_FREEDOM: f64 = 3.0;
 
 /// Probability of so few changes of sign by chance, of residuals in the order in which they were

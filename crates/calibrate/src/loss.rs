@@ -24,7 +24,7 @@ impl Loss {
     pub(crate) fn doubled(self, u: f64) -> f64 {
         match self {
             Self::Squares => u * u,
-            Self::Tukey => THRESHOLD * THRESHOLD / 3.0 * (1.0 - weight_left(u).powi(3)),
+            Self::Tukey => THRESHOLD * THRESHOLD / 3.0 * (1.0 - weight_root(u).powi(3)),
         }
     }
 
@@ -32,7 +32,7 @@ impl Loss {
     pub(crate) fn weight(self, u: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Tukey => weight_left(u).powi(2),
+            Self::Tukey => weight_root(u).powi(2),
         }
     }
 
@@ -40,7 +40,7 @@ impl Loss {
     pub(crate) fn curvature(self, u: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Tukey => weight_left(u) * (1.0 - 5.0 * (u / THRESHOLD).powi(2)),
+            Self::Tukey => weight_root(u) * (1.0 - 5.0 * (u / THRESHOLD).powi(2)),
         }
     }
 
@@ -51,6 +51,6 @@ impl Loss {
 }
 
 /// 1 − (u/threshold)², as long as it is positive.
-fn weight_left(u: f64) -> f64 {
+fn weight_root(u: f64) -> f64 {
     (1.0 - (u / THRESHOLD).powi(2)).max(0.0)
 }

@@ -7,7 +7,7 @@ pub(crate) const FIRST_RUNS: usize = 8;
 /// Length of correlation of an emulator, as a share of a parameter's range. Where runs lie as close as they
 /// do around an optimum it hardly matters.
 pub(crate) const LENGTH: f64 = 0.5;
-/// Least and largest nugget, in the variance of the predictions; between them it is the square of the
+/// Minimum and maximum nugget, in the variance of the predictions; between them it is the square of the
 /// model's relative noise. With 1e-8, a model without noise is not followed to 1e-6 of its parameters
 /// (tests/closed_form.rs). A larger one takes what a model really does at short range for noise.
 pub(crate) const NUGGETS: (f64, f64) = (1e-12, 1e-8);

@@ -72,7 +72,7 @@ fn a_standard_error_never_contradicts_its_interval() {
     let t = 2.200_985_f64;
     let square = ((1.0 + t * t / (count - 1.0)).sqrt() - 1.0) * residual / curvature;
     let estimate = &fit.estimates[0];
-    // At the maximum, if no slope tells a step.
+    // At the maximum, where no slope tells a step.
     assert_near(estimate.value, 0.3, 0.01);
     let reach = 0.5 * (estimate.interval.upper.unwrap() - estimate.interval.lower.unwrap());
     assert_near(reach, square.sqrt(), 0.05 * square.sqrt());

@@ -3,7 +3,7 @@
 use crate::scale::Scale;
 use crate::tuning::{LONGEST_ROUND, ROUND_TAIL};
 
-/// Fewest rounds in a row: three show that they settle, and the last is simulated in any case.
+/// Minimum number of rounds in a row: three show that they settle, and the last is simulated in any case.
 const MIN_ROUNDS: usize = 5;
 
 /// Some passes of a period, in their order: `times` rounds of `round` vehicles.

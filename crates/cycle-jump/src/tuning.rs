@@ -14,7 +14,7 @@ pub const SLOPE_WIDTH: f64 = 2.5;
 /// the same; twice: at most 2.6 % off.
 pub const REGULARISATION: f64 = 0.02;
 
-/// Least share of the last slope that is kept. Half: 2 % more passes on ten cables; none: 3 %.
+/// Minimum share of the last slope that is kept. Half: 2 % more passes on ten cables; none: 3 %.
 pub const SLOPE_FALL: f64 = 0.8;
 
 /// Change of the advance relative to its prediction above which a jump overshot and the slope
@@ -63,7 +63,7 @@ pub const TOLERANCE_BEYOND: f64 = 4.0;
 /// missed by 5 %.
 pub const PEAK_RATIO: f64 = 1.1;
 
-/// Most vehicles of a round that is looked for in a period. With 6 or 24 the same for rounds of
+/// Maximum number of vehicles of a round that is looked for in a period. With 6 or 24 the same for rounds of
 /// one.
 pub const LONGEST_ROUND: usize = 12;
 

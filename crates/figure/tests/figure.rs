@@ -304,9 +304,9 @@ fn errors_of_maps() {
 /// No number, however large or small, makes the drawing panic.
 #[test]
 fn extreme_numbers_give_a_figure_or_an_error() {
-    const MIN: f64 = f64::MIN_POSITIVE;
+    const TINY: f64 = f64::MIN_POSITIVE;
     #[rustfmt::skip]
-    let numbers = [-f64::MAX, -1.0, -MIN, 0.0, MIN, 1e-300, 1.0, 1.0 + f64::EPSILON, 1e300, f64::MAX];
+    let numbers = [-f64::MAX, -1.0, -TINY, 0.0, TINY, 1e-300, 1.0, 1.0 + f64::EPSILON, 1e300, f64::MAX];
     for a in numbers {
         for b in numbers {
             for axis in [

@@ -23,7 +23,7 @@ use creepage_scene::{Scene, SolverMethod};
 
 /// Tolerance for which a scene's plan takes the mesh of a fit.
 const TOLERANCE: f64 = 0.01;
-/// Most passes that are all simulated. Of more, the same few are in every run of a fit, with the
+/// Maximum number of passes that are all simulated. Of more, the same few are in every run of a fit, with the
 /// same jumps between them: where jumps were chosen anew, forces would not be smooth in the
 /// parameters.
 const EVERY_PASS: u64 = 1000;
@@ -33,7 +33,7 @@ const JUMP: JumpSize = JumpSize {
     first_periods: 8,
     first_jump: 0.25,
 };
-/// Most passes that are simulated to find the jumps.
+/// Maximum number of passes that are simulated to find the jumps.
 const MAX_PASSES: u64 = 100_000;
 
 /// Which mesh of a scene.

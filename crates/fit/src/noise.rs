@@ -4,7 +4,7 @@ use crate::readings::Reading;
 
 /// Makes the median of |e| under Gaussian noise a standard deviation.
 pub const MEDIAN_TO_SIGMA: f64 = 1.4826;
-/// Least noise relative to the largest value: digits that an instrument shows.
+/// Minimum noise relative to the largest value: digits that an instrument shows.
 const MIN_SHARE: f64 = 1e-3;
 
 /// Standard deviations that weigh readings of several kinds against each other; `None` if all

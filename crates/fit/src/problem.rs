@@ -20,7 +20,7 @@ use creepage_run::Error;
 /// more slips, their slope jumps. Measured on the full-scale scenes, where it is 1 to 2 % of that
 /// on four meshes.
 const RIPPLE: f64 = 0.02;
-/// Most model runs of a fit on one mesh: it takes some fifty.
+/// Maximum number of model runs of a fit on one mesh: it takes some fifty.
 pub const MAX_RUNS: usize = 2000;
 
 /// Scenes, their readings, and what is fitted to them.

@@ -84,7 +84,7 @@ impl Quantity {
         matches!(self, Self::ZeroOffset | Self::Drift)
     }
 
-    /// Least and largest value that a fit considers.
+    /// Minimum and maximum value that a fit considers.
     pub(super) fn bounds(self) -> (f64, f64) {
         self.row().3
     }

@@ -74,7 +74,7 @@ impl ImplicitStep {
     ///
     /// # Errors
     ///
-    /// [`ChainError::NoEquilibrium`] if none is found, and where a value of the load is not a number.
+    /// [`ChainError::NoEquilibrium`] if none is found, or a value of the load is not a number.
     ///
     /// # Panics
     ///

@@ -137,7 +137,7 @@ impl SoilLayer {
         }
     }
 
-    /// The layer's soil where it is uniform; `None` if the modulus varies with depth.
+    /// The layer's soil if it is uniform; `None` if the modulus varies with depth.
     pub fn soil(&self) -> Option<Soil> {
         match self.modulus {
             Modulus::Linear { top, bottom } if top != bottom => None,

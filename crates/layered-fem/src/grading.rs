@@ -13,9 +13,9 @@ use crate::FemError;
 
 /// Largest size of the block around the load \[m\].
 const LARGEST_BLOCK: f64 = 0.3;
-/// Least number of elements in a layer.
+/// Minimum number of elements in a layer.
 const MIN_ELEMENTS: usize = 2;
-/// Least length over which the spacing is even \[m\]: a top layer still thinner is not resolved around the load, which is
+/// Minimum length over which the spacing is even \[m\]: a top layer still thinner is not resolved around the load, which is
 /// felt at depths of its own order only.
 const SMALLEST_SCALE: f64 = 0.002;
 /// Spacing ratio at which the outer boundary has its ordinary distance. It moves out as the spacing falls, so that two meshes

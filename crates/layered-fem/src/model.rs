@@ -29,7 +29,7 @@ const MIN_GAIN_AT_EDGE: f64 = 1.5;
 const DEPTH_OF_EDGE: f64 = 0.2;
 /// Order beyond which it is not hoped to fall: where even that would need too large a mesh, none is tried.
 const BEST_ORDER: f64 = 4.0;
-/// Least share of the peak of `u_z` that the peak of `u_r` is taken for, where `u_r` vanishes (incompressible soil's surface).
+/// Minimum share of the peak of `u_z` that the peak of `u_r` is taken for, where `u_r` vanishes (incompressible soil's surface).
 const MIN_RADIAL: f64 = 0.01;
 /// Depth lines kept.
 const MAX_ANSWERS: usize = 512;
@@ -103,7 +103,7 @@ impl Mesher {
 impl LayeredFem {
     /// Unknowns allowed unless [`LayeredFem::with_max_unknowns`] says otherwise: within a gigabyte and a few seconds.
     pub const DEFAULT_MAX_UNKNOWNS: usize = 500_000;
-    /// Most unknowns that can be allowed: some hundred gigabytes.
+    /// Maximum number of unknowns that can be allowed: some hundred gigabytes.
     pub const MAX_UNKNOWNS: usize = 50_000_000;
 
     /// A model of `profile` with an error of at most `accuracy`, as a share of the largest |`u_r`| and of the largest |`u_z`| at each

@@ -10,7 +10,7 @@ use crate::element::{DOFS, ElementMatrix, stiffness};
 use crate::material::Elasticity;
 use crate::mesh::Mesh;
 
-/// Least change K⁻¹(f − K u) of a solution u, relative to it (largest components), that may be asked for.
+/// Minimum change K⁻¹(f − K u) of a solution u, relative to it (largest components), that may be asked for.
 pub(crate) const MIN_CHANGE: f64 = 1e-7;
 const CORRECTIONS: usize = 2;
 

@@ -16,10 +16,6 @@ use creepage_scene::{Scene, SolverMethod};
 
 /// Nodes per length scale on level 0.
 const COARSEST: f64 = 3.0;
-/// Fewest elements of a short duct on level 0.
-const MIN_ELEMENTS: f64 = 8.0;
-/// Steps of the vehicle per node spacing.
-const STEPS_PER_SPACING: f64 = 2.0;
 /// The finest level that is tried where it is affordable: a cable that slips a tenth of a metre on
 /// a deep duct needs it.
 const FINEST: usize = 10;
@@ -63,14 +59,16 @@ impl Levels {
         let by_steps = solver.node_spacing.is_some() || solver.vehicle_step.is_some();
         let named = by_steps || by_time_step || !steps_follow;
         let length_scale = resolved(scene, motions);
-        let coarsest = (length_scale / COARSEST).min(length / MIN_ELEMENTS);
-        let (mut spacing, mut step) = (coarsest, coarsest / STEPS_PER_SPACING);
+        let coarsest = (length_scale / COARSEST).min(length / Mesh::MIN_ELEMENTS);
+        let (mut spacing, mut step) = (coarsest, coarsest / Mesh::STEPS_PER_SPACING);
         if named {
             // Level 0 is so much coarser than the mesh that is named.
             let refinement = f64::from(1 << NAMED);
             let least = (coarsest / refinement).max(solver.vehicle_step.unwrap_or(0.0));
-            let named = solver.node_spacing.unwrap_or(least.min(length / MIN_ELEMENTS));
-            step = solver.vehicle_step.unwrap_or(named / STEPS_PER_SPACING);
+            let named = solver
+                .node_spacing
+                .unwrap_or(least.min(length / Mesh::MIN_ELEMENTS));
+            step = solver.vehicle_step.unwrap_or(named / Mesh::STEPS_PER_SPACING);
             spacing = refinement * named;
             step *= if steps_follow { refinement } else { 1.0 };
         }

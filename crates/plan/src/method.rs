@@ -17,9 +17,9 @@ use creepage_scene::{Scene, SolverMethod};
 const LONGEST_WITHOUT_REST: f64 = 600.0;
 /// Where every pass is simulated although jumps are possible, it takes no longer than this \[s\].
 pub const LONGEST_EVERY_PASS: f64 = 60.0;
-/// Most vehicles in a period that jumps go over: what every pass of it leaves is kept.
+/// Maximum number of vehicles in a period that jumps go over: what every pass of it leaves is kept.
 const LONGEST_PERIOD: usize = 5000;
-/// Most passes that are simulated one by one.
+/// Maximum number of passes that are simulated one by one.
 pub const MAX_PASSES: u64 = 1_000_000;
 
 pub const NO_REST: &str = "the sigmoid law has no state of rest: its friction depends on the time step";

@@ -19,7 +19,7 @@ use crate::representatives;
 use crate::tuning::periods::{FEW, STAND_INS};
 use creepage_scene::Scene;
 
-/// Most vehicles in a period that is chosen here.
+/// Maximum number of vehicles in a period that is chosen here.
 const LONGEST: usize = 2000;
 
 /// A period of traffic.
@@ -144,7 +144,7 @@ fn near(scene: &Scene, shares: &[f64]) -> (Mix, Vec<(Mix, f64)>) {
     (mix, opposite.into_iter().chain(with_seldom).collect())
 }
 
-/// Most vehicles in a period: with heat they begin anew every day.
+/// Maximum number of vehicles in a period: with heat they begin anew every day.
 fn longest(scene: &Scene) -> usize {
     let a_day = scene.traffic.per_day.filter(|_| scene.warming().is_some());
     a_day.map_or(LONGEST, |per_day| (per_day.round() as usize).clamp(FEW, LONGEST))

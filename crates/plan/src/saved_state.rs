@@ -221,7 +221,7 @@ impl SavedState {
     ///
     /// # Errors
     ///
-    /// [`CableError`] if the scene is none.
+    /// [`CableError`] if the scene is not valid.
     pub fn cable(&self, scene: &Scene) -> Result<DuctedCable, CableError> {
         let positions = CableEnd::ALL.map(|end| {
             let saved = end.of(self.ends);

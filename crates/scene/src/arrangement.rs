@@ -16,7 +16,7 @@
 
 use crate::section::file_words;
 
-/// Least D/d with which three cables fit into a duct: 1 + 2/√3.
+/// Minimum D/d with which three cables fit into a duct: 1 + 2/√3.
 pub const CLOSEST: f64 = 2.154_700_538_379_251_5;
 /// D/d between which one of three cables may wedge itself between the others as they are pulled in (the same calculations' jam ratio).
 pub const JAMMING: std::ops::RangeInclusive<f64> = 2.8..=3.2;

@@ -49,10 +49,10 @@ pub const HISTOGRAM: Form = Either(&Text(NAME_OR_TABLE), Histogram::KEYS);
 const NAME_OR_TABLE: &str = "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, or { file = \
                              \"axles.csv\", decimal = \"comma\" }";
 
-/// Most classes of axles.
+/// Maximum number of classes of axles.
 const MAX_CLASSES: usize = 1000;
 const COUNT: Kind = Kind("count counts number axles anzahl nombre numero número 台数");
-/// If nobody counted.
+/// In place of a count.
 const SHARE: Kind =
     Kind("share percent percentage frequency anteil häufigkeit fréquence frequenza frecuencia");
 const LOAD: Kind = Kind("load achslast last charge carico carga 軸重");

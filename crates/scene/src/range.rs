@@ -9,7 +9,7 @@ use crate::units::Dimension;
 pub struct Quantity {
     /// Its dimension; `None` for a plain number.
     pub dimension: Option<Dimension>,
-    /// Least and largest value in SI.
+    /// Minimum and maximum value in SI.
     pub least: f64,
     /// See `least`.
     pub most: f64,

@@ -13,7 +13,7 @@ pub fn is_no_value(text: &str) -> bool {
 }
 
 /// The number at the beginning of `text`, where this sign stands before the decimals: its digits as
-/// a program writes them, and what follows, a unit or nothing. `None` if none is there or finite.
+/// a program writes them, and what follows, a unit or nothing. `None` if there is none, or it is not finite.
 pub fn number(text: &str, decimal: char) -> Option<(String, &str)> {
     let text = text.trim_start_matches('\'');
     let part = |c: char| c.is_ascii_digit() || "+-−.,'’eE".contains(c) || c.is_whitespace();

@@ -34,7 +34,7 @@ pub struct ExplicitOptions {
     /// Whether a pass whose energy does not balance is an error; for tests. Without either check the scheme may return any number.
     #[doc(hidden)]
     pub check_energy: bool,
-    /// Most node updates (steps × nodes) that one pass may take.
+    /// Maximum number of node updates (steps × nodes) that one pass may take.
     pub max_node_updates: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::{CableError, DuctedCable, Mesh};
 
 /// Longest step of the lattice \[m\].
 const LATTICE_STEP: f64 = 0.02;
-/// Most lattice points: 4e7 take 320 MB.
+/// Maximum number of lattice points: 4e7 take 320 MB.
 const MAX_POINTS: f64 = 4e7;
 
 /// A duct whose displacement travels along it with a vehicle, tabulated for one mesh.

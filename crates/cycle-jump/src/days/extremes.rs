@@ -13,15 +13,15 @@ const NONE: Range = [f64::INFINITY, f64::NEG_INFINITY];
 /// Extremes of the cable at rest over a day: after every pass and every change of temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Extremes {
-    /// Least and largest force on the upstream and the downstream end \[N\].
+    /// Minimum and maximum force on the upstream and the downstream end \[N\].
     pub force: [Range; 2],
-    /// Least and largest displacement of the upstream and the downstream end \[m\].
+    /// Minimum and maximum displacement of the upstream and the downstream end \[m\].
     pub displacement: [Range; 2],
     /// Largest compression along the cable \[N\].
     pub compression: f64,
     /// Largest tension along the cable \[N\].
     pub tension: f64,
-    /// Least and largest force on each clamp \[N\].
+    /// Minimum and maximum force on each clamp \[N\].
     pub restraints: Vec<Range>,
 }
 

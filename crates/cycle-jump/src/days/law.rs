@@ -4,7 +4,7 @@
 /// Slope of the law beyond its table, as a share of q over the table's width: it keeps a cable that
 /// slides everywhere in place.
 const RESIDUAL: f64 = 1e-4;
-/// Least difference of advances \[m\]: the law falls strictly.
+/// Minimum difference of advances \[m\]: the law falls strictly.
 const MIN_DIFFERENCE: f64 = 1e-10;
 /// Advances below this count as zero \[m\]: ten million of them are a tenth of a millimetre.
 const STILL: f64 = 1e-11;

@@ -31,7 +31,7 @@ const ENDS: [(CableEnd, Kind); 2] = [
     (CableEnd::Downstream, Kind("downstream down end")),
 ];
 
-/// Most vehicles of a pass or a count.
+/// Maximum number of vehicles of a pass or a count.
 const MAX_COUNT: f64 = 1e15;
 
 /// A table of readings.

@@ -6,7 +6,7 @@ use super::columns::{Columns, Values};
 use super::kinds::{DEFLECTION, FORCE, LAYOUT, measured};
 use super::{DataError, Place, Reading, Readings, runs};
 
-/// Most lines that a note names.
+/// Maximum number of lines that a note names.
 const MAX_LINES: usize = 8;
 
 /// The column, if the row has anything there.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Reading, Readings, RunStart};
 
-/// Fewest passes of a run that is recognised by them alone: rows in any order are no runs.
+/// Minimum number of passes of a run that is recognised by them alone: rows in any order are no runs.
 const SHORTEST: usize = 3;
 
 /// Splits readings whose passes rise and begin anew, and says so.

@@ -3,7 +3,7 @@
 use super::DataError;
 use super::columns::Columns;
 
-/// Fewest rows of vehicles that only grow for a running total: by chance one file in 120.
+/// Minimum number of rows of vehicles that only grow for a running total: by chance one file in 120.
 const TOTAL: usize = 5;
 
 impl Columns<'_> {

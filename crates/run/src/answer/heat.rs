@@ -16,11 +16,11 @@ pub struct DayExtremes {
     pub day: u64,
     /// Largest force on the downstream end \[N\].
     pub downstream_max_n: f64,
-    /// Least force on the downstream end \[N\]: the largest tension where it is negative.
+    /// Minimum force on the downstream end \[N\]: the largest tension where it is negative.
     pub downstream_min_n: f64,
     /// Largest force on the upstream end \[N\].
     pub upstream_max_n: f64,
-    /// Least force on the upstream end \[N\].
+    /// Minimum force on the upstream end \[N\].
     pub upstream_min_n: f64,
     /// Largest compression along the cable \[N\].
     pub max_compression_n: f64,

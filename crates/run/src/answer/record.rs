@@ -138,9 +138,9 @@ pub struct PassRecord {
     pub downstream_displacement_m: f64,
     /// Work that slip between cable and duct has turned into heat in this pass \[J\].
     pub dissipated_energy_j: Option<f64>,
-    /// Least force on the downstream end during the pass: the largest tension where it is negative.
+    /// Minimum force on the downstream end during the pass: the largest tension where it is negative.
     pub downstream_least_n: f64,
-    /// Least force on the upstream end during the pass.
+    /// Minimum force on the upstream end during the pass.
     pub upstream_least_n: f64,
     /// Whether the pass was not simulated but lies within a jump between simulated ones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -202,11 +202,11 @@ pub struct Saturation {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[allow(clippy::struct_field_names, reason = "units stand in the names")]
 pub struct ForceRange {
-    /// Least force on the downstream end \[N\].
+    /// Minimum force on the downstream end \[N\].
     pub downstream_min_n: f64,
     /// Largest force on the downstream end \[N\].
     pub downstream_max_n: f64,
-    /// Least force on the upstream end \[N\].
+    /// Minimum force on the upstream end \[N\].
     pub upstream_min_n: f64,
     /// Largest force on the upstream end \[N\].
     pub upstream_max_n: f64,

@@ -17,7 +17,7 @@ use crate::tuning::saturation::{LARGEST_RATIO, LARGEST_REMAINDER, TELLS};
 use creepage_plan::Period;
 use creepage_scene::{CableEnd, End, Scene};
 
-/// Fewest passes from which anything can be said.
+/// Minimum number of passes from which anything can be said.
 const MIN_PASSES: usize = 12;
 /// One in so many of the passes, the last of them, shows the largest force now, and what
 /// vehicles in random order do.
@@ -31,7 +31,7 @@ const NOTHING: f64 = 1e-3;
 /// Share of the saturated force whose pass is stated.
 pub const LEVEL: f64 = 0.95;
 
-/// Least and largest value of a force over a period \[N\].
+/// Minimum and maximum value of a force over a period \[N\].
 type Range = (f64, f64);
 
 /// Where the forces of a run lead: over `records`, all passes or listed ones, and `beyond` them;

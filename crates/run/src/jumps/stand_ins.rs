@@ -1,5 +1,5 @@
 //! What periods leave wrong that stand in for the traffic: a mix with nearly its shares, or an even
-//! order in the place of a random one.
+//! order in place of a random one.
 //!
 //! Each is compared with others that stand in for it as well, by jumps as good as its own.
 

@@ -131,9 +131,9 @@ fn nearest(points: &[TradeOff], excess: impl Fn(&TradeOff) -> f64) -> usize {
     (0..points.len()).min_by(by_excess).unwrap_or_default()
 }
 
-/// Stiffnesses that a curve of rough runs leaves open: those near a limit, those whose neighbour is on the
-/// other side of one, the best and its neighbours, and both ends of the curve; the best one alone where a limit is
-/// out of reach.
+/// Stiffnesses that a curve of rough runs leaves open: those near a limit, those whose neighbour is
+/// on the other side of one, the best and its neighbours, and both ends of the curve; the best one
+/// alone if a limit is out of reach.
 fn decisive(curve: &[TradeOff], limits: &Limits) -> Vec<f64> {
     let best = nearest(curve, |point| point.excess(limits));
     let is_hopeless = !out_of_reach(curve, limits).is_empty();

@@ -5,7 +5,7 @@ use super::error::SweepError;
 use super::numbers::{number, numbers, unit};
 use creepage_scene::Unit;
 
-/// Most values of a range.
+/// Maximum number of values of a range.
 const MAX_VALUES: f64 = 1e6;
 /// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
 const DIGITS: usize = 12;

@@ -12,7 +12,7 @@ pub const TEXTS: [&str; 3] = ["title", "name", ID];
 /// A distribution of a key's value, whole or between two bounds.
 pub struct Distribution {
     law: Box<dyn ContinuousCDF<f64, f64>>,
-    /// Least and largest value that is drawn, in the unit.
+    /// Minimum and maximum value that is drawn, in the unit.
     bounds: [f64; 2],
     /// Unit behind every drawn number; may be empty.
     unit: String,

@@ -12,7 +12,7 @@ use super::samples::Samples;
 use creepage_plan::{hash::fnv1a, shown::words_if};
 use creepage_scene::{Scene, SceneError, SceneFile, Wrong, did_you_mean, key_meanings, nearest_key};
 
-/// Most points of a sweep.
+/// Maximum number of points of a sweep.
 const MAX_POINTS: usize = 100_000_000;
 
 /// Tolerance of samples, whose scatter is far larger.

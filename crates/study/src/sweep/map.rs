@@ -8,7 +8,7 @@ use super::numbers::si;
 use creepage_scene::{si_unit, words};
 use plain_figure::{Axis as Scale, Chart};
 
-/// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
+/// Maximum number of columns and rows of a map: beyond that a cell is smaller than a pixel.
 const MAX_CELLS: usize = 500;
 
 /// The quantity shown by a map's colour, after the last pass: force \[N\] or movement \[mm\].

@@ -16,7 +16,7 @@ const XLSX: &str = "xlsx";
 /// What is allowed as the name of a table.
 const ALLOWED: &str = "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of \
                        creepage.sweep";
-/// Most rows of a workbook's table: a sheet has two more, for the names and the units of its columns.
+/// Maximum number of rows of a workbook's table: a sheet has two more, for the names and the units of its columns.
 const MAX_ROWS: usize = 1_048_574;
 
 /// What the name of a `table` ends in, which is its format.
