@@ -9,6 +9,15 @@ use crate::{DuctedCable, Mesh, Restraint};
 /// A clamp nearer to a node than this share of the spacing is on it alone.
 const ON_NODE: f64 = 1e-9;
 
+/// A node's share of a clamp.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClampState {
+    /// How far it has slipped \[m\].
+    pub slip: f64,
+    /// Force of the cable on it \[N\], positive toward growing x.
+    pub force: f64,
+}
+
 /// The clamps of a chain, each with the place among the cable's restraints of that whose share it is, and its side: 0 before it, 1 after
 /// it; 2 for both where it is on its node.
 #[derive(Debug, Clone)]
@@ -53,15 +62,15 @@ impl ClampShares {
         });
     }
 
-    /// Changes those of the `slips` for which there is a `new` one, from the restraint, the clamp and what it was.
+    /// Changes those of the `slips` for which there is a `new` one, from the place of the clamp among all, the clamp and what it was.
     pub fn update(
         &self,
         clamps: &[Clamp],
         slips: &mut Vec<[f64; 2]>,
         new: impl Fn(usize, &Clamp, f64) -> Option<f64>,
     ) {
-        for (&(restraint, side, _), clamp) in self.0.iter().zip(clamps) {
-            if let Some(slip) = new(restraint, clamp, slip(slips, restraint, side)) {
+        for (place, (&(restraint, side, _), clamp)) in self.0.iter().zip(clamps).enumerate() {
+            if let Some(slip) = new(place, clamp, slip(slips, restraint, side)) {
                 slips.resize(slips.len().max(restraint + 1), [0.0; 2]);
                 match side {
                     2 => slips[restraint] = [slip; 2],

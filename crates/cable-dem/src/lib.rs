@@ -27,6 +27,7 @@ mod tuning;
 pub use approach::approach;
 pub use cable::{DuctedCable, End, Restraint};
 pub use carried::carried;
+pub use clamps::ClampState;
 pub use ends::EndForces;
 pub use error::CableError;
 pub use explicit::{

@@ -4,7 +4,7 @@ use friction_chain::tridiagonal::Row;
 use friction_chain::{Chain, ChainError, Clamp, ImplicitStep, Load};
 
 use crate::chain::{Bends, MAX_ROUNDS, PRESSED, chain};
-use crate::clamps::ClampShares;
+use crate::clamps::{ClampShares, ClampState};
 use crate::error::checked;
 use crate::fixed_end_friction::FixedEndFriction;
 use crate::{CableError, CableState, DuctedCable, Mesh};
@@ -125,14 +125,26 @@ impl RestingCable {
         Ok(moved)
     }
 
-    /// Lets the clamps of `state` that slide ([`RestingCable::release`]) slip until they bear these `forces` \[N\], in the order of
-    /// [`DuctedCable::restraints`].
-    pub fn bear(&self, state: &mut CableState, forces: &[f64]) {
-        let (clamps, restraints) = (self.step.chain.clamps(), self.cable.restraints());
+    /// The cable's clamps in `state`, of which one between two nodes has a share on either of them.
+    pub fn clamps(&self, state: &CableState) -> Vec<ClampState> {
+        let of_share = |clamp: Clamp| ClampState {
+            slip: clamp.slip,
+            force: clamp.force(state.displacement[clamp.node]),
+        };
+        let clamps = self.clamps.stuck(&state.clamp_slips);
+        clamps.into_iter().map(of_share).collect()
+    }
+
+    /// Lets the clamps of `state` slip as between two other states, of which the later has this `share`: those that have slipped from the one
+    /// to the other bear a force between theirs.
+    pub fn clamp_between(&self, state: &mut CableState, [before, after]: [&[ClampState]; 2], share: f64) {
         self.clamps
-            .update(clamps, &mut state.clamp_slips, |restraint, clamp, _| {
-                let strain = forces[restraint] / restraints[restraint].stiffness;
-                (!clamp.is_stuck()).then_some(state.displacement[clamp.node] - strain)
+            .update(self.step.chain.clamps(), &mut state.clamp_slips, |k, clamp, _| {
+                let force = (1.0 - share) * before[k].force + share * after[k].force;
+                let slid = state.displacement[clamp.node] - force / clamp.stiffness;
+                let is_stuck = before[k].slip == after[k].slip;
+                let slip = if is_stuck { after[k].slip } else { slid };
+                clamp.holds.is_finite().then_some(slip)
             });
     }
 

@@ -1,6 +1,6 @@
 //! One simulated period of the traffic: how far it moved the cable, and what each pass did.
 
-use cable_dem::{CableState, PassOutcome, RestingCable};
+use cable_dem::{CableState, ClampState, PassOutcome, RestingCable};
 
 /// A simulated period, which moved the cable from u_a to u_b.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +26,8 @@ pub struct Phase {
     moved: Vec<f64>,
     /// Friction after it on both end nodes \[N/m\]: at a fixed end it does not follow from u.
     pub friction: [f64; 2],
+    /// Its clamps then.
+    pub clamps: Vec<ClampState>,
     /// Θ then \[N\].
     pub thermal_force: f64,
     /// What it did.
@@ -46,13 +48,14 @@ impl Period {
         }
     }
 
-    /// Adds a simulated pass that left the cable in `state`.
-    pub fn push(&mut self, state: &CableState, outcome: PassOutcome) {
+    /// Adds a simulated pass that left the `cable` in `state`.
+    pub fn push(&mut self, cable: &RestingCable, state: &CableState, outcome: PassOutcome) {
         let friction = state.friction();
         self.places.push((self.phases.len(), 0.0));
         self.phases.push(Phase {
             moved: difference(state.displacement(), &self.start),
             friction: [friction[0], friction[friction.len() - 1]],
+            clamps: cable.clamps(state),
             thermal_force: state.thermal_force(),
             outcome,
         });

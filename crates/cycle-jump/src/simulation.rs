@@ -157,7 +157,7 @@ where
                 let phase = period.len();
                 let number = after.map(|after| after + 1 + phase as u64);
                 let outcome = self.simulate(phase, number)?;
-                period.push(&self.state, outcome);
+                period.push(&self.cable, &self.state, outcome);
             }
             left -= 1;
             let mut change = difference(self.state.displacement(), &before);

@@ -52,9 +52,7 @@ impl JumpInterval<'_> {
         // Everywhere else friction follows from the displacements.
         let ends = [0, 1].map(|end| between(before.friction[end], after.friction[end]));
         let mut moved = cable.moved(self.from.0, displacement)?.with_end_friction(ends);
-        let clamps = before.outcome.restraints.iter().zip(&after.outcome.restraints);
-        let forces: Vec<f64> = clamps.map(|(before, after)| between(*before, *after)).collect();
-        cable.bear(&mut moved, &forces);
+        cable.clamp_between(&mut moved, [&before.clamps, &after.clamps], share);
         let mut state = moved.with_thermal_force(before.thermal_force)?;
         cable.settle(&mut state)?;
         Ok((state, whole))

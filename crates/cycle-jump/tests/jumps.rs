@@ -226,7 +226,8 @@ fn traffic(
     Ok((found, every))
 }
 
-/// A slope, a bend and a rougher part with a clamp that sticks, slips for a while, or slips in every pass.
+/// A slope, a bend and a rougher part with a clamp that sticks, slips for a while, or slips in every pass; a stiff one between two nodes
+/// may slip on one of them alone.
 #[test]
 fn routes_with_clamps_that_slip_agree_with_every_pass() -> Outcome {
     let sections = [
@@ -234,15 +235,17 @@ fn routes_with_clamps_that_slip_agree_with_every_pass() -> Outcome {
         Section::new(9.0, LIMIT).with_bend(0.25 / 4.0),
         Section::new(12.0, 1.3 * LIMIT),
     ];
-    for (holds, directions) in [
-        (5e3, &ONE_WAY[..]),
-        (300.0, &ONE_WAY),
-        (100.0, &ONE_WAY),
-        (100.0, &TWO_WAY),
+    for (stiffness, holds, directions) in [
+        (5e6, 5e3, &ONE_WAY[..]),
+        (5e6, 300.0, &ONE_WAY),
+        (5e6, 100.0, &ONE_WAY),
+        (5e6, 100.0, &TWO_WAY),
+        (5e11, 450.0, &ONE_WAY),
+        (5e11, 150.0, &TWO_WAY),
     ] {
         let clamp = Restraint {
             holds: Some(holds),
-            ..Restraint::new(14.93, 5e6)
+            ..Restraint::new(14.93, stiffness)
         };
         let (cable, mesh) = cable(End::Free, End::Fixed, LIMIT)?;
         let cable = cable.with_sections(&sections)?.with_restraints(vec![clamp])?;

@@ -122,33 +122,46 @@ impl Search<'_> {
         simulator.simulate(plan.scene, level, None, self.progress.next(0.5), answer)
     }
 
-    /// How far passes by jumps of this `size`, whose first one came after so many more periods than
-    /// at the start, and those that begin with twice as many periods lie apart.
+    /// The passes by jumps of this `size` that begin with twice as many periods as came before the
+    /// `place` of the first jump; and that size.
     fn begun_later(
         &mut self,
         level: usize,
         size: JumpSize,
-        passes: &Passes,
         place: usize,
-    ) -> Result<Shares, Error> {
+    ) -> Result<(JumpSize, Passes), Error> {
         let first_periods = 2 * (size.first_periods + place as u64);
         let later = JumpSize {
             first_periods,
             ..size
         };
-        let later = self.simulate(level, later, &self.simulator.plan.period)?;
-        Ok(self.simulator.difference(passes, &later))
+        let passes = self.simulate(level, later, &self.simulator.plan.period)?;
+        Ok((later, passes))
     }
 
-    /// The passes by jumps of this `size`, and how far they and those by larger ones lie apart.
-    fn compared(&mut self, level: usize, size: JumpSize, larger: &Passes) -> Result<(Passes, Shares), Error> {
+    /// Jumps with less error than `larger` ones of this `size`, their passes, and how far they lie
+    /// apart.
+    fn finer(
+        &mut self,
+        level: usize,
+        size: JumpSize,
+        larger: &Passes,
+    ) -> Result<(JumpSize, Passes, Shares), Error> {
+        let size = size.finer();
         let passes = self.simulate(level, size, &self.simulator.plan.period)?;
-        let mut off = self.simulator.difference(&passes, larger);
-        if let Some((place, _)) = first_jump(&passes).filter(|jump| Some(*jump) == first_jump(larger)) {
-            // There both err alike.
-            off = off.max(self.begun_later(level, size, &passes, place)?);
-        }
-        Ok((passes, off))
+        let off = self.simulator.difference(&passes, larger);
+        let same = first_jump(&passes).filter(|jump| Some(*jump) == first_jump(larger));
+        let Some((place, _)) = same else {
+            return Ok((size, passes, off));
+        };
+        // There both err alike, and finer ones would too.
+        let (later, of_later) = self.begun_later(level, size, place)?;
+        let off = off.max(self.simulator.difference(&passes, &of_later));
+        Ok(if off.is_within(self.allowed) {
+            (size, passes, off)
+        } else {
+            (later, of_later, off)
+        })
     }
 
     /// The largest jumps whose error is allowed.
@@ -171,7 +184,8 @@ impl Search<'_> {
             error = Some(if off < STEADY {
                 Shares::both(off)
             } else {
-                self.begun_later(level, size, &passes, place)?
+                let (_, later) = self.begun_later(level, size, place)?;
+                self.simulator.difference(&passes, &later)
             });
         }
         let cost = 2 * REFINEMENT_COST.pow((levels.first - level) as u32);
@@ -180,11 +194,11 @@ impl Search<'_> {
             if error.is_some_and(|off: Shares| off.is_within(allowed) || is_costly(&passes)) {
                 break;
             }
-            let (finer, off) = match self.compared(level, size.finer(), &passes) {
+            let (finer, of_finer, off) = match self.finer(level, size, &passes) {
                 Err(Error::Jumps(_)) if error.is_some() => break,
-                compared => compared?,
+                finer => finer?,
             };
-            (size, passes, error) = (size.finer(), finer, Some(off));
+            (size, passes, error) = (finer, of_finer, Some(off));
         }
         let mut error = error.unwrap_or_default();
         // Both are of the same displacements, and movements are fewer: they may agree by chance.
@@ -292,18 +306,35 @@ passes = 40
 tolerance = 0.0998
 ";
 
+    /// Simulates every pass of a plan.
+    fn simulator<'a>(plan: &'a Plan<'_>, work: &'a Work) -> PassSimulator<'a> {
+        PassSimulator {
+            scale: Scale::new(plan.scene, &plan.ground.motions),
+            plan,
+            stages: &[],
+            jumping: None,
+            found: None,
+            work,
+        }
+    }
+
+    #[test]
+    fn jumps_that_begin_alike_are_made_finer_by_a_later_beginning() {
+        let tolerance = 1e-5;
+        let exact = ROUGH.replace("passes = 40", "passes = 4000");
+        let exact = exact.replace("0.0998", &format!("{tolerance}\nnode_spacing = 0.4"));
+        let scene = Scene::from_toml("scene", &exact).unwrap();
+        let (plan, work) = (plan(&scene).unwrap(), Work::default());
+        let found = find(simulator(&plan, &work), Progress::default()).unwrap();
+        assert!(found.jumps.is_within(Shares::both(SHARE * tolerance)));
+        assert!(found.size.first_periods > JumpSize::largest(&plan).first_periods);
+    }
+
     #[test]
     fn what_jumps_miss_on_a_finer_mesh_is_stated() {
         let scene = Scene::from_toml("scene", ROUGH).unwrap();
         let (plan, work) = (plan(&scene).unwrap(), Work::default());
-        let every = PassSimulator {
-            scale: Scale::new(&scene, &plan.ground.motions),
-            plan: &plan,
-            stages: &[],
-            jumping: None,
-            found: None,
-            work: &work,
-        };
+        let every = simulator(&plan, &work);
         let found = find(every, Progress::default()).unwrap();
         let mut jumping = Jumping::new(&plan.period, found.size);
         jumping.guide = Guide::Follow(&found.passes.schedule);

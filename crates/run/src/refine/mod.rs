@@ -27,6 +27,9 @@ const VERIFIED: f64 = 4.0 / 3.0;
 /// Below this tolerance a finer mesh may cost three times as much.
 const USUAL: f64 = 0.01;
 
+/// And so many times as much as then, before a run is refused.
+const BEFORE_REFUSAL: usize = 2;
+
 /// What is simulated on one mesh after the other: every pass, passes with jumps, or days.
 pub trait OnMeshes {
     /// Simulates the passes of `scene`, which is that of the plan or one like it, on `level`; the
@@ -194,9 +197,11 @@ impl<S: OnMeshes> MeshLoop<'_, S> {
         let Some(last) = meshes.last() else {
             return false;
         };
-        // Spend more before a run is refused.
-        let is_hard = self.plan.scene.solver.tolerance < USUAL || is_refused(error, self.plan, last);
-        let most = MAX_NODE_UPDATES / if is_hard { 1 } else { 3 };
+        let most = match () {
+            () if is_refused(error, self.plan, last) => BEFORE_REFUSAL * MAX_NODE_UPDATES,
+            () if self.plan.scene.solver.tolerance < USUAL => MAX_NODE_UPDATES,
+            () => MAX_NODE_UPDATES / 3,
+        };
         self.known_error.is_none()
             && REFINEMENT_COST.saturating_mul(last.statistics.work()) <= most
             && level < self.plan.levels.finest
