@@ -30,7 +30,8 @@ pub mod meshes {
     /// Length of cable solved per vehicle step, averaged over repeated solves \[length scales\];
     /// right within a factor of three.
     pub const MOVED: f64 = 8.0;
-    /// Maximum work of all passes on one mesh, in updates of a node: about twenty seconds.
+    /// Maximum work of all passes on one mesh, in updates of a node: about twenty seconds. Before a
+    /// run is refused it may be more.
     pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 }
 
